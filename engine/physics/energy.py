@@ -22,10 +22,11 @@ import math
 
 import numpy as np
 
-from ..compiled import by_kind, kernel
+from ..compiled import kernel
 from ..dimensions import shear_force
 from ..planar import columns as planar
 from ..spatial import columns as spatial
+from .damping import damping_of
 from .shocks import shock_tension
 from .tension.kernels import stored, tension
 
@@ -54,19 +55,6 @@ def energies_of(p, tables, C, row):
             z += rise
         below = here
     row[KINETIC], row[STRAIN], row[GRAVITY] = kinetic, strain, gravity
-
-
-@kernel
-def _undamped(p):
-    return 0.0
-
-
-@kernel
-def _damped(p):
-    return p.damping
-
-
-damping_of = by_kind(_undamped, _undamped, extra=_damped)
 
 
 @kernel

@@ -19,6 +19,7 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
+from ..physics.tension.kernels import tension
 from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
 from ..time import steps
@@ -161,7 +162,9 @@ def end_steps(records, tables, states, numbers, Y, one):
         p, state = records[b], states[b]
         if state.small == 0:
             jumps = numbers[STRAIN_JUMP, b], numbers[SPEED_JUMP, b]
-            watch_ringing(p, tables[b], state, numbers[TOP, b], numbers[TOP_LOW, b], numbers[TOP_HIGH, b], jumps)
+            low = tension(numbers[TOP_LOW, b], p, tables[b])[0]
+            high = tension(numbers[TOP_HIGH, b], p, tables[b])[0]
+            watch_ringing(p, tables[b], state, numbers[TOP, b], low, high, jumps)
         step_done(p, state)
         state.min_strain = min(state.min_strain, numbers[LEAST, b])
         state.max_turn = max(state.max_turn, numbers[TURN, b])

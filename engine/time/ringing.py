@@ -9,8 +9,8 @@ import math
 
 from ..compiled import kernel
 from ..dimensions import size_of
+from ..physics.damping import left_after
 from ..physics.tension.kernels import tension
-from ..planar.columns import EPS  # in space the same column
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 LEFT_BEHIND = 0.1  # phase (rad) in one passage along the line beyond which a wave is the grid's: it may be damped
@@ -112,26 +112,18 @@ def rates_along(p, state, k):
 
 
 @kernel
-def stage_strains(Ys):
-    """Least and greatest strain of the upper end at the stages of a step."""
-    low = high = Ys[1, Ys.shape[1] - 1, EPS]
-    for i in range(2, Ys.shape[0]):
-        top = Ys[i, Ys.shape[1] - 1, EPS]
-        low, high = min(low, top), max(high, top)
-    return low, high
-
-
-@kernel
 def watch_ringing(p, tables, state, top, low, high, jumps):
     """Of an accepted step: the ringing that it was too long for, or else the extremes of the tension at its stages.
 
-    Strains of the upper end: top after the step, low and high the extremes over its stages; jumps: `jumps_of_rates`.
+    Of the upper end: top, its strain after the step; low and high, the extremes of its tension over the stages; jumps:
+    `jumps_of_rates`. A ringing that the damping of the material takes away within the step is no loss.
     """
     z, a, share = ringing(p, tables, state.trial_dt, top, jumps)
     damped = z > p.phase_per_step or (not p.all_waves and z > SMOOTH and too_short(p, z, state.trial_dt))
     lost = 1.0 if damped else dispersed(p, z / state.trial_dt) if p.all_waves else 0.0
+    lost *= left_after(p, tables, top, z, state.trial_dt)
     if share * lost > HEARD:
         state.ringing = max(state.ringing, lost * a * tension(1.0 / p.per_strain, p, tables)[0])
     if z > SMOOTH and not damped:
-        state.low = min(state.low, tension(low, p, tables)[0])
-        state.high = max(state.high, tension(high, p, tables)[0])
+        state.low = min(state.low, low)
+        state.high = max(state.high, high)

@@ -24,15 +24,15 @@ import numpy as np
 from .. import record as col
 from ..arrays import Step, Trial
 from ..compiled import kernel
-from ..dimensions import configuration, conserved, largest_turn, last_strain, release_loop, size_of, work_arrays
+from ..dimensions import configuration, conserved, largest_turn, release_loop, size_of, work_arrays
+from ..physics.damping import add_damping, stage_tensions, top_tension
 from ..physics.ends import corner_after
 from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
-from ..physics.tension.kernels import tension
 from ..planar.columns import EPS, TURN  # EPS: in space the same column
 from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
-from .ringing import jumps_of_rates, stage_strains, watch_ringing
+from .ringing import jumps_of_rates, watch_ringing
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step, trial_error
 
@@ -174,11 +174,13 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
     row = np.empty((n, col.PROFILE_WIDTH))
     while state.samples < samples.shape[0] and (state.first + state.samples) * p.output_step <= until:
         t = (state.first + state.samples) * p.output_step
-        weights = weights_within(hermite, (t - state.t) / dt, dt)
+        theta = (t - state.t) / dt
+        weights, share = weights_within(hermite, theta, dt), theta if hermite else 0.5
         out = samples[state.samples]
         out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = configuration(
             p, tables, weights, C0, K0, C1, K1, row
         )
+        add_damping(p, weights, share, begin, end, row)
         least = row[0, col.TENSION]
         for k in range(1, n):
             least = min(least, row[k, col.TENSION])
@@ -192,10 +194,12 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         state.samples += 1
     while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:
         t = (state.first_profile + state.profiles) * p.profile_step
-        weights = weights_within(hermite, (t - state.t) / dt, dt)
+        theta = (t - state.t) / dt
+        weights, share = weights_within(hermite, theta, dt), theta if hermite else 0.5
         configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
+        add_damping(p, weights, share, begin, end, profiles[state.profiles])
         state.profiles += 1
-    top = tension(last_strain(p, C1), p, tables)[0]
+    top = top_tension(p, tables, 1.0 if hermite else 0.5, C1, K0, K1)
     state.low, state.high = min(state.low, top), max(state.high, top)
 
 
@@ -254,7 +258,10 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
         hermite = stiff and not small
         sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
         if not small and state.ringing >= 0.0:
-            low, high = stage_strains(trial.Y) if stiff else (top, top)
+            if stiff:
+                low, high = stage_tensions(p, tables, trial.Y, trial.K)
+            else:
+                low = high = top_tension(p, tables, 0.5, trial.C, K, K_new)
             watch_ringing(p, tables, state, top, low, high, jumps)
         if budget is not None:
             energies, sums = budget

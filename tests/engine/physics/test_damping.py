@@ -65,6 +65,20 @@ def test_the_budget_has_what_the_damping_takes(space):
     assert budgets[0].viscous_J[-1] == pytest.approx(budgets[1].viscous_J[-1], rel=1e-3)
 
 
+@pytest.mark.parametrize("integrator", ["esdirk43", "midpoint"])
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_what_is_told_as_tension_has_the_damping(dimensions, integrator):
+    more = {"motion.dimensions": dimensions, "solver.integrator": integrator, "solver.step_s": 0.005}
+    more |= {"start.buoy_velocity_mps": [0.0, 0.0, 0.3], "output.profiles": True}
+    run = simulate(line(RINGING, more, {"tether.damping_Ns": 5 * C}, nodes=9), duration_s=2.0)
+    strain, told = run.profiles.strain[:, -1], run.columns["tension_top_N"]
+    viscous = 5 * C * np.gradient(strain, 0.05, edge_order=2)
+    assert np.abs(viscous[1:-1]).max() > 290.0
+    assert np.abs(told - EA * strain - viscous)[1:-1].max() < 1.0
+    np.testing.assert_array_equal(run.profiles.tension_N[:, -1], told)
+    assert np.all(run.columns["tension_top_high_N"] >= told)
+
+
 def test_a_share_of_critical_is_that_of_an_element():
     """c = zeta l sqrt(EA m), MoorDyn's -BA: an element of mass m l rings at 2 sqrt(EA/m)/l at most."""
     damped = parameters_of(line({"tether.damping_critical": 0.4}, nodes=41))[0]["damping"]
