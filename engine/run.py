@@ -14,7 +14,7 @@ from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
-from .scales import TRANSIT_STEPS, begins_with_a_blow, ringing_period, tension_at, wave_beyond
+from .scales import TRANSIT_STEPS, begins_with_a_blow, height_at_rest, ringing_period, tension_at, wave_beyond
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
@@ -22,7 +22,7 @@ from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
+from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
@@ -184,7 +184,7 @@ class Run:
                 key = "solver.shortest_period_s or solver.max_step_s"
             message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
         elif status == OK:
-            message = self._waves_on_element()
+            message = self._waves_on_element() or self._out_at_rest()
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
@@ -199,10 +199,19 @@ class Run:
         """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
         record = self.record
         length, top_m = float(col.lengths_of(record, self.tables)[-1]), self.output.samples[:1, col.AT_Z].sum()
+        top_m += self.scene.anchor.position_m[2]
         force_N = wave_beyond(record, length, float(top_m))
         if force_N <= HEARD * tension_at(1.0 / record["per_strain"], self.scene.tether.tension):
             return ""
         return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
+
+    def _out_at_rest(self) -> str:
+        """Says that a buoy without a cap stands more than half out of still water, or nothing."""
+        record, scene = self.record, self.scene
+        if scene.buoy is None or not record["wet"] or record["spherical_cap"] or scene.current is not None:
+            return ""
+        height_m = height_at_rest(record, scene) - scene.water.depth_m
+        return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
     def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:

@@ -119,7 +119,7 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     if len(columns["time_s"]) and scene.water is not None:
-        top_m = float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
+        top_m = scene.anchor.position_m[2] + float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
         row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     periods = (len(columns["time_s"]) - 1) * step_s / period_s

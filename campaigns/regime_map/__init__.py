@@ -76,6 +76,7 @@ def read(options, faults: list[str]) -> None:
 def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
     from campaigns.regime_map.maps import job_at
+    from engine.massless import why_not_covered
 
     grid = order.own.grid
     order.periods, order.looks, order.transient = SWEEP.lengths.budget, True, None
@@ -94,6 +95,9 @@ def cases(order: Order) -> Iterator[Job]:
         if job is None or len(order.faults) > before:  # hundreds of others may be at fault in the same way
             at = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
             order.tell([f"--vary: that is at {at}, the first cell of the map that cannot be"])
+            return
+        if order.own.screen and (reason := why_not_covered(job.scene)):
+            order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
             return
         yield job
 

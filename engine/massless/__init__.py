@@ -35,7 +35,7 @@ class MasslessRuns:
 
 def massless_covers(scene: Scene) -> bool:
     """Has a scene a massless model: a buoy that floats, regular waves in a plane, no current or a uniform one?"""
-    return _why_not(scene) is None
+    return why_not_covered(scene) is None
 
 
 def massless_runs(
@@ -89,8 +89,8 @@ def massless_rest(scene: Scene) -> tuple[float, float]:
     return r * drag * u / load, r * (up + drag * w) / load
 
 
-def _why_not(scene):
-    """What a scene has that the model does not cover, or None."""
+def why_not_covered(scene: Scene) -> str | None:
+    """What a scene has that the massless model does not cover, in words; None where it covers the scene."""
     current, waves, buoy = scene.current, scene.waves, scene.buoy
     if scene.end.kind != "buoy" or scene.motion.dimensions != 2:
         return "an upper end that is not a buoy, or three dimensions"
@@ -99,7 +99,7 @@ def _why_not(scene):
     if current is not None and (current.law != "uniform" or buoy.submergence != "full"):
         return "a current that is not uniform, or one about a wetted cap"
     if has_extras(scene):
-        return "a line with damping, a surface, a floor or an anchor of its own"
+        return "a line with damping, a surface, a floor, an anchor of its own or the whole push of the water"
     volume = math.pi / 6.0 * buoy.diameter_m**3
     if scene.water.density_kgpm3 * volume <= buoy.mass_kg:
         return "a buoy that sinks"
@@ -108,7 +108,7 @@ def _why_not(scene):
 
 def _parameters(scene):
     """Parameter record and tables; refuses a scene that the model does not cover."""
-    if reason := _why_not(scene):
+    if reason := why_not_covered(scene):
         raise ValueError(f"the massless tether does not cover this scene: {reason}")
     tables = []
     record = record_of(scene, tables)[0]

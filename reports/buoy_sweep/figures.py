@@ -228,7 +228,8 @@ def _snap(trajectory) -> Snap | None:
     x, z = lines.x_m[inside], lines.z_m[inside]
     beyond = max(3.0 * scene.buoy.diameter_m, 0.25 * float(z.max()))  # of the rope, on both sides
     across = np.linspace(x.min() - beyond, x.max() + beyond, 80)
-    surface = scene.water.depth_m + elevation_m(scene, lines.time_s[inside][:, None], across)
+    anchor = scene.anchor.position_m  # places of a run are told from there
+    surface = scene.water.depth_m - anchor[2] + elevation_m(scene, lines.time_s[inside][:, None], anchor[0] + across)
     record = time_s[part] / period_s, top[part]
     times = lines.time_s[inside] / period_s
     return Snap(times, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface), record)

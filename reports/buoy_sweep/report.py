@@ -80,7 +80,8 @@ def warnings(sweep: Sweep) -> Notice:
     ringing = [run for run in runs if run["unresolved_ringing_N"] > 0.0]
     rung_N = max((run["unresolved_ringing_N"] for run in ringing), default=0.0)
     strain = sweep.modes.static_strain if sweep.modes else -1.0
-    dry_m = scene.tether.length_m * (1.0 + strain) + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
+    dry_m = scene.anchor.position_m[2] + scene.tether.length_m * (1.0 + strain)
+    dry_m += 0.5 * scene.buoy.diameter_m - scene.water.depth_m
     failed = [
         (f"{status}; the first after {number(run.periods_done, 3)} periods: {run['message'] or 'no message'}",
          [run for run in runs if run["status"] == status])
