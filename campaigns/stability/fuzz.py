@@ -62,10 +62,11 @@ COLUMNS = (
 
 @cache
 def load_kernels() -> None:
-    """Load all machine code, of a plane and of space, once in a process: a fork of it then has nothing to load."""
+    """Load all machine code once in a process, with laws of few scenes and without: a fork of it has nothing to load."""
     carried = {"output.tangent_vectors": 1, "output.lateral_growth": True, "tether.nodes": 5}
     for changes in ({"motion.dimensions": 3}, carried):
-        engine.simulate(engine.load_scene("tethered_buoy", changes), duration_s=5.05)
+        for law in ({}, {"tether.damping_Ns": 1.0}):
+            engine.simulate(engine.load_scene("tethered_buoy", changes | law), duration_s=5.05)
 
 
 def judged(kind: str, raw: dict) -> dict[str, object]:
