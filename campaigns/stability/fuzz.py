@@ -62,7 +62,7 @@ COLUMNS = (
 
 @cache
 def load_kernels() -> None:
-    """Load all machine code once in a process, with laws of few scenes and without: a fork of it has nothing to load."""
+    """Load all machine code, with laws of few scenes and without, once in a process: a fork has nothing to load."""
     carried = {"output.tangent_vectors": 1, "output.lateral_growth": True, "tether.nodes": 5}
     for changes in ({"motion.dimensions": 3}, carried):
         for law in ({}, {"tether.damping_Ns": 1.0}):
