@@ -9,7 +9,7 @@ import pytest
 
 from engine import SceneError, simulate
 from engine.physics.waves import wave_number
-from tests.engine.lines import held, line
+from tests.engine.lines import STILL, held, line
 from tests.engine.physics.caps import CAP
 
 WAVES = {"waves.steepness": 0.05, "waves.ramp_s": 5.0}
@@ -41,14 +41,26 @@ def test_above_the_bed_it_meets_what_flows_there(dimensions):
     np.testing.assert_allclose(high, low, rtol=1e-6, atol=1e-6)
 
 
-@pytest.mark.parametrize("anchor_m", [0.0, 11.0])
-def test_a_buoy_in_the_air_is_refused(anchor_m):
-    """Upright the linear line holds the sphere's lowest point l0 (1 + (B - W - w0 l0/2)/EA) - D/2 above the anchor."""
+def lowest_point(anchor_m):
+    """Of the sphere at rest, m: the linear line holds it l0 (1 + (B - W - w0 l0/2)/EA) - D/2 above its anchor."""
     lift = (1027.0 * np.pi * 1.5**3 / 6 - 1611.0) * 9.81
     weight = (1140.0 - 1027.0) * 7.85e-5 * 20.0 * 9.81
-    lowest = anchor_m + 20.0 * (1 + (lift - weight / 2) / 5e4) - 0.75
+    return anchor_m + 20.0 * (1 + (lift - weight / 2) / 5e4) - 0.75
+
+
+@pytest.mark.parametrize("anchor_m", [0.0, 11.0])
+def test_a_buoy_in_the_air_is_refused(anchor_m):
+    lowest = lowest_point(anchor_m)
     place = {"anchor.position_m": [0.0, 0.0, anchor_m]}
     assert line(place, {"water.depth_m": lowest + 1e-6}).buoy.submergence == "full"
     with pytest.raises(SceneError, match=r"water\.depth_m.*spherical-cap"):
         line(place, {"water.depth_m": lowest - 1e-6})
     line(place, CAP, {"water.depth_m": lowest - 1e-6})
+
+
+@pytest.mark.parametrize("anchor_m", [0.0, 11.0])
+@pytest.mark.parametrize("cap, depth_m, said", [({}, -1e-3, True), ({}, 1e-3, False), (CAP, -1e-3, False)])
+def test_a_run_says_that_its_buoy_is_more_than_half_out_of_the_water(cap, depth_m, said, anchor_m):
+    place = {"anchor.position_m": [0.0, 0.0, anchor_m], "water.depth_m": lowest_point(anchor_m) + 0.75 + depth_m}
+    run = simulate(line(STILL, place, cap, nodes=5), duration_s=0.1)
+    assert ("spherical-cap" in run.message) == said, run.message
