@@ -115,7 +115,9 @@ def held_under(sound: "Sound") -> Iterator[str]:
     strain = strain_at(lift - weight / 2, law)
     lowest = anchor[2] + length * (1 + strain) - D / 2
     if lowest >= depth and strain < 10:  # beyond, statics says that the law does not carry the load
-        rule = f"above {lowest:.6g}, where the line lets the sphere begin to touch the water; or buoy.submergence = "
+        rule = (
+            f"above {lowest:.6g}, where a line of {length:g} m lets the sphere touch the water; or buoy.submergence = "
+        )
         yield fault("water.depth_m", depth, rule + "'spherical-cap', with which it floats")
 
 

@@ -1,9 +1,8 @@
 """The lane machine: several planar runs, each with a step, a stage and an end of its own, one Newton iteration a tick.
 
 Every lane is always within the Newton solve of some stage. A tick is one iteration in all lanes at once; lanes whose
-solve has ended are then moved on, to their next stage, step or trial, by the functions that move a single run on:
-what is arithmetic on nodes in vectors under a mask, what is a decision one lane after another. Where both forms exist,
-they are the same source (`engine.simd.select`), so a lane is bit for bit the run alone.
+solve has ended are then moved on by the functions that move a single run on: arithmetic on nodes in vectors under a
+mask, decisions one lane after another, from one source (`engine.simd.select`): a lane is bit for bit the run alone.
 
 Rows of `numbers` (ROWS, COUNT) carry what passes between vectors and decisions: time (s), rate (1/s), step (s) of the
 stage; is the last update sound, its size, the least strain; number of the stage; error and largest turn of the step;
@@ -154,8 +153,7 @@ def record_steps(states, numbers, trail_T):
 def end_steps(records, tables, states, numbers, Y, one):
     """Accepted steps: time, what was not resolved, guards, and the length of the next step.
 
-    Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work.
-    """
+    Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work."""
     for b in range(COUNT):
         if numbers[ACCEPTED, b] == 0.0:
             continue
