@@ -4,11 +4,12 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known
+from campaigns.columns import Column
 from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, SHARE, TENSION
 from campaigns.statements import listed
 
 
-def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str]) -> Iterator[str]:
+def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv and table.csv. keys: of the map, that of its pages first."""
     coarse = [one for one in cells if known(one, "level") == 0.0]
     done = [one for one in coarse if one["source"] != SCREENED]
@@ -48,10 +49,11 @@ def _share(count: int, of: Sequence) -> str:
     return f"{100.0 * count / len(of):.3g} %"
 
 
-def _place(one: Row, keys: Sequence[str]) -> tuple:
-    return tuple(one[key] for key in keys)
+def _place(one: Row, keys: Sequence[Column]) -> tuple:
+    return tuple(one[key.name] for key in keys)
 
 
-def _at(one: Row, keys: Sequence[str]) -> str:
-    values = (one[key] if isinstance(one[key], str) else f"{one[key]:.4g}" for key in keys)
-    return " and ".join(f"{key} = {value}" for key, value in zip(keys, values, strict=True))
+def _at(one: Row, keys: Sequence[Column]) -> str:
+    values = (one[key.name] if isinstance(one[key.name], str) else f"{one[key.name]:.4g}" for key in keys)
+    said = (f"{key.symbol} = {value} {key.unit}".rstrip() for key, value in zip(keys, values, strict=True))
+    return " and ".join(said)
