@@ -141,7 +141,19 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     cells: tuple[dict, ...] = ()
     with contextlib.suppress(OSError, ValueError):
         cells = read_rows(order.how.out / "cells" / "table.csv")
-    return [*sentences(cells, rows, order.own.grid.columns)]
+    keys = [one for one in order.own.grid.every if one.key.startswith("buoy.")]
+    known: dict[tuple, object] = {}
+
+    def scene(row: dict) -> object:
+        values = tuple(row[one.key] for one in keys)
+        if values not in known:
+            changes: dict[str, object] = {}
+            for one, value in zip(keys, values, strict=True):
+                order.tell(one.put(value, order.base(), changes))
+            known[values] = order.scene(changes)
+        return known[values]
+
+    return [*sentences(cells, rows, order.own.grid.columns, scene)]
 
 
 STUDY = Study(
