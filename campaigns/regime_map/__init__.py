@@ -28,7 +28,7 @@ from campaigns.sweep import varied
 from engine.views import carries_tangents, in_regular_waves
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
-STARTS, BUDGET, MOST_CELLS = 3, 735, 100_000
+STARTS, MOST_CELLS = 3, 100_000
 
 
 def options(group) -> None:
@@ -40,8 +40,8 @@ def options(group) -> None:
     cli.add(group, "--kick-speed", "MPS", "kicks are up to this along x and z, m/s", speed, motions.SPEED_MPS)
     cli.add(group, "--seed", "N", "of the kicks, points of a scrambled Halton sequence", cli.whole(0, 2**32 - 1), 1)
     cli.add(group, "--refine", "N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
-    periods = cli.whole(1, SWEEP.lengths.budget)
-    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", periods, BUDGET)
+    most = SWEEP.lengths.budget
+    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", cli.whole(1, most), most)
     cli.add(group, "--cut", "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder")
     group.add_argument("--screen", action="store_true", help="a massless tether only")
 
@@ -145,7 +145,19 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     cells: tuple[dict, ...] = ()
     with contextlib.suppress(OSError, ValueError):
         cells = read_rows(order.how.out / "cells" / "table.csv")
-    return [*sentences(cells, rows, [one.key for one in order.own.grid.every])]
+    keys = [one for one in order.own.grid.every if one.key.startswith("buoy.")]
+    known: dict[tuple, object] = {}
+
+    def scene(row: dict) -> object:
+        values = tuple(row[one.key] for one in keys)
+        if values not in known:
+            changes: dict[str, object] = {}
+            for one, value in zip(keys, values, strict=True):
+                order.tell(one.put(value, order.base(), changes))
+            known[values] = order.scene(changes)
+        return known[values]
+
+    return [*sentences(cells, rows, order.own.grid.columns, scene)]
 
 
 STUDY = Study(

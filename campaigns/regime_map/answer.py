@@ -1,15 +1,22 @@
 """What a map says, in a few sentences: where it is chaotic, where it pulls hardest, where the start decides."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known
+from campaigns.buoy_sweep.answer import reasons
+from campaigns.columns import Column
 from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, SHARE, TENSION
 from campaigns.statements import listed
 
 
-def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str]) -> Iterator[str]:
-    """At most eight, of the rows of cells/table.csv and table.csv. keys: of the map, that of its pages first."""
+def sentences(
+    cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]
+) -> Iterator[str]:
+    """At most eight, of the rows of cells/table.csv and table.csv.
+
+    keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
+    """
     coarse = [one for one in cells if known(one, "level") == 0.0]
     done = [one for one in coarse if one["source"] != SCREENED]
     if not done:
@@ -26,14 +33,16 @@ def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str])
     open_ = sum(words[word] for word in OPEN_WORDS)
     parts = {CHAOTIC: words[CHAOTIC], QUASI: words[QUASI], "periodic": calm}
     led = listed(f"{word} on {_share(count, done)}" for word, count in parts.items())
-    yield f"Rest leads to a motion that is {led} of the map; {_share(open_, done)} is not decided."
     chaotic = {_place(one, keys) for one in motions if one.get("regime") == CHAOTIC and known(one, "level") == 0.0}
-    yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
+    yield f"Rest leads to a motion that is {led} of the map; {_share(open_, done)} is not decided."
+    if len(chaotic) > words[CHAOTIC]:
+        yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
     if (peak := greatest(cells, TENSION.name)) is not None:
         share = known(peak, SHARE.name)
         ends = "" if share != share else f"; {100 * share:.0f} % of the starts there end in it"
         pulls = f"{kilonewton(known(peak, TENSION.name))}, {known(peak, RATIO.name):.3g} times that at rest"
         yield f"Largest tension {pulls}, at {_at(peak, keys)}{ends}."
+        yield from _use([one for one in motions if known(one, TENSION.name) > 0.0], keys, scene)
     several = [one for one in done if known(one, "motions") > 1]
     most = max((known(one, "motions") for one in several), default=1)
     if several:
@@ -44,14 +53,26 @@ def sentences(cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[str])
         yield f"{failed} cells have no result; the column message of cells/table.csv says why."
 
 
+def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
+    """Whether the largest tension may be used, and the largest that may."""
+    some = sorted(motions, key=lambda one: -known(one, TENSION.name))
+    doubts = [*reasons(some[0], scene(some[0]))] if some else []
+    if not doubts:
+        return
+    free = next((one for one in some if not [*reasons(one, scene(one))]), None)
+    best = "" if free is None else f"; without that it is {kilonewton(known(free, TENSION.name))}, at {_at(free, keys)}"
+    yield f"It is no load to design for, because {listed(doubts)}{best}."
+
+
 def _share(count: int, of: Sequence) -> str:
     return f"{100.0 * count / len(of):.3g} %"
 
 
-def _place(one: Row, keys: Sequence[str]) -> tuple:
-    return tuple(one[key] for key in keys)
+def _place(one: Row, keys: Sequence[Column]) -> tuple:
+    return tuple(one[key.name] for key in keys)
 
 
-def _at(one: Row, keys: Sequence[str]) -> str:
-    values = (one[key] if isinstance(one[key], str) else f"{one[key]:.4g}" for key in keys)
-    return " and ".join(f"{key} = {value}" for key, value in zip(keys, values, strict=True))
+def _at(one: Row, keys: Sequence[Column]) -> str:
+    values = (one[key.name] if isinstance(one[key.name], str) else f"{one[key.name]:.4g}" for key in keys)
+    said = (f"{key.symbol} = {value} {key.unit}".rstrip() for key, value in zip(keys, values, strict=True))
+    return ", ".join(said)

@@ -31,7 +31,7 @@ from engine.at_rest import static_tension_N
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them
-AFTER_REST = 1.2  # time of all other rounds of a level, as a share of that of the runs from rest (measured)
+AFTER_REST = 0.9  # time of all other rounds of a level, as a share of that of the runs from rest (measured)
 CHEAP, FULL = "cheap", "full"
 
 
@@ -79,8 +79,9 @@ class Map(Lattice):
         self.times: Counter = Counter()
         self.there: set[str] = set()
         self.drawn_s = time.monotonic()
-        # seconds of the runs from rest, and of starts before them; cells to come, as a share of those at hand
-        self.rest_s, self.before_s, self.parts = 0.0, 0.0, 0.0
+        # seconds of the runs from rest, and of starts before them; cells to come, as a share of those at hand; of the
+        # level at hand, what its runs from rest leave to do, as a share of their time
+        self.rest_s, self.before_s, self.parts, self.after = 0.0, 0.0, 0.0, AFTER_REST
 
     def beside(self, at: int) -> dict[int, str]:
         """`Lattice.beside`."""
@@ -106,6 +107,7 @@ class Map(Lattice):
         real = self.plan.simulate is engine.simulate
         ahead = [start_job({}, first, DISPLACED, ())] if real and engine.massless_covers(first) else []
         self.rest_s, self.parts = 0.0, own.refine / len(jobs) if len(self.jobs) == len(jobs) else 0.0
+        self.after = AFTER_REST
         self._run(jobs, "runs from rest", ahead)
         self.rest_s, self.before_s = self.times["run_s"] - rest_s, self.starts.times["run_s"]
         places = self.add(jobs, [self.rows[job.key] for job in jobs if job.key in self.rows])
@@ -113,6 +115,7 @@ class Map(Lattice):
             self.find(own.starts - 1, own.kick_speed, own.seed, places)
         others = {motion: self._job(motion) for motion, _ in self.beside_rest(self.jobs)}
         others = {motion: job for motion, job in others.items() if motion not in self.keys_of}
+        self.after = 0.0
         self._run([*others.values()], "judged runs of the other motions")
         self.keys_of |= {motion: job.key for motion, job in others.items()}
         self.judged(others, [*self.rows.values()])
@@ -126,7 +129,7 @@ class Map(Lattice):
         """Seconds of what follows a round that takes so many: the other rounds of its level, and finer cells."""
         if not self.rest_s:
             return seconds * (AFTER_REST + self.parts * (1.0 + AFTER_REST))
-        others = AFTER_REST * self.rest_s - (self.starts.times["run_s"] - self.before_s) - seconds
+        others = self.after * self.rest_s - (self.starts.times["run_s"] - self.before_s) - seconds
         return max(others, 0.0) + self.parts * (1.0 + AFTER_REST) * self.rest_s
 
     def _run(self, jobs: list[Job], said: str, ahead: Sequence[Job] = ()) -> None:
