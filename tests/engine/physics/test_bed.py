@@ -57,8 +57,9 @@ def test_an_inclined_throw_loses_what_theory_says(dimensions, zeta):
     mass, width, mu, limp = WEIGHT / G, math.sqrt(4e-4 / math.pi), 0.1, 1e-4
     damping = 2 * zeta * math.sqrt(BED["stiffness_Npm3"] * width * mass) / width
     more = {"gravity_mps2": 0.0, "tether.tension": linear(limp), "anchor.position_m": [0.0, 0.0, 1e-3],
-            "end.kind": "free", "end.force_N": [1e-3 * limp, 0.0, 0.0], "buoy": None, "motion.dimensions": dimensions, "output.step_s": 1e-3,
-            "solver.rtol": 1e-5, "floor": BED | {"damping_Nspm3": damping, "friction": mu}}  # fmt: skip
+            "end.kind": "free", "end.force_N": [1e-3 * limp, 0.0, 0.0], "buoy": None,
+            "motion.dimensions": dimensions, "output.step_s": 1e-3, "solver.rtol": 1e-5,
+            "floor": BED | {"damping_Nspm3": damping, "friction": mu}}  # fmt: skip
     scene = line(DRY, more, nodes=9, **CHAIN)
     Y, fast, slide = equilibrium(scene).Y.copy(), 1.0, 2.0
     V = slice(dimensions, 2 * dimensions)

@@ -1,4 +1,4 @@
-"""Law: a line that lies on the bed rests, at the default settings; what friction holds creeps as its regularisation says.
+"""Law: a line on the bed rests, at the default settings; what friction holds creeps as its regularisation says.
 
 Below the speed v_s friction is a viscosity mu w/v_s a metre, so that an axial wave of the lying line dies out at the
 slower rate s of m s^2 - (mu w/v_s) s + EA k^2 = 0. At rest the only force left is the rounding of tensions, EA 2^-52 an
