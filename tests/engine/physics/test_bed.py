@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
+from engine import simulate
 from engine.physics.bed import bed_load
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, Motion, equilibrium, held, line, linear, positions
@@ -103,3 +104,10 @@ def test_a_line_that_lies_on_the_bed_in_part(dimensions):
         assert -1.2 * 1.5 * WEIGHT / (BED["stiffness_Npm3"] * math.sqrt(4e-4 / math.pi)) > lowest > -1e-3 or lowest < 0
     assert errors[0] < 2e-3
     assert errors[1] < 0.6 * errors[0]
+
+
+def test_a_line_too_long_to_lie_stretched_is_refused_in_words():
+    run = simulate(line(DRY, held(15.0, 0.3), {"floor": BED, "tether.tension": linear(EA)}, nodes=41, **CHAIN),
+                   duration_s=0.05)  # fmt: skip
+    assert run.status == "statics-failed"
+    assert "longer than the way along the bed" in run.message
