@@ -12,18 +12,11 @@ s m_a |v_p|^2/2, v_p = v - v_t t, become
 
     G = m V_t + w0 z + s g + (1 - s) B z + m_a s' (h_t v_p + |v_p|^2 n/2),  h_t = eta_t - n.V,  n = (-grad eta, 1)
 
-The bed, z = 0, on the axis of the line. At the depth p = -z a metre of line meets a spring that begins softly, up to
-the depth p_0 that its own weight has on it, a damper as soft, which does not pull, and Coulomb's friction, regular over
-the speed v_s:
-
-    N = max(k y(p) + c y'(p) p_t, 0),   y = p^2/(2 p_0) up to p_0, then p - p_0/2
-    G = ... - N z + mu N u/sqrt(u^2 + v_s^2)
+The bed is in `engine.physics.bed`.
 
 Loads depend on the place X of a node. A stage moves it with dX = dV/cq, and so their slopes join dG/dV.
 Vectors have three components; a plane has y = 0.
 """
-
-import math
 
 from ..compiled import kernel
 from ..spatial.vectors import dot, mixed
@@ -102,31 +95,3 @@ def surface_turn(p, wet, v, tangent, dt):
     vt, vp = across_of(v, tangent)
     change = mixed(-vt, dt, -dot(v, dt), tangent)
     return mixed(p.ma * ds * sinking, change, -p.ma * ds * vt * dot(vp, dt), n)
-
-
-@kernel
-def bed_load(p, in_motion, z, V):
-    """Load of the bed on a metre of line at the height z (m) of its axis: the load G has of it, its derivative by V
-    (rows) and by z."""
-    depth = -z
-    if depth <= 0.0:
-        return ZERO, (ZERO, ZERO, ZERO), ZERO
-    gate = min(depth / p.bed_onset, 1.0)
-    y = depth - 0.5 * p.bed_onset if depth > p.bed_onset else 0.5 * depth * gate
-    sinking = -in_motion * V[2]
-    N = p.bed_stiffness * y + p.bed_damping * gate * sinking
-    if N <= 0.0:
-        return ZERO, (ZERO, ZERO, ZERO), ZERO
-    by_depth = p.bed_stiffness * gate + (p.bed_damping * sinking / p.bed_onset if depth < p.bed_onset else 0.0)
-    by_sinking = in_motion * p.bed_damping * gate
-    u = (in_motion * V[0], in_motion * V[1], 0.0)
-    inverse = 1.0 / math.sqrt(u[0] * u[0] + u[1] * u[1] + p.bed_speed * p.bed_speed)
-    way = (p.bed_friction * inverse * u[0], p.bed_friction * inverse * u[1], -1.0)  # of the load over N
-    rub = in_motion * N * p.bed_friction * inverse
-    bent = -rub * inverse * inverse
-    rows = (
-        (rub + bent * u[0] * u[0], bent * u[0] * u[1], -way[0] * by_sinking),
-        (bent * u[0] * u[1], rub + bent * u[1] * u[1], -way[1] * by_sinking),
-        (0.0, 0.0, by_sinking),
-    )
-    return (N * way[0], N * way[1], -N), rows, (-way[0] * by_depth, -way[1] * by_depth, by_depth)

@@ -247,6 +247,14 @@ def why_no_rest(record: np.void, scene: Scene) -> str:
             f"tether.tension still pulls with {pull:.4g} N at a strain of {NEARLY_NOTHING:g}; let it fall to zero "
             "where the line is not stretched"
         )
+    if scene.floor is not None and scene.end.kind == "held":
+        x, y, z = scene.end.position_m
+        low = scene.anchor.position_m[2]
+        if math.hypot(x, y) + abs(low) + abs(low + z) < scene.tether.length_m:
+            return (
+                "the line is longer than the way along the bed and straight up to both ends: nothing stretches it "
+                "where it lies, because the bed at rest has no friction; shorten it, or move its held end away"
+            )
     if record["spherical_cap"]:
         return (
             "the iteration did not settle; where the buoy floats on a slack line (buoy.submergence 'spherical-cap'), "
