@@ -17,6 +17,7 @@ from ..spatial.vectors import affine, dot, mixed
 
 ZERO = (0.0, 0.0, 0.0)
 WITHIN = 0.99  # of the soft beginning
+ROUNDING = 1e-14  # m, of places
 
 
 @kernel
@@ -124,7 +125,8 @@ def _on_the_bed(p, tables, stage, Y, work, factor, size):
         foreseen = mixed(1.0, affine(rows, mixed(factor, dV, 0.0, dV), load), high - low, by_z)
         missed = mixed(1.0, bed_load(p, stage.in_motion, high, V)[0], -1.0, foreseen)
         most = max(most, dot(missed, missed))
-    return max(size, (most / (weight * weight)) ** 0.25) if p.floored else size
+    known = p.bed_stiffness * ROUNDING
+    return max(size, (most / (weight * weight)) ** 0.25) if most > known * known else size
 
 
 @kernel
