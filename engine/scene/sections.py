@@ -111,6 +111,16 @@ class HarmonicMotion(Section):
     ramp_s: NonNegative = described("harmonic: time of the ramp r = sin^2(pi t/(2 ramp)); 0: no ramp", 0.0)
 
 
+class CircularMotion(Section):
+    """A held end goes round a circle in x and z about its place: r(t) (R cos, -R sin)(2 pi t/period_s + phase_rad)."""
+
+    law: Literal["circular"]
+    radius_m: Positive = described("circular: radius of r(t) (cos, -sin)(2 pi t/period + phase) in x and z", symbol="R")
+    period_s: Positive = described("circular: time of a round, from +x down")
+    phase_rad: Number = described("circular: phase", 0.0)
+    ramp_s: Positive = described("circular: time of the ramp r = sin^2(pi t/(2 ramp)), which begins at the centre")
+
+
 class TableMotion(Section):
     """A held end is moved through displacements at times, by a monotone cubic (PCHIP) that starts and ends at rest."""
 
@@ -137,7 +147,7 @@ class End(Section):
     force_decay_s: Positive | None = described(
         "fracture time: the force falls as cos^2(pi t/(2 t_br))", None, symbol="t_br", paper="section 4.1.1"
     )
-    motion: Annotated[HarmonicMotion | TableMotion, Field(discriminator="law")] | None = described(
+    motion: Annotated[HarmonicMotion | CircularMotion | TableMotion, Field(discriminator="law")] | None = described(
         "prescribed displacement of a held end", None, symbol="X_e"
     )
     release_s: Positive | None = described(
