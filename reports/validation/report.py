@@ -9,16 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from ..figures.curves import Curve, Panel, curves
-from ..parts.columns import Quantity, table_of
+from ..parts.columns import table_of, value
 from ..parts.content import Figure, Heading, Item, Report, Table, Text, heads
-from ..parts.folder import Folder, FolderError, read_columns, read_files, read_folder
+from ..parts.folder import Folder, FolderError, read_files, read_folder
 from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
 from ..parts.style import BLUE, VERMILION
-from ..parts.wording import count
+from ..parts.wording import count, number
 
 FILES = {"cases.csv": "cases and verdicts", "curves.csv": "both curves of each case"}
-NUMBERS = ("quantity", "ours", "theirs", "error", "bar", "unit", "verdict")
+NUMBERS = ("title", "quantity", "verdict", "ours", "theirs", "error", "bar", "unit")
 RUNS = ("run", "status", "steps", "wall_s", "run_key")
 MANY = 40  # points of a curve from which on it is a line without marks
 
@@ -28,7 +28,6 @@ class Study:
     """What the campaign left. cases: rows of cases.csv by case; points: by case and curve, (x, ours, theirs) (3, n)."""
 
     folder: Folder
-    columns: dict[str, Quantity]
     cases: dict[str, list[dict[str, str]]]
     points: dict[str, dict[str, np.ndarray]]
 
@@ -47,7 +46,7 @@ def read_study(directory: str | Path) -> Study:
         place = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
         place.append([float(row[name]) for name in ("x", "ours", "theirs")])
     arrays = {case: {name: np.array(at).T for name, at in one.items()} for case, one in points.items()}
-    return Study(folder, read_columns(directory, "cases.csv"), cases, arrays)
+    return Study(folder, cases, arrays)
 
 
 def report(directory: str | Path) -> Report:
@@ -71,22 +70,21 @@ def report(directory: str | Path) -> Report:
 def summary(study: Study) -> Table:
     """One row a case and quantity that is judged."""
     rows = [row for one in study.cases.values() for row in one if row["verdict"] != "told"]
-    cell = {name: study.columns[name].cell for name in ("error", "bar")}
-    body = tuple(
-        (
-            row["title"],
-            row["quantity"],
-            cell["error"](row["error"]),
-            cell["bar"](row["bar"]),
-            row["unit"],
-            row["verdict"],
-        )
+    caption = (
+        "Error: difference of ours from theirs, of the whole curves where rms is said. Bar: the most that it may be, "
+        "set before the run. From `cases.csv`."
+    )
+    return numbers(rows, ("title", "verdict", "quantity"), caption)
+
+
+def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) -> Table:
+    """The rows of cases.csv with these columns of words, then error, bar and unit."""
+    body = (
+        (*(row[name] for name in first), *(number(value(row, name), 3) for name in ("error", "bar")), row["unit"])
         for row in rows
     )
-    head = heads("case", "quantity", ("error", ""), ("bar", ""), "unit", "verdict")
-    return Table(
-        head, body, "Error of each case, the bar set before the run, and the verdict. From `cases.csv`.", small=True
-    )
+    words = ("case" if name == "title" else name for name in first)
+    return Table(heads(*words, ("error", ""), ("bar", ""), "unit"), tuple(body), caption, small=True)
 
 
 def case_items(study: Study, case: str) -> Iterator[Item]:
@@ -104,8 +102,7 @@ def case_items(study: Study, case: str) -> Iterator[Item]:
         return
     if case in study.points:
         yield figure(study, case)
-    caption = "Numbers of this case, from `cases.csv`."
-    yield table_of(study.columns, NUMBERS, rows, caption)
+    yield numbers(rows, ("quantity", "verdict", "ours", "theirs"), "Numbers and verdicts, from `cases.csv`.")
 
 
 def figure(study: Study, case: str) -> Figure:
@@ -113,12 +110,9 @@ def figure(study: Study, case: str) -> Figure:
     first, pairs = study.cases[case][0], study.points[case]
     panels = []
     for name, (x, ours, theirs) in pairs.items():
-        few = len(x) < MANY
-        marks = [
-            {"mark": "o", "size": 4.0, "line": "" if few else "-"},
-            {"mark": "x", "size": 5.0, "line": "" if few else "-"},
-        ]
-        looks = marks if few else [{"width": 1.6}, {"width": 0.9, "line": (0, (4, 2))}]
+        looks = [{"width": 1.6}, {"width": 0.9, "line": (0, (4, 2))}]
+        if len(x) < MANY:
+            looks = [{"mark": "o", "size": 7.0, "line": "", "filled": False}, {"mark": "x", "size": 5.0, "line": ""}]
         drawn = [
             Curve(x, y, word, colour=colour, **look)
             for y, word, colour, look in zip((theirs, ours), ("theirs", "ours"), (VERMILION, BLUE), looks, strict=True)
