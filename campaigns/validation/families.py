@@ -41,8 +41,13 @@ def rms(difference: np.ndarray) -> float:
 
 
 def over_a_period(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds: int) -> np.ndarray:
-    """The mean of the last `rounds` whole periods at PHASES even phases; a phase of 0 is a multiple of the period."""
-    last = int((time_s[-1] - time_s[0]) / period_s * (1.0 + 1e-9))
+    """The mean of the last `rounds` whole periods at PHASES even phases; a phase of 0 is a multiple of the period.
+
+    Raises ValueError where there are fewer periods.
+    """
+    last = int(time_s[-1] / period_s * (1.0 + 1e-9))
+    if rounds > last:
+        raise ValueError(f"{rounds} periods of {period_s:g} s are asked for, and the record has {last}")
     phase = np.arange(PHASES) / PHASES
     each = (np.interp((i + phase) * period_s, time_s, values) for i in range(last - rounds, last))
     return np.mean([*each], axis=0)
@@ -69,8 +74,9 @@ def span(values: np.ndarray, unit: str) -> str:
 def measured_history(case: Case, runs: Sequence[Trajectory]) -> Found:
     """Top tension over a period against a measured one, both averaged over periods; rms as a share of their range."""
     run, period_s = runs[0], period_of(runs[0].scene)
-    record = table("lindahl_history.csv")[:, case.options["column"]]
-    theirs = over_a_period(1e-3 * np.arange(len(record)), record, period_s, int(1e-3 * len(record) / period_s))
+    record = table("lindahl_history.csv")
+    whole = int(record[-1, 0] / period_s)
+    theirs = over_a_period(record[:, 0], record[:, case.options["column"]], period_s, whole)
     steady = over_a_period(run.columns["time_s"], run.columns["tension_top_N"], period_s, case.options["rounds"])
     time_s = np.arange(PHASES) / PHASES * period_s
     ours, shift_s = shifted(steady, period_s, time_s, theirs)

@@ -49,6 +49,8 @@ def test_a_shift_in_time_is_found_and_leaves_nothing_over():
     ours, shift_s = families.shifted(steady, PERIOD_S, at, wave(at + 0.6))
     assert shift_s == pytest.approx(0.6, abs=PERIOD_S / families.SHIFTS)
     assert families.rms(ours - wave(at + 0.6)) < 5e-3
+    with pytest.raises(ValueError, match="12 periods"):
+        families.over_a_period(t[:-1], wave(t[:-1]), PERIOD_S, 12)
 
 
 def test_the_peak_of_a_sine_is_found_between_the_lines_of_a_spectrum():
