@@ -4,7 +4,7 @@ from ..compiled import by_kind, kernel
 from ..physics.ends import released
 from ..physics.extras import ZERO, bed_load, sum_of, surface_load, surface_turn, wetting
 from ..record import HELD
-from ..spatial.vectors import quaternion
+from ..spatial.vectors import mixed, quaternion
 from . import columns as col
 
 # Columns of H of lateral perturbations: coefficients of a node: sine and cosine of half the turn of the box below it,
@@ -13,17 +13,17 @@ SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(
 
 
 @kernel
-def _nothing(p, stage, Y, work):
+def _nothing(p, tables, stage, Y, work):
     pass
 
 
 @kernel
-def _added(p, stage, Y, work):
-    """Add to Q, as `node_quantities` left it, what these laws do at every node."""
+def _added(p, tables, stage, Y, work):
+    """Add to Q, as `node_quantities` left it, what these laws do at every node, at X~ + V/cq (THEORY.md, section 5)."""
     t, in_motion, cq, cv = stage
-    ahead = (p.direction, 0.0, 0.0)
+    ahead, over, known = (p.direction, 0.0, 0.0), 1.0 / cq, (p.anchor_x, 0.0, p.anchor_z)
     for k in range(Y.shape[0]):
-        row, F, X, C_tilde = work.Q[k], work.F[k], work.X[k], work.C_tilde[k]
+        row, F, C_tilde = work.Q[k], work.F[k], work.C_tilde[k]
         c, s = row[col.COS], row[col.SIN]
         if p.damping > 0.0:
             damping = in_motion * p.damping
@@ -32,7 +32,11 @@ def _added(p, stage, Y, work):
             row[col.NZ] += damping * rate * s
             row[col.SLOPE] += damping * cq
             row[col.N_TURN] = damping * (c * row[col.QZ_T] - s * row[col.QX_T])
-        x, V, tangent = (X[0], 0.0, X[1]), (Y[k, col.VX], 0.0, Y[k, col.VZ]), (c, 0.0, s)
+        V, tangent = (Y[k, col.VX], 0.0, Y[k, col.VZ]), (c, 0.0, s)
+        if k > 0:
+            half, below = 0.5 * tables[p.grid_at + k - 1], work.C_tilde[k - 1]
+            known = mixed(1.0, known, half, (below[col.CX] + C_tilde[col.CX], 0.0, below[col.CZ] + C_tilde[col.CZ]))
+        x = mixed(1.0, known, over, V)
         load, own, place, row[col.SHARE] = ZERO, (ZERO, ZERO, ZERO), (ZERO, ZERO, ZERO), 1.0
         row[col.GX] -= p.pushed * F[col.AX]
         row[col.GZ] -= p.pushed * F[col.AZ]
@@ -60,7 +64,6 @@ def _added(p, stage, Y, work):
             place = sum_of(place, ((0.0, 0.0, by_z[0]), ZERO, (0.0, 0.0, by_z[2])))
         row[col.GX] += load[0]
         row[col.GZ] += load[2]
-        over = 1.0 / cq
         for i in range(2):
             for j in range(2):
                 at = 2 * i + j

@@ -132,4 +132,4 @@ def node_quantities(p, tables, stage, Y, work):
             Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam
         else:  # S_a + S_b = 0
             Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = 0.0, 0.0, 1.0
-    more_loads(p, stage, Y, work)
+    more_loads(p, tables, stage, Y, work)

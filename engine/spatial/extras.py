@@ -7,19 +7,22 @@ from .vectors import dot, mixed, put, put_rows, rows_of, vector
 
 
 @kernel
-def _nothing(p, stage, Y, work):
+def _nothing(p, tables, stage, Y, work):
     pass
 
 
 @kernel
-def _added(p, stage, Y, work):
-    """Add to Q, as `node_quantities` left it, what these laws do at every node."""
+def _added(p, tables, stage, Y, work):
+    """Add to Q, as `node_quantities` left it, what these laws do at every node, at X~ + V/cq (THEORY.md, section 5)."""
     t, in_motion, cq, cv = stage
-    ahead = (p.dir_x, p.dir_y, 0.0)
+    ahead, over, known = (p.dir_x, p.dir_y, 0.0), 1.0 / cq, (p.anchor_x, p.anchor_y, p.anchor_z)
     for k in range(Y.shape[0]):
-        row, F, x = work.Q[k], work.F[k], vector(work.X[k], 0)
+        row, F, V = work.Q[k], work.F[k], vector(Y[k], col.V)
         tangent, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
-        V = vector(Y[k], col.V)
+        if k > 0:
+            passed = mixed(1.0, vector(work.C_tilde[k - 1], 0), 1.0, vector(work.C_tilde[k], 0))
+            known = mixed(1.0, known, 0.5 * tables[p.grid_at + k - 1], passed)
+        x = mixed(1.0, known, over, V)
         if p.damping > 0.0:
             damping, q_t = in_motion * p.damping, vector(row, col.Q_T)
             rate = damping * dot(tangent, q_t)
@@ -28,7 +31,7 @@ def _added(p, stage, Y, work):
             row[col.SLOPE] += damping * cq
             row[col.N_TURN2], row[col.N_TURN3] = damping * dot(b, q_t), -damping * dot(n, q_t)
         G = mixed(1.0, vector(row, col.G), -p.pushed, vector(F, col.ACCELERATION))
-        by_V, over = rows_of(row, col.G_V), 1.0 / cq
+        by_V = rows_of(row, col.G_V)
         if p.surfaced:
             inertia = p.m * cv
             gx, gy, gz = mixed(1.0, G, -inertia, mixed(1.0, V, -1.0, vector(work.C_tilde[k], col.V)))

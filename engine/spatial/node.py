@@ -152,4 +152,4 @@ def node_quantities(p, tables, stage, Y, work):
             if Y[k, col.O1] != 0.0:
                 row[col.M2] -= p.GI * Y[k, col.O1] * Y[k, col.O3]
                 row[col.M3] -= p.GI * Y[k, col.O1] * Y[k, col.O2]
-    more_loads(p, stage, Y, work)
+    more_loads(p, tables, stage, Y, work)
