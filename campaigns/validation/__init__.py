@@ -36,6 +36,7 @@ def done(order: Order):
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
     from campaigns.validation import cases, judging
+    from engine.atomic import write_atomic
 
     out = order.how.out
     plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
@@ -46,6 +47,7 @@ def done(order: Order):
     rows, points = judging.judged(out, order.own.cases)
     write_table(out / "cases.csv", JUDGED, rows)
     write_table(out / "curves.csv", judging.POINTS, points)
+    write_atomic(out / "cases.md", judging.page(rows).encode())
     return timing, replace(summary, computed=len(summary.rows) - there, found=there)
 
 
@@ -87,7 +89,7 @@ def said(row: dict) -> str:
     """The error of a row with its bar."""
     if row["error"] != row["error"]:
         return row["note"]
-    return f"{row['error']:.3g} {row['unit']}, bar {row['bar']:g}"
+    return f"{row['error']:.4g} {row['unit']}, bar {row['bar']:g}"
 
 
 STUDY = Study(

@@ -11,6 +11,7 @@ from engine import Trajectory
 
 PHASES, SHIFTS = 1000, 2000  # samples of a period that is averaged; time shifts that are tried
 POUND_N = 4.4482216152605
+HISTORY_PERIODS_S, HISTORY_RADIUS_M = (1.25, 3.5), 0.2  # of lindahl_history.csv
 
 
 class Number(NamedTuple):
@@ -67,8 +68,8 @@ def shifted(steady: np.ndarray, period_s: float, time_s: np.ndarray, theirs: np.
 
 
 def span(values: np.ndarray, unit: str) -> str:
-    """ "0.1 to 67.3 N"."""
-    return f"{values.min():.4g} to {values.max():.4g} {unit}"
+    """ "0.10 to 67.30 N"."""
+    return f"{values.min():.2f} to {values.max():.2f} {unit}"
 
 
 def measured_history(case: Case, runs: Sequence[Trajectory]) -> Found:
@@ -90,26 +91,32 @@ def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Found:
     rows = {(period, radius): largest for period, radius, largest in table("lindahl_maxima.csv")}
     motions = [run.scene.end.motion for run in runs]
     theirs = np.array([rows[motion.period_s, motion.radius_m] for motion in motions])
-    ours = np.array([cycle_maximum(run, case.options["rounds"]) for run in runs])
+    highs = ((run.columns["time_s"], run.columns["tension_top_high_N"], period_of(run.scene)) for run in runs)
+    ours = np.array([mean_maximum(*high, case.options["rounds"]) for high in highs])
     apart, share = ours - theirs, 100.0 * (ours / theirs - 1.0)
     said = span(ours, "N"), span(theirs, "N")
     numbers = {
         "maxima, rms": Number(*said, rms(apart)),
-        "maxima, mean of sizes": Number(*said, float(np.abs(share).mean())),
+        "maxima, mean size": Number(*said, float(np.abs(share).mean())),
     }
     curves = []
     for radius in dict.fromkeys(motion.radius_m for motion in motions):
         own = np.array([motion.radius_m == radius for motion in motions])
         period = np.array([motion.period_s for motion in motions])[own]
         curves.append((f"radius {radius:g} m", period, ours[own], theirs[own]))
-    return Found(numbers, curves, f"ours less theirs: {apart.min():+.1f} to {apart.max():+.1f} N")
+    time_s, *records = table("lindahl_history.csv").T
+    told = (
+        f"{mean_maximum(time_s, record, period, int(time_s[-1] / period)):.1f} for {rows[period, HISTORY_RADIUS_M]:.1f} N"
+        for record, period in zip(records, HISTORY_PERIODS_S, strict=True)
+    )
+    note = f"ours less theirs: {apart.min():+.1f} to {apart.max():+.1f} N; the measured histories have {' and '.join(told)}"
+    return Found(numbers, curves, note)
 
 
-def cycle_maximum(run: Trajectory, rounds: int) -> float:
-    """Mean over the last `rounds` periods of the largest tension at the top (N), between samples too."""
-    high, period_s, end_s = run.columns["tension_top_high_N"], period_of(run.scene), run.columns["time_s"][-1]
-    back = np.minimum(((end_s - run.columns["time_s"]) / period_s).astype(int), rounds)
-    return float(np.mean([high[back == i].max() for i in range(rounds)]))
+def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds: int) -> float:
+    """Mean over the last `rounds` periods of the largest value of each."""
+    back = np.minimum(((time_s[-1] - time_s) / period_s).astype(int), rounds)
+    return float(np.mean([values[back == i].max() for i in range(rounds)]))
 
 
 def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
@@ -141,8 +148,9 @@ def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Found:
     ours = np.array([lines.x_m[0], lines.z_m[0]])
     off = 100.0 * float(np.linalg.norm(ours - place, axis=0).max()) / scene.tether.length_m
     pull = 100.0 * float(np.abs(lines.tension_N[0] / tension - 1.0).max())
+    middle = (f"middle {x:.4f}, {z:.4f} m" for x, z in (at[:, len(s) // 2] for at in (ours, place)))
     numbers = {
-        "place, largest": Number(f"lowest {ours[1].min():.4f} m", f"lowest {place[1].min():.4f} m", off),
+        "place, largest": Number(*middle, off),
         "tension, largest": Number(f"top {lines.tension_N[0, -1]:.4f} N", f"top {tension[-1]:.4f} N", pull),
     }
     return Found(numbers, [("", s, ours[1], place[1])])

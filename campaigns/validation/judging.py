@@ -1,4 +1,4 @@
-"""Each case beside its source: rows of cases.csv, and the points of both curves."""
+"""Each case beside its source: rows of cases.csv, the points of both curves, and the table of docs/validation.md."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -51,3 +51,22 @@ def verdict(case: Case, quantity: str, number: "families.Number | None") -> dict
         return row | {"verdict": MISSES}
     word = TOLD if bar is None else HOLDS if number.error <= bar else MISSES
     return row | {"ours": number.ours, "theirs": number.theirs, "error": number.error, "verdict": word}
+
+
+def page(rows: Iterable[dict]) -> str:
+    """What is judged, as a table in Markdown."""
+    lines = ["| case | compared | ours | theirs | error | bar | verdict |", "|---|---|---|---|---|---|---|"]
+    for row in rows:
+        if row["verdict"] != TOLD:
+            error = "" if row.get("error") is None else f"{row['error']:.3g}"
+            numbers = (str(row.get(name) or "").replace(" to ", "\u2013") for name in ("ours", "theirs"))
+            cells = (
+                f"`{row['case']}`",
+                row["quantity"],
+                *numbers,
+                error,
+                f"{row['bar']:g} {row['unit']}",
+                row["verdict"],
+            )
+            lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"

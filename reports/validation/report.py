@@ -80,7 +80,7 @@ def summary(study: Study) -> Table:
 def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) -> Table:
     """The rows of cases.csv with these columns of words, then error, bar and unit."""
     body = (
-        (*(row[name] for name in first), *(number(value(row, name), 3) for name in ("error", "bar")), row["unit"])
+        (*(row[name] for name in first), *(number(value(row, name), 4) for name in ("error", "bar")), row["unit"])
         for row in rows
     )
     words = ("case" if name == "title" else name for name in first)
@@ -93,9 +93,9 @@ def case_items(study: Study, case: str) -> Iterator[Item]:
     first = rows[0]
     yield Heading(first["title"], page=True)
     told = (
-        f"Theirs: {first['source']}.",
+        f"Theirs are {first['source']}.",
         first["assumed"] and f"Assumed: {first['assumed']}.",
-        first["note"] and f"{first['note'].capitalize()}.",
+        first["note"] and f"{first['note'][0].upper()}{first['note'][1:]}.",
     )
     yield Text(" ".join(filter(None, told)))
     if first["verdict"] == "not run":
@@ -117,7 +117,8 @@ def figure(study: Study, case: str) -> Figure:
             Curve(x, y, word, colour=colour, **look)
             for y, word, colour, look in zip((theirs, ours), ("theirs", "ours"), (VERMILION, BLUE), looks, strict=True)
         ]
-        panels.append([Panel(drawn, first["x_label"], first["y_label"], name)])
+        below = first["x_label"] if name == [*pairs][-1] else ""
+        panels.append([Panel(drawn, below, first["y_label"], name)])
     words = "; ".join(f"{row['quantity']}: {row['verdict']}" for row in study.cases[case] if row["verdict"] != "told")
     caption = f"{first['title']}: theirs and ours ({words}). From `curves.csv`."
     alt = f"Two curves of {first['y_label']} over {first['x_label']}, theirs {first['theirs']}, ours {first['ours']}."
