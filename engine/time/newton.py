@@ -9,6 +9,7 @@ import numpy as np
 
 from ..compiled import kernel
 from ..dimensions import add_update, eliminate, node_quantities, shape, tidy, update_size
+from ..physics.extras import on_the_bed
 from ..physics.water import water
 from ..simd.select import where
 from .status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE
@@ -56,7 +57,9 @@ def iterate(p, tables, stage, Y, work):
     """One iteration. Returns whether the matrix was regular, the size of the update, and the least strain after it."""
     sound = assemble(p, tables, stage, Y, work)
     size = update_size(p, work.D)
-    return sound, size, add_update(p, where(size <= 1.0, 1.0, 1.0 / size), work.D, Y)
+    factor = where(size <= 1.0, 1.0, 1.0 / size)
+    least = add_update(p, factor, work.D, Y)
+    return sound, on_the_bed(p, tables, stage, Y, work, factor, size), least
 
 
 @kernel

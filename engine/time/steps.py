@@ -14,6 +14,7 @@ import numpy as np
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
+from ..physics.extras import with_landings
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import STRETCH
@@ -133,7 +134,8 @@ def runge_kutta_step(p, tables, step, before, trial, work):
         stage_rates(p, rate, Ys[i], work.Q, C_tilde, C_new, Ks[i])
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
-    return OK, iterations, embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work
+    error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work
+    return OK, iterations, with_landings(p, tables, dt, Ys, Ks, work.X, error)
 
 
 @kernel
