@@ -20,7 +20,7 @@ Step = namedtuple("Step", "t dt dt_before small")
 # What a trial step finds: Y (s, n, unknowns) and K (s, n, conserved) of its s stages (two in a one-stage method, which
 # fills the last), of which the last is the new state; C (n, conserved): conserved variables of that state
 Trial = namedtuple("Trial", "Y K C")
-# What a run keeps: samples (m, 13), profiles (m', n, 6), energies (m'', 9) and their running sums (5,)
+# What a run keeps: samples (m, 13), profiles (m', n, 6), energies (m'', 12) and their running sums (7,)
 Output = namedtuple("Output", "samples profiles energies sums")
 # Accepted steps, for perturbations: T (l, 3), begin, length and kind; Y and K (l, s, n, .): stages and rates
 Trail = namedtuple("Trail", "T Y K")

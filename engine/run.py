@@ -208,7 +208,7 @@ class Run:
         if not self.scene.output.energy:
             return None
         found = self.output.energies[: int(self.state["energies"])].T.copy()
-        total = found[energy.KINETIC] + found[energy.STRAIN] + found[energy.GRAVITY]
+        total = found[energy.KINETIC : energy.END_WORK].sum(axis=0)
         found[energy.POWERS] -= total - total[:1]  # less the change of the energies: dissipated by the scheme in time
         return EnergyBudget(*found)
 

@@ -43,9 +43,12 @@ class EnergyBudget:
     kinetic_J: Annotated[np.ndarray, ("J", "kinetic energy")]
     strain_J: Annotated[np.ndarray, ("J", "strain energy")]
     gravity_J: Annotated[np.ndarray, ("J", "energy of the weight, from the height of the lower end")]
+    bed_J: Annotated[np.ndarray, ("J", "energy of the bed's spring")]
     end_work_J: Annotated[np.ndarray, ("J", "work of the force at the upper end since the start")]
     bending_J: Annotated[np.ndarray, ("J", "work against the shear forces since the start: bending")]
     viscous_J: Annotated[np.ndarray, ("J", "dissipated by the viscosity of shocks and of the material since the start")]
+    bed_damping_J: Annotated[np.ndarray, ("J", "dissipated by the damper of the bed since the start")]
+    friction_J: Annotated[np.ndarray, ("J", "dissipated by friction on the bed since the start")]
     scheme_space_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in space since the start")]
     scheme_time_J: Annotated[np.ndarray, ("J", "dissipated by the discretisation in time since the start")]
 
@@ -56,8 +59,9 @@ class EnergyBudget:
 
     def remainder_J(self) -> np.ndarray:
         """What the entries leave unexplained: energy at the start + work - everything found later."""
-        held = self.kinetic_J + self.strain_J + self.gravity_J
-        gone = self.bending_J + self.viscous_J + self.scheme_space_J + self.scheme_time_J
+        held = self.kinetic_J + self.strain_J + self.gravity_J + self.bed_J
+        gone = self.bending_J + self.viscous_J + self.bed_damping_J + self.friction_J
+        gone = gone + self.scheme_space_J + self.scheme_time_J
         return held[0] + self.end_work_J - held - gone
 
 

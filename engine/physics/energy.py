@@ -9,13 +9,14 @@ of the material, and against the shear forces, which is bending (with the paper'
 the strain varies, so its work is kept). What a step takes from the end and does not find again in these or in the
 energies
 
-    kinetic sum h m |V-|^2/2 | strain sum h mean(integral of f) | gravity sum h w0 z-
+    kinetic sum h m |V-|^2/2 | strain sum h mean(integral of f) | gravity sum h w0 z- | bed, its spring's
 
 is what the scheme dissipates: in time, stage powers times dt less the change of energies (the integrator's damping); in
 space, h (N-.q_t- - mean(N.q_t)) (products of means for means of products). Both are small where the solution is
-smooth, and belong to the dissipation of a shock where it is not.
+smooth, and belong to the dissipation of a shock where it is not. A bed takes h G-.V- of its load G, of which the nodal
+powers of its spring, damper and friction (`engine.physics.bed`) have columns; the rest is the scheme's in space.
 
-Columns of `energies`: time (s), then J; the first three are states, the others have grown since t = 0.
+Columns of `energies`: time (s), then J; the first four are states, the others have grown since t = 0.
 """
 
 import math
@@ -26,11 +27,12 @@ from ..compiled import by_kind, kernel
 from ..dimensions import shear_force
 from ..planar import columns as planar
 from ..spatial import columns as spatial
+from .bed import bed_energy, bed_powers, bed_under
 from .shocks import shock_tension
 from .tension.kernels import stored, tension
 
-TIME, KINETIC, STRAIN, GRAVITY, END_WORK, SHEAR, VISCOUS, SPACE, POWERS = range(9)  # POWERS: stage powers times dt
-WIDTH = 9
+TIME, KINETIC, STRAIN, GRAVITY, BED, END_WORK, SHEAR, VISCOUS, BED_DAMPING, FRICTION, SPACE, POWERS = range(12)
+WIDTH = 12  # POWERS: stage powers times dt
 SUMS = END_WORK  # the running sums are the columns from here on
 
 
@@ -38,7 +40,8 @@ SUMS = END_WORK  # the running sums are the columns from here on
 def energies_of(p, tables, C, row):
     """Kinetic, strain and gravity energy of a state C (n, 4 or 6) into a row; gravity from the lower end up."""
     half = C.shape[1] // 2
-    kinetic = strain = gravity = below = z = 0.0
+    kinetic = strain = gravity = bed = below = z = bed_below = 0.0
+    floored, anchor_z = bed_under(p)
     for k in range(C.shape[0]):
         square = 0.0
         for i in range(half):
@@ -52,8 +55,12 @@ def energies_of(p, tables, C, row):
             rise = 0.5 * h * (C[k - 1, half - 1] + C[k, half - 1])
             gravity += h * p.w0 * (z + 0.5 * rise)
             z += rise
+            if floored:
+                bed_here = bed_energy(p, anchor_z + z)
+                bed += 0.5 * h * (bed_below + bed_here)
+                bed_below = bed_here
         below = here
-    row[KINETIC], row[STRAIN], row[GRAVITY] = kinetic, strain, gravity
+    row[KINETIC], row[STRAIN], row[GRAVITY], row[BED] = kinetic, strain, gravity, bed
 
 
 @kernel
@@ -71,7 +78,7 @@ damping_of = by_kind(_undamped, _undamped, extra=_damped)
 
 @kernel
 def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
-    """Add one accepted step of dt (s) to sums (5,): END_WORK and what follows it.
+    """Add one accepted step of dt (s) to sums: END_WORK and what follows it.
 
     alphas: (alpha_m, alpha_f, gamma) of the step; before: Motion; C1, K1 (n, conserved): after it; Y: the new state,
     whose shear forces are the stage's; Q: nodal quantities, for the viscosity of the step.
@@ -85,6 +92,9 @@ def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
     N, rate = np.empty((2, half)), np.empty((2, half))  # of this node and of the one below, in turns
     V, A = np.empty((2, half)), np.empty((2, half))
     shear, viscous, axial = np.zeros(2), np.zeros(2), np.zeros(2)
+    bed, taken = np.zeros((2, 3)), np.zeros((2, 3))  # load; powers of its spring, damper and friction
+    floored, z = bed_under(p)
+    below = 0.0
     for k in range(n):
         a = k % 2
         square = before = stretching = 0.0
@@ -107,6 +117,13 @@ def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
         for i in range(half):
             N[a, i] = (T + T_v) * q[i] / length + S[i]
             shear[a] += S[i] * rate[a, i]
+        if floored:
+            if k > 0:
+                z += 0.5 * tables[p.grid_at + k - 1] * (below + q[half - 1])
+            below = q[half - 1]
+            U = V[a, 0], V[a, 1] if half == 3 else 0.0, V[a, half - 1]
+            load, taken[a, 0], taken[a, 1], taken[a, 2] = bed_powers(p, z, U)
+            bed[a, 0], bed[a, 1], bed[a, 2] = load
         if k > 0:
             h = dt * tables[p.grid_at + k - 1]
             means = kinetic = 0.0
@@ -120,6 +137,17 @@ def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
             )
             lift = 0.5 * p.w0 * (V[0, half - 1] + V[1, half - 1])
             sums[POWERS - SUMS] += h * (0.5 * (axial[0] + axial[1]) + kinetic + lift)
+            if floored:
+                spring = 0.5 * h * (taken[0, 0] + taken[1, 0])
+                damper, rub = 0.5 * h * (taken[0, 1] + taken[1, 1]), 0.5 * h * (taken[0, 2] + taken[1, 2])
+                sums[POWERS - SUMS] += spring
+                sums[BED_DAMPING - SUMS] += damper
+                sums[FRICTION - SUMS] += rub
+                of_load = (bed[0, 0] + bed[1, 0]) * (V[0, 0] + V[1, 0])
+                of_load += (bed[0, 2] + bed[1, 2]) * (V[0, half - 1] + V[1, half - 1])
+                if half == 3:
+                    of_load += (bed[0, 1] + bed[1, 1]) * (V[0, 1] + V[1, 1])
+                sums[SPACE - SUMS] += 0.25 * h * of_load - (spring + damper + rub)
     last = (n - 1) % 2
     for i in range(half):
         sums[END_WORK - SUMS] += dt * N[last, i] * V[last, i]

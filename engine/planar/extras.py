@@ -1,8 +1,9 @@
 """The laws of `engine.physics.extras` in the nodal quantities of the plane, and in its matrix."""
 
 from ..compiled import by_kind, kernel
+from ..physics.bed import bed_load
 from ..physics.ends import released
-from ..physics.extras import ZERO, bed_load, sum_of, surface_load, surface_turn, wetting
+from ..physics.extras import ZERO, sum_of, surface_load, surface_turn, wetting
 from ..record import HELD
 from ..spatial.vectors import mixed, quaternion
 from . import columns as col

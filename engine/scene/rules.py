@@ -206,7 +206,6 @@ def _output(sound: Sound) -> Facts:
     because, scheme = f"because solver.integrator is {integrator!r}", "because solver.scheme is 'paper-box'"
     energy = sound["output.energy"]
     yield energy and sound["water"] is not None, "output.energy", "false, because the budget knows of no water"
-    yield energy and sound["floor"] is not None, "output.energy", "false, because the budget knows of no floor"
     staged = energy and integrator in ("esdirk43", "trbdf2")
     yield staged, "output.energy", f"false, {because}: use one of one stage"
     yield energy and box, "output.energy", f"false, {scheme}: use 'conservation'"

@@ -1,7 +1,8 @@
 """The laws of `engine.physics.extras` in the nodal quantities in space, and in its matrix."""
 
 from ..compiled import by_kind, kernel
-from ..physics.extras import ZERO, bed_load, sum_of, surface_load, surface_turn, wetting
+from ..physics.bed import bed_load
+from ..physics.extras import ZERO, sum_of, surface_load, surface_turn, wetting
 from . import columns as col
 from .vectors import dot, mixed, put, put_rows, rows_of, vector
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..compiled import kernel
 from ..dimensions import add_update, eliminate, node_quantities, shape, tidy, update_size
-from ..physics.extras import on_the_bed
+from ..physics.bed import on_the_bed
 from ..physics.water import water
 from ..simd.select import where
 from .status import NEWTON_FAILED, NOT_FINITE, OK, STRAIN_BELOW_MINUS_ONE

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
-from ..physics.extras import with_landings
+from ..physics.bed import with_landings
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import STRETCH

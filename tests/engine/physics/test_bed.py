@@ -16,7 +16,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
 from engine import simulate
-from engine.physics.extras import bed_load
+from engine.physics.bed import bed_load
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, STILL, equilibrium, held, line, linear, positions
 

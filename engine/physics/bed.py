@@ -1,0 +1,162 @@
+"""The bed, z = 0, on the axis of the line: its load and energy, and what Newton's method and steps do where nodes land.
+
+At the depth p = -z a metre of line meets a spring that begins softly, up to the depth p_0 that its own weight has on
+it, a damper as soft, which does not pull, and Coulomb's friction, regular over the speed v_s:
+
+    N = max(k y(p) + c y'(p) p_t, 0),   y = p^2/(2 p_0) up to p_0, then p - p_0/2
+    G = ... - N z + mu N u/sqrt(u^2 + v_s^2)
+
+The spring holds k times the integral of y; what N p_t has beyond k y p_t the damper takes, |G.u| friction.
+Vectors have three components; a plane has y = 0. Numbers: of an EXTRA record (`engine.record`).
+"""
+
+import math
+
+from ..compiled import by_kind, kernel
+from ..spatial.vectors import affine, dot, mixed
+
+ZERO = (0.0, 0.0, 0.0)
+WITHIN = 0.99  # of the soft beginning
+
+
+@kernel
+def _spring(p, depth):
+    """y (m), y' and the integral of y (m2) at a depth (m)."""
+    onset, gate = p.bed_onset, min(max(depth, 0.0) / p.bed_onset, 1.0)
+    beyond = max(depth - onset, 0.0)
+    soft = 0.5 * onset * gate * gate
+    return soft + beyond, gate, onset * soft * gate / 3.0 + beyond * (0.5 * onset + 0.5 * beyond)
+
+
+@kernel
+def bed_load(p, in_motion, z, V):
+    """Load of the bed on a metre of line at the height z (m) of its axis: the load G has of it, its derivative by V
+    (rows) and by z."""
+    depth = -z
+    y, gate, _ = _spring(p, depth)
+    sinking = -in_motion * V[2]
+    N = p.bed_stiffness * y + p.bed_damping * gate * sinking
+    if depth <= 0.0 or N <= 0.0:
+        return ZERO, (ZERO, ZERO, ZERO), ZERO
+    by_depth = p.bed_stiffness * gate + (p.bed_damping * sinking / p.bed_onset if depth < p.bed_onset else 0.0)
+    by_sinking = in_motion * p.bed_damping * gate
+    u = (in_motion * V[0], in_motion * V[1], 0.0)
+    inverse = 1.0 / math.sqrt(u[0] * u[0] + u[1] * u[1] + p.bed_speed * p.bed_speed)
+    way = (p.bed_friction * inverse * u[0], p.bed_friction * inverse * u[1], -1.0)  # of the load over N
+    rub = in_motion * N * p.bed_friction * inverse
+    bent = -rub * inverse * inverse
+    rows = (
+        (rub + bent * u[0] * u[0], bent * u[0] * u[1], -way[0] * by_sinking),
+        (bent * u[0] * u[1], rub + bent * u[1] * u[1], -way[1] * by_sinking),
+        (0.0, 0.0, by_sinking),
+    )
+    return (N * way[0], N * way[1], -N), rows, (-way[0] * by_depth, -way[1] * by_depth, by_depth)
+
+
+@kernel
+def _no_bed(p):
+    return 0, 0.0
+
+
+@kernel
+def _with_bed(p):
+    return p.floored, p.anchor_z
+
+
+bed_under = by_kind(_no_bed, _no_bed, extra=_with_bed)  # is there one, and the height (m) of the anchor above it
+
+
+@kernel
+def _none_held(p, z):
+    return 0.0
+
+
+@kernel
+def _held(p, z):
+    return p.bed_stiffness * _spring(p, -z)[2]
+
+
+bed_energy = by_kind(_none_held, _none_held, extra=_held)  # in the spring at the height z (m), J/m
+
+
+@kernel
+def _no_powers(p, z, V):
+    return ZERO, 0.0, 0.0, 0.0
+
+
+@kernel
+def _powers(p, z, V):
+    load = bed_load(p, 1.0, z, V)[0]
+    spring = -p.bed_stiffness * _spring(p, -z)[0] * V[2]
+    return load, spring, load[2] * V[2] - spring, load[0] * V[0] + load[1] * V[1]
+
+
+# the load at the height z (m) and the velocity V, and its powers (W/m): into the spring, the damper, friction
+bed_powers = by_kind(_no_powers, _no_powers, extra=_powers)
+
+
+@kernel
+def _as_it_is(p, tables, stage, Y, work, factor, size):
+    return size
+
+
+@kernel
+def _on_the_bed(p, tables, stage, Y, work, factor, size):
+    """Mend an update of Newton's method, `factor` of D, where nodes land; returns the size by which it is judged.
+
+    An update that takes a node through all of the soft beginning ends within it: from there Newton's method comes to
+    the load; without this it goes to and fro where the damper stops the node at once. An update of size e leaves one of
+    e^2: so it counts for no less than the root of what the bed does otherwise than the matrix foresaw, over the weight
+    of the line. Speeds alone do not see that 1e-7 m may be this weight.
+    """
+    axes, over, height, most = work.C_tilde.shape[1] // 2, 1.0 / stage.cq, p.anchor_z, 0.0
+    weight = p.bed_stiffness * p.bed_onset * (p.nodes - 1)  # over the length of an element
+    for k in range(1, Y.shape[0] if p.floored else 1):
+        rise = work.C_tilde[k - 1, axes - 1] + work.C_tilde[k, axes - 1]
+        height += 0.5 * tables[p.grid_at + k - 1] * rise
+        V, dV = _velocity(axes, Y[k]), _velocity(axes, work.D[k])
+        before = mixed(1.0, V, -factor, dV)
+        low, high = height + over * before[2], height + over * V[2]
+        if min(low, high) <= -p.bed_onset and max(low, high) >= 0.0:
+            Y[k, 2 * axes - 1] = -(height + WITHIN * p.bed_onset) * stage.cq
+            size = max(size, 1.0)
+        load, rows, by_z = bed_load(p, stage.in_motion, low, before)
+        foreseen = mixed(1.0, affine(rows, mixed(factor, dV, 0.0, dV), load), high - low, by_z)
+        missed = mixed(1.0, bed_load(p, stage.in_motion, high, V)[0], -1.0, foreseen)
+        most = max(most, dot(missed, missed))
+    return max(size, (most / (weight * weight)) ** 0.25) if p.floored else size
+
+
+@kernel
+def _velocity(axes, row):
+    return row[axes], row[axes + 1] if axes == 3 else 0.0, row[2 * axes - 1]
+
+
+on_the_bed = by_kind(_as_it_is, _as_it_is, extra=_on_the_bed)
+
+
+@kernel
+def _as_embedded(p, tables, dt, Ys, Ks, X, error):
+    return error
+
+
+@kernel
+def _of_landing(p, tables, dt, Ys, Ks, X, error):
+    """The greater of the error of a Runge-Kutta step and, where it is too long for the bed's own motion, the speed that
+    the bed takes from a node in one stage, over the tolerance.
+
+    Later stages use that stage's force with weights of their own, and so a node may leave faster than it came; the
+    embedded estimate, in which the weights of the stage nearly cancel, does not see it. Ys, Ks: as in Trial; X: places.
+    """
+    s, at = Ks.shape[0], Ks.shape[2] - 1
+    rate = math.sqrt(p.bed_stiffness / p.m) + p.bed_damping / p.m
+    if p.floored and dt * rate > 1.0:
+        share = tables[p.method_at + s * s - 1] * dt * p.per_speed / p.rtol
+        for k in range(1, Ks.shape[1]):
+            if X[k, X.shape[1] - 1] < dt * abs(Ys[s - 1, k, at]):
+                for i in range(1, s):
+                    error = max(error, share * abs(Ks[i, k, at] - Ks[i - 1, k, at]))
+    return error
+
+
+with_landings = by_kind(_as_embedded, _as_embedded, extra=_of_landing)
