@@ -1,6 +1,6 @@
 """Beside measurements, other codes and exact solutions: every case with its source, a bar and a verdict, and a report.
 
-    python -m campaigns.validation                              all cases, in about seven minutes on two cores
+    python -m campaigns.validation                              all cases, in about five minutes on two cores
     python -m campaigns.validation --quick                      those that take no long run, in half a minute
     python -m campaigns.validation --only lindahl-1.25 jumper-4
 
@@ -16,7 +16,7 @@ from dataclasses import replace
 import engine
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
-from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK
+from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, missing
 
 
 def options(group) -> None:
@@ -28,6 +28,9 @@ def read(options: Namespace, faults: list[str]) -> None:
     """The cases that they ask for."""
     chosen = options.only or (QUICK if options.quick else CASES)
     options.cases = tuple(CASES[name] for name in CASES if name in chosen)
+    reasons = [missing(case) for case in options.cases]
+    if reasons and all(reasons):
+        faults.append(f"--only: given {' '.join(chosen)}: {reasons[0]}; allowed: a case that can be run here")
 
 
 def done(order: Order):
@@ -56,13 +59,9 @@ def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.plan import PEERS
     from campaigns.machinery.session import machine
 
-    peers = {peer.name: version(peer) or "(not installed)" for peer in PEERS if peer.name in cases_peers(order)}
+    asked = {case.options.get("peer") for case in order.own.cases}
+    peers = {peer.name: version(peer) or "(not installed)" for peer in PEERS if peer.name in asked}
     return {"cases": [case.name for case in order.own.cases], "peers": peers, "machine": machine()}
-
-
-def cases_peers(order: Order) -> set[str]:
-    """The other codes that are asked for."""
-    return {case.options["peer"] for case in order.own.cases if "peer" in case.options}
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:

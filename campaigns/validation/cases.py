@@ -109,10 +109,11 @@ def peer_jobs(case: Case) -> Iterator[Job]:
 
 def missing(case: Case) -> str:
     """Why a case is not run, "" where it is."""
-    from campaigns.accuracy.jobs import version
+    if case.family == "peer":
+        from campaigns.accuracy.jobs import version
 
-    if case.family == "peer" and not version(peer_of(case)):
-        return f"not installed: pip install {peer_of(case).package}, or the extra bench of this project"
+        peer = peer_of(case)
+        return "" if version(peer) else f"not installed: pip install {peer.package}, or the extra bench of this project"
     return case.not_run
 
 
