@@ -59,14 +59,8 @@ def page(rows: Iterable[dict]) -> str:
     for row in rows:
         if row["verdict"] != TOLD:
             error = "" if row.get("error") is None else f"{row['error']:.3g}"
+            bar = "" if row.get("bar") is None else f"{row['bar']:g} {row['unit']}"
             numbers = (str(row.get(name) or "").replace(" to ", "\u2013") for name in ("ours", "theirs"))
-            cells = (
-                f"`{row['case']}`",
-                row["quantity"],
-                *numbers,
-                error,
-                f"{row['bar']:g} {row['unit']}",
-                row["verdict"],
-            )
+            cells = f"`{row['case']}`", row["quantity"], *numbers, error, bar, row["verdict"]
             lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines) + "\n"
