@@ -2,7 +2,7 @@
 
 The size of an update is its largest entry in physical scales (strain, force, speed, angle, curvature); a larger one is
 shortened to size one. Positions, and with them the water, are renewed in each iteration but left out of the Jacobian,
-except at a waterline and on the bed (`engine.physics.submergence`, `engine.physics.extras`).
+except at a waterline and on the bed (`engine.physics.submergence`, `engine.physics.bed`).
 """
 
 import numpy as np

@@ -1,0 +1,80 @@
+"""Law: a line on the bed rests, at the default settings; what friction holds creeps as its regularisation says.
+
+Below the speed v_s friction is a viscosity mu w/v_s a metre, so that an axial wave of the lying line dies out at the
+slower rate s of m s^2 - (mu w/v_s) s + EA k^2 = 0. At rest the only force left is the rounding of tensions, EA 2^-52 an
+element: this is the speed v_s EA 2^-52/(h mu w), the bound of the creep here.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from engine import simulate
+from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear
+from tests.engine.physics.test_bed import CHAIN, EA, WEIGHT, G
+
+MU, V_S = 0.4, 0.01
+WIDTH = math.sqrt(4e-4 / math.pi)
+
+
+def bed(stiffness, critical, friction):
+    damping = critical * 2 * math.sqrt(stiffness * WEIGHT / G / WIDTH)
+    return {"stiffness_Npm3": stiffness, "damping_Nspm3": damping, "friction": friction, "friction_speed_mps": V_S}
+
+
+def rests(dimensions, EI, floor, duration_s):
+    more = {"floor": floor, "motion.dimensions": dimensions, "tether.tension": linear(EA)}
+    kept = {"output.step_s": duration_s / 50, "output.profiles": True}
+    scene = line(STILL, held(18.6, 5.0), more, kept, nodes=21, **CHAIN | {"bending_stiffness_Nm2": EI})
+    run = simulate(scene, duration_s=duration_s)
+    assert run.status == "ok", run.message
+    bound = V_S * EA * 2**-52 / (1.0 * MU * WEIGHT) * duration_s
+    for place in (run.profiles.x_m, run.profiles.z_m):
+        assert np.abs(place - place[0]).max() < bound
+
+
+BEDS = [bed(stiffness, critical, mu) for stiffness in (1e5, 3e9) for critical in (0.0, 1.0) for mu in (0.0, MU)]
+
+
+@pytest.mark.parametrize("floor", BEDS)
+def test_a_line_laid_down_rests(floor):
+    rests(2, 0.0, floor, 500.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("floor", BEDS)
+@pytest.mark.parametrize("EI", [0.0, 1.0])
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_a_line_laid_down_rests_for_hours(dimensions, EI, floor):
+    rests(dimensions, EI, floor, 1e4)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_what_friction_holds_creeps_as_its_regularisation_says(dimensions):
+    length, more = CHAIN["length_m"], {"floor": bed(1e5, 1.0, MU), "motion.dimensions": dimensions}
+    scene = line(DRY, held(1.001 * length, 0.0), more, {"tether.tension": linear(EA)}, nodes=41, **CHAIN)
+    rest = equilibrium(scene)
+    wave = 1e-6 * np.cos(math.pi * rest.s / length)
+    start = rest.Y.copy()
+    start[:, 0] += wave
+    motion = Motion(scene, 0.2, start=start)
+    found = [(t, (Y[:, 0] - rest.Y[:, 0]) @ wave / (wave @ wave)) for t, Y in motion.states()]
+    (t0, before), (t1, after) = found[1], found[-1]
+    m, c, stiff = WEIGHT / G, MU * WEIGHT / V_S, EA * (math.pi / length) ** 2
+    rate = (c - math.sqrt(c**2 - 4 * m * stiff)) / (2 * m)
+    assert math.log(before / after) / (t1 - t0) == pytest.approx(rate, rel=0.02)
+
+
+@pytest.mark.parametrize("floor", BEDS[4:])
+def test_a_line_laid_down_again_comes_to_rest(floor):
+    """Lifted by 0.4 m and laid down within 8 s: no landing makes energy, also where steps are long for the bed."""
+    times = np.linspace(0.0, 8.0, 81)
+    way = np.sin(math.pi * times / 8.0) ** 2
+    motion = {"law": "table", "time_s": times.tolist(), "displacement_m": [[0.2 * f, 0.0, 0.4 * f] for f in way]}
+    slack = {"law": "tabulated", "strain": [-0.5, 0.0, 1e-5, 0.1], "tension_N": [0.0, 0.0, 1.0, 1e4]}
+    more = {"floor": floor, "tether.tension": slack, "output.profiles": True}
+    run = simulate(line(STILL, held(18.6, 5.0, motion=motion), more, nodes=41, **CHAIN), duration_s=16.0)
+    assert run.status == "ok", run.message
+    late = run.profiles.time_s > 12.0
+    assert run.profiles.speed_mps[late].max() < 0.25 * run.profiles.speed_mps[~late].max()
