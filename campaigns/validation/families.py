@@ -149,10 +149,10 @@ def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Found:
     ours = np.array([lines.x_m[0], lines.z_m[0]])
     off = 100.0 * float(np.linalg.norm(ours - place, axis=0).max()) / scene.tether.length_m
     pull = 100.0 * float(np.abs(lines.tension_N[0] / tension - 1.0).max())
-    middle = (f"middle {x:.4f}, {z:.4f} m" for x, z in (at[:, len(s) // 2] for at in (ours, place)))
+    middle = (f"{x:.4f}, {z:.4f} m" for x, z in (at[:, len(s) // 2] for at in (ours, place)))
     numbers = {
         "place, largest": Number(*middle, off),
-        "tension, largest": Number(f"top {lines.tension_N[0, -1]:.4f} N", f"top {tension[-1]:.4f} N", pull),
+        "tension, largest": Number(f"{lines.tension_N[0, -1]:.4f} N", f"{tension[-1]:.4f} N", pull),
     }
     return Found(numbers, [("", s, ours[1], place[1])])
 
@@ -169,7 +169,7 @@ def free_motion(case: Case, runs: Sequence[Trajectory]) -> Found:
     right = frequencies(catenary(runs[0].scene), count)
     found = np.array([peak_near(at, power, one) for one in right])
     error = 100.0 * float(np.abs(found / right - 1.0).max())
-    said = (", ".join(f"{one:.4f}" for one in values) for values in (found, right))
+    said = (f"{values[0]:.4f} to {values[-1]:.4f} Hz" for values in (found, right))
     return Found({"frequencies, largest": Number(*said, error)}, [("", np.arange(1.0, count + 1.0), found, right)])
 
 
@@ -210,9 +210,7 @@ def whoi_mine(case: Case, runs: Sequence[Trajectory]) -> Found:
     off = 1e3 * float(np.hypot(ours["x_m"] - x, ours["z_m"] - z).max())
     apart = 100.0 * float(np.abs(ours["tension_N"] / pull - 1.0).max())
     numbers = {
-        "place, largest": Number(
-            f"top {ours['x_m'][-1]:.4f}, {ours['z_m'][-1]:.4f} m", f"top {x[-1]:.4f}, {z[-1]:.4f} m", off
-        ),
+        "place, largest": Number(f"{ours['x_m'][-1]:.4f}, {ours['z_m'][-1]:.4f} m", f"{x[-1]:.4f}, {z[-1]:.4f} m", off),
         "tension, largest": Number(span(ours["tension_N"], "N"), span(pull, "N"), apart),
     }
     return Found(numbers, [("", s, ours["x_m"], x)])

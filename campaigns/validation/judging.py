@@ -59,7 +59,7 @@ def page(rows: Iterable[dict]) -> str:
     for row in rows:
         if row["verdict"] != TOLD:
             error = "" if row.get("error") is None else f"{row['error']:.3g}"
-            bar = "" if row.get("bar") is None else f"{row['bar']:g} {row['unit']}"
+            bar = "" if row.get("bar") is None else f"{row['bar']:g} {row['unit'].partition(' of ')[0]}"
             numbers = (str(row.get(name) or "").replace(" to ", "\u2013") for name in ("ours", "theirs"))
             cells = f"`{row['case']}`", row["quantity"], *numbers, error, bar, row["verdict"]
             lines.append(f"| {' | '.join(cells)} |")
