@@ -189,13 +189,14 @@ def _held(record, end, place):
     motion = end.motion
     if motion is None:
         return
-    if motion.law == "harmonic":
-        record["end_motion"] = codes.HARMONIC
-        omega = 2 * math.pi / motion.period_s
-        record["end_at"] = place([*motion.amplitude_m, omega, motion.phase_rad, motion.ramp_s])  # `physics.ends`
-    else:
+    if motion.law == "table":
         record["end_motion"], record["end_n"] = codes.TABLE, len(motion.time_s)
         record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))
+        return
+    shaken, R = motion.law == "harmonic", getattr(motion, "radius_m", 0.0)
+    sine, cosine = (motion.amplitude_m, (0.0, 0.0, 0.0)) if shaken else ((0.0, 0.0, -R), (R, 0.0, 0.0))
+    record["end_motion"], omega = codes.HARMONIC, 2 * math.pi / motion.period_s
+    record["end_at"] = place([*sine, omega, motion.phase_rad, motion.ramp_s, *cosine])  # `physics.ends`
 
 
 def _turning(record, scene):

@@ -110,6 +110,8 @@ def end_speed(end: End) -> float:
         return 0.0
     if motion.law == "harmonic":
         return 2 * math.pi / motion.period_s * math.hypot(*motion.amplitude_m)
+    if motion.law == "circular":
+        return 2 * math.pi / motion.period_s * motion.radius_m
     steps = np.diff(motion.displacement_m, axis=0) / np.diff(motion.time_s)[:, None]
     return float(np.linalg.norm(steps, axis=1).max())
 

@@ -13,7 +13,8 @@ oscillations of 1 m at the default tolerances (`docs/held_lines.md`). In statics
 that is left to go (`engine.time.statics` puts it into end_x ... end_z).
 
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
-    harmonic  [amplitude x y z | omega | phase | ramp];  displacement amplitude r(t) sin(omega t + phase), r the ramp
+    harmonic  [A x y z | omega | phase | ramp | B x y z];  displacement r (A sin + B cos)(omega t + phase), r the ramp
+              (circular: A = (0, 0, -R), B = (R, 0, 0))
     table     [t (n) | for each of the n - 1 pieces, for x, y, z: v0 v1 v2], v = v0 + v1 d + v2 d^2 at d after its knot
 
 In the paper: eq. (30) motion of the buoy.
@@ -52,8 +53,13 @@ def end_velocity(p, tables, t):
         omega = tables[at + 3]
         angle = omega * t + tables[at + 4]
         gain, gain_rate = smooth_start(t, tables[at + 5])
-        rate = gain_rate * math.sin(angle) + gain * omega * math.cos(angle)
-        return tables[at] * rate, tables[at + 1] * rate, tables[at + 2] * rate
+        sine, cosine = math.sin(angle), math.cos(angle)
+        rate, other = gain_rate * sine + gain * omega * cosine, gain_rate * cosine - gain * omega * sine
+        return (
+            tables[at] * rate + tables[at + 6] * other,
+            tables[at + 1] * rate + tables[at + 7] * other,
+            tables[at + 2] * rate + tables[at + 8] * other,
+        )
     if p.end_motion == TABLE:
         piece, part, inverse = bracket(tables, at, p.end_n, t)
         if inverse > 0.0:

@@ -106,9 +106,21 @@ class HarmonicMotion(Section):
 
     law: Literal["harmonic"] = described("form of the motion of the held end; the other keys depend on it")
     amplitude_m: Vector = described("harmonic: amplitude of r(t) sin(2 pi t/period + phase), less its value at t = 0")
-    period_s: Positive = described("harmonic: period")
-    phase_rad: Number = described("harmonic: phase", 0.0)
-    ramp_s: NonNegative = described("harmonic: time of the ramp r = sin^2(pi t/(2 ramp)); 0: no ramp", 0.0)
+    period_s: Positive = described("harmonic, circular: period")
+    phase_rad: Number = described("harmonic, circular: phase", 0.0)
+    ramp_s: NonNegative = described(
+        "harmonic, circular: time of the ramp r = sin^2(pi t/(2 ramp)); 0: no ramp (harmonic only)", 0.0
+    )
+
+
+class CircularMotion(Section):
+    """A held end goes round a circle in x and z about its place: r(t) (R cos, -R sin)(2 pi t/period_s + phase_rad)."""
+
+    law: Literal["circular"]
+    radius_m: Positive = described("circular: radius of r(t) (cos, -sin)(2 pi t/period + phase) in x and z", symbol="R")
+    period_s: Positive = described("circular: period, from +x down")
+    phase_rad: Number = described("circular: phase", 0.0)
+    ramp_s: Positive = described("circular: time of the ramp r = sin^2(pi t/(2 ramp)), which begins at the centre")
 
 
 class TableMotion(Section):
@@ -137,7 +149,7 @@ class End(Section):
     force_decay_s: Positive | None = described(
         "fracture time: the force falls as cos^2(pi t/(2 t_br))", None, symbol="t_br", paper="section 4.1.1"
     )
-    motion: Annotated[HarmonicMotion | TableMotion, Field(discriminator="law")] | None = described(
+    motion: Annotated[HarmonicMotion | CircularMotion | TableMotion, Field(discriminator="law")] | None = described(
         "prescribed displacement of a held end", None, symbol="X_e"
     )
     release_s: Positive | None = described(

@@ -16,10 +16,14 @@ from typing import Literal, NamedTuple
 
 @dataclass(frozen=True)
 class Heading:
-    """A numbered heading; level 1 opens a section and appears in the contents, level 2 divides it."""
+    """A numbered heading; level 1 opens a section and appears in the contents, level 2 divides it.
+
+    page: whether it begins a page, in the PDF.
+    """
 
     text: str
     level: Literal[1, 2] = 1
+    page: bool = False
 
 
 @dataclass(frozen=True)

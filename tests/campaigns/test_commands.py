@@ -38,6 +38,7 @@ HELPS = {  # what each tells
     "campaigns.out_of_plane": "--periods",
     "campaigns.stability": "--fuzz",
     "campaigns.sweep": "--vary",
+    "campaigns.validation": "--only --quick",
 }
 ASKED = """
 import contextlib, runpy, sys

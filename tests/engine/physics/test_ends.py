@@ -51,6 +51,19 @@ def test_the_velocity_is_the_rate_of_the_stated_oscillation(phase, ramp, t):
     assert not harmonic(0.0, [1.0, 0.3, 0.5], 5.0, phase, ramp).any()
 
 
+@pytest.mark.parametrize("t", [0.3, 2.2, 5.9, 123.4])
+def test_the_velocity_on_a_circle_is_the_rate_of_the_stated_round(t, R=0.2, T=1.25, phase=0.4, ramp=2.5):
+    """R r(t) (cos, -sin): from +x down, at once after the ramp."""
+    rounds = {"radius_m": R, "period_s": T, "phase_rad": phase, "ramp_s": ramp}
+
+    def place(at):
+        r = np.sin(0.5 * np.pi * min(at / ramp, 1.0)) ** 2
+        return R * r * np.array([np.cos(2 * np.pi * at / T + phase), 0.0, -np.sin(2 * np.pi * at / T + phase)])
+
+    found = velocity(moved(law="circular", **rounds), t)
+    assert found == pytest.approx((place(t + 1e-4) - place(t - 1e-4)) / 2e-4, abs=1e-5)
+
+
 def test_a_table_is_passed_through_monotonically_and_at_rest_before_and_after():
     p, tables = parameters_of(line(STILL, moved(law="table", time_s=TIMES, displacement_m=DISPLACEMENTS)))
     t = np.linspace(0, 15, 30001)

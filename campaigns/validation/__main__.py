@@ -1,0 +1,5 @@
+"""`python -m campaigns.validation`."""
+
+from campaigns.validation import main
+
+raise SystemExit(main())

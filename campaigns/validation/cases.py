@@ -1,0 +1,147 @@
+"""The cases of `campaigns.validation`, read from cases.toml, the runs that they need, and the columns of the tables."""
+
+import itertools
+import math
+import tomllib
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
+from campaigns.machinery.plan import Job
+
+HOLDS, MISSES, NOT_RUN, TOLD = "holds", "misses", "not run", "told"
+DATA = Path(__file__).with_name("data")
+RUN = Column("run", symbol="run", meaning="scene, and what sets the run apart from it")
+COLUMNS = (RUN, STATUS, *STATISTICS, RUN_KEY, MESSAGE)
+JUDGED = (
+    Column("case", symbol="case", meaning="name of the case"),
+    Column("title", symbol="title", meaning="the case in words"),
+    Column("quantity", symbol="quantity", meaning="what is compared"),
+    Column("ours", symbol="ours", meaning="our number"),
+    Column("theirs", symbol="theirs", meaning="that of the source"),
+    Column("error", "", "error", "difference of the two, of the whole curves where rms is said, in the unit", 4),
+    Column("bar", "", "bar", "most that the error may be, set before the run", 4),
+    Column("unit", symbol="unit", meaning="unit of error and bar"),
+    Column("verdict", symbol="verdict", meaning="holds, misses, not run; told: a number that is not judged"),
+    Column("note", symbol="note", meaning="what was fitted and is not judged, or why there is no number"),
+    Column("source", symbol="source", meaning="whose numbers theirs are"),
+    Column("assumed", symbol="assumed", meaning="what no source says"),
+    Column("x_label", symbol="x", meaning="axis of the curves"),
+    Column("y_label", symbol="y", meaning="axis of the curves"),
+    Column("run_keys", symbol="keys", meaning="content keys of the runs"),
+)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case.
+
+    family: a function of `campaigns.validation.families`. changes: keys of the scene; vary: keys with a list each, of
+    which every combination is a run. duration_s, or rounds: of the periods of waves or of a moved end. bars: quantity
+    -> (most that its error may be, unit). quick: whether it is also part of `--quick`. not_run: why it cannot be.
+    """
+
+    name: str
+    title: str
+    family: str
+    source: str
+    assumed: str = ""
+    scene: str = ""
+    changes: dict = field(default_factory=dict)
+    vary: dict = field(default_factory=dict)
+    duration_s: float = 0.0
+    rounds: int = 0
+    bars: dict = field(default_factory=dict)
+    x_label: str = ""
+    y_label: str = ""
+    options: dict = field(default_factory=dict)
+    quick: bool = False
+    not_run: str = ""
+
+    def jobs(self) -> list[Job]:
+        """Its runs, in the order in which its family takes them."""
+        return [] if missing(self) else [*(peer_jobs if self.family == "peer" else own_jobs)(self)]
+
+
+def all_cases() -> Iterator[Case]:
+    """Every case, in the order of the report; a case takes from its group what it does not say itself."""
+    found = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+    for group in found["groups"].values():
+        for name, row in group.pop("cases").items():
+            changes = group.get("changes", {}) | row.get("changes", {})
+            yield Case(name, **(group | row | {"changes": changes}))
+
+
+CASES = {case.name: case for case in all_cases()}
+QUICK = tuple(case.name for case in CASES.values() if case.quick)
+
+
+def own_jobs(case: Case) -> Iterator[Job]:
+    """Runs of the engine."""
+    from engine import load_scene
+
+    for values in itertools.product(*case.vary.values()):
+        changes = {**case.changes, **dict(zip(case.vary, values, strict=True))}
+        scene = load_scene(case.scene, {key: None if value == "none" else value for key, value in changes.items()})
+        length_s = case.duration_s or case.rounds * period_of(scene)
+        run = ", ".join([case.scene, *(f"{key.rpartition('.')[2]} {shown(value)}" for key, value in changes.items())])
+        yield Job({"run": run}, scene, duration_s=length_s)
+
+
+def peer_jobs(case: Case) -> Iterator[Job]:
+    """A run of ours and one of another code, on a work of `campaigns.accuracy`."""
+    from campaigns.accuracy.jobs import other_code, scene_of, version
+    from campaigns.accuracy.plan import BY_NAME
+    from campaigns.machinery.folder import made_by
+
+    peer, work, setting = peer_of(case), BY_NAME[case.options["work"]], tuple(case.options["setting"])
+    yield Job({"run": f"{work.name}, ours"}, work.made({**peer.ours, **case.changes}), duration_s=case.duration_s)
+    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
+    simulate, made = (
+        partial(other_code, peer=peer, settings=setting),
+        f"{peer.name} {version(peer)} {setting} {sources}",
+    )
+    scene = scene_of(peer, work.name, setting[0])
+    yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=made)
+
+
+def missing(case: Case) -> str:
+    """Why a case is not run, "" where it is."""
+    if case.family == "peer":
+        from campaigns.accuracy.jobs import version
+
+        peer = peer_of(case)
+        return "" if version(peer) else f"not installed: pip install {peer.package}, or the extra bench of this project"
+    return case.not_run
+
+
+def peer_of(case: Case):
+    """The other code of a case (`campaigns.accuracy.plan.Peer`)."""
+    from campaigns.accuracy.plan import PEERS
+
+    return next(peer for peer in PEERS if peer.name == case.options["peer"])
+
+
+def period_of(scene) -> float:
+    """Period (s) of its waves, or of the motion of its end."""
+    return (scene.waves or scene.end.motion).period_s
+
+
+def shown(value: object) -> str:
+    """A value of a scene in few letters."""
+    if isinstance(value, dict):
+        return " ".join(f"{key} {shown(entry)}" for key, entry in value.items() if not isinstance(entry, list))
+    return f"{value:g}" if isinstance(value, float) and math.isfinite(value) else str(value)
+
+
+def jobs(cases: Iterable[Case]) -> list[Job]:
+    """The runs of all cases, each once: several cases may look at the same one. The longest come first."""
+    found = {job.key: job for case in cases for job in case.jobs()}
+    return sorted(found.values(), key=lambda job: -job.size)
+
+
+def run_row(trajectory) -> dict[str, object]:
+    """The columns of a run."""
+    return counted(trajectory)

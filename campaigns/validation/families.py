@@ -1,0 +1,216 @@
+"""What each family of cases compares: a function (case, runs) -> Found, runs in the order of `Case.jobs`."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from campaigns.validation.cases import DATA, Case, period_of
+from campaigns.validation.exact import catenary, frequencies
+from engine import Trajectory
+
+PHASES, SHIFTS = 1000, 2000  # samples of a period that is averaged; time shifts that are tried
+POUND_N = 4.4482216152605
+HISTORY_PERIODS_S, HISTORY_RADIUS_M = (1.25, 3.5), 0.2  # of lindahl_history.csv
+
+
+class Number(NamedTuple):
+    """A quantity of a case: ours and theirs in words, what the bar is held against, its unit where there is no bar."""
+
+    ours: str
+    theirs: str
+    error: float
+    unit: str = ""
+
+
+class Found(NamedTuple):
+    """numbers: quantity -> Number; curves: (name, x, ours, theirs), arrays of one length; note: what was fitted."""
+
+    numbers: dict[str, Number]
+    curves: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]
+    note: str = ""
+
+
+def table(name: str) -> np.ndarray:
+    """The numbers of a file of `data` (rows, columns); its first two lines are words."""
+    return np.loadtxt(DATA / name, delimiter=",", skiprows=2)
+
+
+def rms(difference: np.ndarray) -> float:
+    """Root of the mean square."""
+    return float(np.sqrt(np.mean(np.square(difference))))
+
+
+def over_a_period(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds: int) -> np.ndarray:
+    """The mean of the last `rounds` whole periods at PHASES even phases; a phase of 0 is a multiple of the period.
+
+    Raises ValueError where there are fewer periods.
+    """
+    last = int(time_s[-1] / period_s * (1.0 + 1e-9))
+    if rounds > last:
+        raise ValueError(f"{rounds} periods of {period_s:g} s are asked for, and the record has {last}")
+    phase = np.arange(PHASES) / PHASES
+    each = (np.interp((i + phase) * period_s, time_s, values) for i in range(last - rounds, last))
+    return np.mean([*each], axis=0)
+
+
+def shifted(steady: np.ndarray, period_s: float, time_s: np.ndarray, theirs: np.ndarray) -> tuple[np.ndarray, float]:
+    """(ours at their times, shift in s): the periodic signal of a period, shifted in time for the least rms."""
+
+    def at(shift_s: float) -> np.ndarray:
+        return np.interp(
+            (time_s + shift_s) / period_s % 1.0, np.arange(PHASES + 1) / PHASES, np.append(steady, steady[0])
+        )
+
+    shifts = np.arange(SHIFTS) * (period_s / SHIFTS)
+    best = min(shifts, key=lambda shift: rms(at(shift) - theirs))
+    return at(best), float(best)
+
+
+def span(values: np.ndarray, unit: str) -> str:
+    """ "0.10 to 67.30 N"."""
+    return f"{values.min():.2f} to {values.max():.2f} {unit}"
+
+
+def measured_history(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Top tension over a period against a measured one, both averaged over periods; rms as a share of their range."""
+    run, period_s = runs[0], period_of(runs[0].scene)
+    record = table("lindahl_history.csv")
+    whole = int(record[-1, 0] / period_s)
+    theirs = over_a_period(record[:, 0], record[:, case.options["column"]], period_s, whole)
+    steady = over_a_period(run.columns["time_s"], run.columns["tension_top_N"], period_s, case.options["rounds"])
+    time_s = np.arange(PHASES) / PHASES * period_s
+    ours, shift_s = shifted(steady, period_s, time_s, theirs)
+    error = 100.0 * rms(ours - theirs) / float(np.ptp(theirs))
+    numbers = {"history, rms": Number(span(ours, "N"), span(theirs, "N"), error)}
+    return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.3f} s")
+
+
+def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Mean of the maxima of the last periods against measured ones, one a run."""
+    rows = {(period, radius): largest for period, radius, largest in table("lindahl_maxima.csv")}
+    motions = [run.scene.end.motion for run in runs]
+    theirs = np.array([rows[motion.period_s, motion.radius_m] for motion in motions])
+    highs = ((run.columns["time_s"], run.columns["tension_top_high_N"], period_of(run.scene)) for run in runs)
+    ours = np.array([mean_maximum(*high, case.options["rounds"]) for high in highs])
+    apart, share = ours - theirs, 100.0 * (ours / theirs - 1.0)
+    said = span(ours, "N"), span(theirs, "N")
+    numbers = {
+        "maxima, rms": Number(*said, rms(apart)),
+        "maxima, mean size": Number(*said, float(np.abs(share).mean())),
+    }
+    curves = []
+    for radius in dict.fromkeys(motion.radius_m for motion in motions):
+        own = np.array([motion.radius_m == radius for motion in motions])
+        period = np.array([motion.period_s for motion in motions])[own]
+        curves.append((f"radius {radius:g} m", period, ours[own], theirs[own]))
+    time_s, *records = table("lindahl_history.csv").T
+    told = []
+    for period_s, record in zip(HISTORY_PERIODS_S, records, strict=True):
+        largest = mean_maximum(time_s, record, period_s, int(time_s[-1] / period_s))
+        told.append(f"{largest:.1f} for {rows[period_s, HISTORY_RADIUS_M]:.1f} N")
+    note = f"ours less theirs: {apart.min():+.1f} to {apart.max():+.1f} N"
+    note += f"; the measured histories themselves have {' and '.join(told)}"
+    return Found(numbers, curves, note)
+
+
+def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds: int) -> float:
+    """Mean over the last `rounds` periods of the largest value of each."""
+    back = np.minimum(((time_s[-1] - time_s) / period_s).astype(int), rounds)
+    return float(np.mean([values[back == i].max() for i in range(rounds)]))
+
+
+def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Top tension of the last period against that of another code, along its record; rms in kN."""
+    run, period_s = runs[0], period_of(runs[0].scene)
+    _, time_s, theirs = (rows := table("lowe_langley.csv"))[rows[:, 0] == case.options["record"]].T
+    steady = over_a_period(run.columns["time_s"], 1e-3 * run.columns["tension_top_N"], period_s, 1)
+    ours, shift_s = shifted(steady, period_s, time_s, theirs)
+    said = span(ours, "kN"), span(theirs, "kN")
+    numbers = {"tension, rms": Number(*said, rms(ours - theirs))}
+    if run.scene.waves is None:  # a motion with a stated start; of waves the phase is not known
+        as_is = np.interp(time_s / period_s % 1.0, np.arange(PHASES) / PHASES, steady, period=1.0)
+        numbers["without a shift, rms"] = Number(*said, rms(as_is - theirs), "kN")
+    return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
+
+
+def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Top tension at rest against a printed number, and the shape against the elastic catenary."""
+    found, right = 1e-3 * float(runs[0].columns["tension_top_N"][0]), case.options["tension_kN"]
+    numbers = {"tension at rest": Number(f"{found:.4g} kN", f"{right:.4g} kN", abs(found - right))}
+    return Found(numbers, [])
+
+
+def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Shape and tension at rest against the closed form (`campaigns.validation.exact`)."""
+    lines, scene = runs[0].profiles, runs[0].scene
+    exact = catenary(scene)
+    place, tension, s = exact.place(lines.s_m), exact.tension(lines.s_m), lines.s_m
+    ours = np.array([lines.x_m[0], lines.z_m[0]])
+    off = 100.0 * float(np.linalg.norm(ours - place, axis=0).max()) / scene.tether.length_m
+    pull = 100.0 * float(np.abs(lines.tension_N[0] / tension - 1.0).max())
+    middle = (f"{x:.4f}, {z:.4f} m" for x, z in (at[:, len(s) // 2] for at in (ours, place)))
+    numbers = {
+        "place, largest": Number(*middle, off),
+        "tension, largest": Number(f"{lines.tension_N[0, -1]:.4f} N", f"{tension[-1]:.4f} N", pull),
+    }
+    return Found(numbers, [("", s, ours[1], place[1])])
+
+
+def free_motion(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Peaks of the spectrum of a line that was plucked at its end, against the modes of the elastic catenary."""
+    lines, count = runs[0].profiles, case.options["modes"]
+    free = lines.time_s >= case.options["after_s"]
+    step_s = float(lines.time_s[1] - lines.time_s[0])
+    moved = np.concatenate([lines.x_m[free], lines.z_m[free]], axis=1)
+    window = np.hanning(len(moved))[:, None]
+    power = (np.abs(np.fft.rfft(window * (moved - moved.mean(axis=0)), axis=0)) ** 2).sum(axis=1)
+    at = np.fft.rfftfreq(len(moved), step_s)
+    right = frequencies(catenary(runs[0].scene), count)
+    found = np.array([peak_near(at, power, one) for one in right])
+    error = 100.0 * float(np.abs(found / right - 1.0).max())
+    said = (f"{values[0]:.4f} to {values[-1]:.4f} Hz" for values in (found, right))
+    return Found({"frequencies, largest": Number(*said, error)}, [("", np.arange(1.0, count + 1.0), found, right)])
+
+
+def peak_near(at: np.ndarray, power: np.ndarray, frequency: float) -> float:
+    """The peak of a spectrum within a tenth of a frequency, by a parabola through the logarithms of three values."""
+    near = np.flatnonzero(np.abs(at / frequency - 1.0) < 0.1)
+    top = near[np.argmax(power[near])]
+    left, middle, right = np.log(power[top - 1 : top + 2])
+    return float(at[top] + 0.5 * (left - right) / (left - 2.0 * middle + right) * (at[1] - at[0]))
+
+
+def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Strain along the line against the exact motion by characteristics; mean over line and time."""
+    from campaigns.accuracy.rows import strain_error
+    from campaigns.breaking_line.theory import theory_of
+
+    lines, shown = runs[0].profiles, case.options["shown_s"]
+    at = int(np.argmin(np.abs(lines.time_s - shown)))
+    exact = theory_of(runs[0].scene, float(lines.time_s[-1])).motion.at(lines.s_m, float(lines.time_s[at]))[0]
+    said = (f"{values.min():.4f} to {values.max():.4f}" for values in (lines.strain[at], exact))
+    return Found({"strain, mean": Number(*said, strain_error(runs[0]))}, [("", lines.s_m, lines.strain[at], exact)])
+
+
+def peer(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Distance of the buoy from its anchor against that of another code; rms as a share of its range."""
+    ours, theirs = (run.columns["radius_m"] for run in runs)
+    error = 100.0 * rms(ours - theirs) / float(np.ptp(theirs))
+    numbers = {"distance, rms": Number(span(ours, "m"), span(theirs, "m"), error)}
+    return Found(numbers, [("", runs[0].columns["time_s"], ours, theirs)])
+
+
+def whoi_mine(case: Case, runs: Sequence[Trajectory]) -> Found:
+    """Shape and tension at rest in a current against the printed table."""
+    rows, lines = table("whoi_mine.csv"), runs[0].profiles
+    s, x, z = rows[:, :3].T
+    pull = POUND_N * rows[:, 5]
+    ours = {name: np.interp(s, lines.s_m, getattr(lines, name)[0]) for name in ("x_m", "z_m", "tension_N")}
+    off = 1e3 * float(np.hypot(ours["x_m"] - x, ours["z_m"] - z).max())
+    apart = 100.0 * float(np.abs(ours["tension_N"] / pull - 1.0).max())
+    numbers = {
+        "place, largest": Number(f"{ours['x_m'][-1]:.4f}, {ours['z_m'][-1]:.4f} m", f"{x[-1]:.4f}, {z[-1]:.4f} m", off),
+        "tension, largest": Number(span(ours["tension_N"], "N"), span(pull, "N"), apart),
+    }
+    return Found(numbers, [("", s, ours["x_m"], x)])

@@ -1,0 +1,126 @@
+"""The validation campaign: its closed forms have known limits, its measures find what was put in, a verdict is what its
+bar says, and a small campaign works to its report and is not done twice."""
+
+import numpy as np
+import pytest
+
+from campaigns import validation
+from campaigns.validation import families
+from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, TOLD, Case
+from campaigns.validation.exact import Catenary, catenary, frequencies
+from campaigns.validation.families import Number
+from campaigns.validation.judging import verdict
+from engine import load_scene
+from reports import build
+from reports.parts.folder import FolderError
+from reports.validation.report import read_study
+from tests.campaigns.conftest import rows_of
+
+TAUT = Catenary(H=400.0, V=0.0, w=1e-7, EA=1e4, m=0.5, length=10.0)
+PERIOD_S = 2.5
+BARRED = Case("x", "a case", "peer", "a source", bars={"rms": (1.0, "N")})
+
+
+def wave(t):
+    return np.sin(2 * np.pi * t / PERIOD_S) + 0.3 * np.cos(4 * np.pi * t / PERIOD_S)
+
+
+def test_a_weightless_catenary_is_a_string_and_a_bar():
+    """Frequencies j/(2 L) sqrt(T/((1 + eps) m)) across and j/(2 L) sqrt(EA/m) along, L unstretched."""
+    across, along = (np.arange(1, 9) / 20.0 * np.sqrt(force / 0.5) for force in (400.0 / 1.04, 1e4))
+    expected = np.sort(np.concatenate([across, along]))[:8]
+    assert frequencies(TAUT, 8) == pytest.approx(expected, rel=1e-7)
+    assert TAUT.place(np.array([10.0]))[:, 0] == pytest.approx([10.4, 0.0], abs=1e-6)
+
+
+@pytest.mark.parametrize("end", [[14.0, 0.0, 0.0], [12.0, 0.0, 10.0], [22.0, 0.0, -5.0]])
+def test_a_catenary_ends_where_the_line_is_held_and_carries_its_weight(end):
+    line = catenary(load_scene("hanging_line", {"end.position_m": end, "tether.tension.stiffness_N": 100.0}))
+    assert line.place(np.array([0.0, line.length])).T == pytest.approx(
+        np.array([[0.0, 0.0], [end[0], end[2]]]), abs=1e-8
+    )
+    assert line.w * line.length == pytest.approx(1140.0 * 7.85e-5 * 9.81 * 20.0)
+
+
+def test_a_shift_in_time_is_found_and_leaves_nothing_over():
+    t = np.arange(0.0, 30.0, 0.001)
+    steady = families.over_a_period(t, wave(t), PERIOD_S, 4)
+    at = np.arange(0.0, 8.0, 0.1)
+    ours, shift_s = families.shifted(steady, PERIOD_S, at, wave(at + 0.6))
+    assert shift_s == pytest.approx(0.6, abs=PERIOD_S / families.SHIFTS)
+    assert families.rms(ours - wave(at + 0.6)) < 5e-3
+    with pytest.raises(ValueError, match="12 periods"):
+        families.over_a_period(t[:-1], wave(t[:-1]), PERIOD_S, 12)
+
+
+def test_the_peak_of_a_sine_is_found_between_the_lines_of_a_spectrum():
+    t = np.arange(0.0, 100.0, 0.05)
+    power = np.abs(np.fft.rfft(np.hanning(len(t)) * np.sin(2 * np.pi * 0.3137 * t))) ** 2
+    assert families.peak_near(np.fft.rfftfreq(len(t), 0.05), power, 0.31) == pytest.approx(0.3137, abs=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("number", "quantity", "word"),
+    [
+        (Number("1", "2", 1.0), "rms", HOLDS),
+        (Number("1", "2", 1.0 + 1e-9), "rms", MISSES),
+        (Number("1", "2", np.nan), "rms", MISSES),
+        (None, "rms", MISSES),
+        (Number("1", "2", 9.0, "N"), "another", TOLD),
+    ],
+)
+def test_a_verdict_is_what_its_bar_says(number, quantity, word):
+    assert verdict(BARRED, quantity, number)["verdict"] == word
+
+
+def test_every_case_has_a_source_a_bar_and_runs_and_measured_maxima_have_their_conditions():
+    for case in CASES.values():
+        assert case.source and case.bars and (case.not_run or hasattr(families, case.family)), case.name
+        assert case.family == "peer" or case.not_run or case.jobs(), case.name
+    runs = [job.scene.end.motion for job in CASES["lindahl-maxima"].jobs()]
+    assert sorted((motion.period_s, motion.radius_m) for motion in runs) == sorted(
+        (period, radius) for period, radius, _ in families.table("lindahl_maxima.csv")
+    )
+    assert {"lindahl-1.25", "lindahl-3.5", "moordyn"}.isdisjoint(QUICK)
+
+
+def made(folder, *words):
+    """The rows of cases.csv of a small campaign."""
+    assert validation.main([*words, "--backend", "threading", "--jobs", "1", "--out", str(folder)]) == 0
+    return {(row["case"], row["quantity"]): row for row in rows_of(folder, "cases.csv")}
+
+
+def test_a_small_campaign_judges_its_cases_and_is_not_done_twice(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("campaigns.accuracy.jobs.version", lambda peer: "")
+    words = ["--only", "catenary-slack", "whoi-mine", "whoi-waves", "moordyn"]
+    rows = made(tmp_path / "out", *words)
+    assert set(next(iter(rows.values()))) == {column.name for column in JUDGED}
+    assert {name for name, row in rows.items() if row["verdict"] == NOT_RUN} == {
+        ("whoi-waves", "tension"),
+        ("moordyn", "distance, rms"),
+    }
+    judged = [row for row in rows.values() if row["verdict"] != NOT_RUN]
+    assert len(judged) == 4 and all(row["verdict"] == HOLDS for row in judged)
+    said = capsys.readouterr().out
+    assert "2 of 4 cases hold" in said and "moordyn" in said
+    assert set(read_study(tmp_path / "out").points) == {"catenary-slack", "whoi-mine"}
+    assert rows == made(tmp_path / "out", *words)
+    assert ": 0 computed, 2 found" in capsys.readouterr().out
+
+
+def test_a_case_that_cannot_be_run_is_refused_where_it_is_all_that_is_asked_for(tmp_path, capsys):
+    assert validation.main(["--only", "whoi-waves", "--out", str(tmp_path / "out")]) == 2
+    assert "a case that can be run here" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def test_a_run_that_ends_early_misses_its_bar_and_a_folder_without_cases_is_refused(tmp_path):
+    def stopped(scene, periods=None, duration_s=None):
+        raise RuntimeError("no such run")
+
+    words = ["--only", "jumper-rest", "--backend", "threading", "--jobs", "1", "--no-report", "--out", str(tmp_path)]
+    assert validation.main(words, simulate=stopped) == 0
+    (row,) = rows_of(tmp_path, "cases.csv")
+    assert (row["verdict"], row["note"]) == (MISSES, "no result")
+    (tmp_path / "cases.csv").write_text("case\n")
+    with pytest.raises(FolderError, match=r"cases\.csv"):
+        build(tmp_path)
