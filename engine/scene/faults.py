@@ -51,10 +51,10 @@ class Allowed:
     text: str
 
 
-def shown(value: object) -> str:
+def shown(value: object, most: int = 60) -> str:
     """A value in a fault line: as TOML would show it, and short."""
     text = {"True": "true", "False": "false", "None": "nothing"}.get(repr(value), repr(value))
-    return text if len(text) <= 60 else text[:57] + "..."
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def fault(key: str, given: object, allowed: str) -> str:
@@ -158,7 +158,7 @@ def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
     where = f"allowed in {section}" if section else "allowed"
     allowed = f"; {where}: {', '.join(beside)}" if beside else ""
     meant = f"; did you mean {_INSTEAD[key]}?" if key in _INSTEAD else suggestion(key, keys)
-    return f"{key}: unknown key, given {shown(given)}{meant}{allowed}"
+    return f"{key}: unknown key, given {shown(given, 20)}{meant}{allowed}"
 
 
 def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
