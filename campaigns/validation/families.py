@@ -54,17 +54,16 @@ def over_a_period(time_s: np.ndarray, values: np.ndarray, period_s: float, round
     return np.mean([*each], axis=0)
 
 
+def along(steady: np.ndarray, period_s: float, time_s: np.ndarray) -> np.ndarray:
+    """A period (PHASES even phases) repeated for ever, at these times (s)."""
+    return np.interp(time_s / period_s % 1.0, np.arange(PHASES + 1) / PHASES, np.append(steady, steady[0]))
+
+
 def shifted(steady: np.ndarray, period_s: float, time_s: np.ndarray, theirs: np.ndarray) -> tuple[np.ndarray, float]:
     """(ours at their times, shift in s): the periodic signal of a period, shifted in time for the least rms."""
-
-    def at(shift_s: float) -> np.ndarray:
-        return np.interp(
-            (time_s + shift_s) / period_s % 1.0, np.arange(PHASES + 1) / PHASES, np.append(steady, steady[0])
-        )
-
     shifts = np.arange(SHIFTS) * (period_s / SHIFTS)
-    best = min(shifts, key=lambda shift: rms(at(shift) - theirs))
-    return at(best), float(best)
+    best = min(shifts, key=lambda shift: rms(along(steady, period_s, time_s + shift) - theirs))
+    return along(steady, period_s, time_s + best), float(best)
 
 
 def span(values: np.ndarray, unit: str) -> str:
@@ -121,17 +120,27 @@ def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds
 
 
 def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
-    """Top tension of the last period against that of another code, along its record; rms in kN."""
+    """Top tension of the last period against that of another code, along its record; rms in kN.
+
+    Where the option settled_s is given the record is judged from then on: its beginning is not yet periodic.
+    """
     run, period_s = runs[0], period_of(runs[0].scene)
     _, time_s, theirs = (rows := table("lowe_langley.csv"))[rows[:, 0] == case.options["record"]].T
     steady = over_a_period(run.columns["time_s"], 1e-3 * run.columns["tension_top_N"], period_s, 1)
-    ours, shift_s = shifted(steady, period_s, time_s, theirs)
+    settled = time_s >= case.options.get("settled_s", 0.0)
+    _, shift_s = shifted(steady, period_s, time_s[settled], theirs[settled])
+    ours = along(steady, period_s, time_s + shift_s)
     said = span(ours, "kN"), span(theirs, "kN")
-    numbers = {"tension, rms": Number(*said, rms(ours - theirs))}
+    numbers = {"tension, rms": Number(*said, rms((ours - theirs)[settled]))}
+    if not settled.all():
+        numbers["whole record, rms"] = Number(*said, rms(ours - theirs), "kN")
     if run.scene.waves is None:  # a motion with a stated start; of waves the phase is not known
-        as_is = np.interp(time_s / period_s % 1.0, np.arange(PHASES) / PHASES, steady, period=1.0)
+        as_is = along(steady, period_s, time_s)
         numbers["without a shift, rms"] = Number(*said, rms(as_is - theirs), "kN")
-    return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
+    note = f"ours shifted by {shift_s:.2f} s"
+    if not settled.all():
+        note += f"; judged from {time_s[settled][0]:.1f} s on, where their record repeats"
+    return Found(numbers, [("", time_s, ours, theirs)], note)
 
 
 def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Found:
