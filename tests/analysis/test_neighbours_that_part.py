@@ -171,7 +171,7 @@ def test_settings_of_ones_own_are_used(method):
 
 @METHODS
 def test_units_scale(method):
-    x, step = record("rossler", 6000)
+    x, step = record("rossler", 3000)
     assert method(-4.0 * x, 2.0 * step).value == pytest.approx(0.5 * method(x, step).value, rel=1e-9)
 
 

@@ -111,7 +111,7 @@ def test_an_error_is_a_refusal_only_where_it_names_a_key_and_what_is_allowed(mon
 @pytest.mark.parametrize(
     ("call", "way", "said"),
     [
-        (partial(time.sleep, 60), fuzz.LATE, "0.5 s"),
+        pytest.param(partial(time.sleep, 60), fuzz.LATE, "0.5 s", marks=pytest.mark.slow),
         (partial(os._exit, 3), fuzz.DIED, "3"),
         (lambda: 1 / 0, fuzz.RAISED, "ZeroDivisionError"),
         (lambda: "it is " + "done", fuzz.DONE, "done"),

@@ -4,6 +4,8 @@ import json
 import subprocess
 import sys
 
+import pytest
+
 PROGRAM = """
 import json, sys
 from numba.core.dispatcher import Dispatcher
@@ -35,6 +37,7 @@ def loaded(which):
     return json.loads(said.stdout)
 
 
+@pytest.mark.slow
 def test_runs_need_no_machine_code_but_that_of_their_pieces_which_are_apart():
     pieces, runs = loaded("all")
     assert pieces == runs

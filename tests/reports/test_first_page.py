@@ -191,6 +191,7 @@ def test_a_folder_without_an_answer_begins_with_what_the_report_says(tmp_path):
     assert opened(report, tmp_path, {}) == report
 
 
+@pytest.mark.slow
 def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
     times, render = [], reports.parts.html.render_html
     monkeypatch.setattr(reports.parts.html, "render_html", lambda report: times.append(1) or render(report))

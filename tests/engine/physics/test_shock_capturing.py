@@ -51,9 +51,9 @@ SLOW = pytest.mark.slow
 # grids, least order from grid to grid, greatest error on the first: a shock of 0.115, one that forms late, smooth
 # waves, steep edges (which cost half an order)
 ORDERS = [
-    pytest.param("4", GRIDS, 1.0 - 0.02, 1e-3),
+    pytest.param("4", GRIDS, 1.0 - 0.02, 1e-3, marks=SLOW),
     pytest.param("4p", GRIDS[:3], 1.0, 3e-4),
-    pytest.param("2p", GRIDS[1:], 1.9, 4e-6),
+    pytest.param("2p", GRIDS[1:], 1.9, 4e-6, marks=SLOW),
     *(pytest.param(case, GRIDS[1:], 1.9, 4e-6, marks=SLOW) for case in ("1p", "3p")),
     *(pytest.param(case, GRIDS[1:], 1.45, 1e-4, marks=SLOW) for case in ("1", "2")),
 ]

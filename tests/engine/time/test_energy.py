@@ -230,7 +230,7 @@ CASES = {  # overrides, run length (s), nodes; the first loop comes at 53 s
 }
 
 
-FAST = "moderate, in space", "moved end, in a plane"
+FAST = ("moderate, in space",)
 
 
 def books(name, nodes):

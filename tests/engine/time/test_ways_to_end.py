@@ -134,6 +134,7 @@ def test_a_twist_that_is_too_much_ends_as_a_row_too(turns):
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
 
 
+@pytest.mark.slow
 def test_a_run_that_newton_s_failures_hold_ends_with_its_reason():
     """A bent chain in space without stiffness in torsion: without the rule ten minutes of steps of a microsecond."""
     shaken = {"law": "harmonic", "amplitude_m": [0.1, 0.0, 0.1], "period_s": 2.0, "ramp_s": 1.0}
