@@ -109,7 +109,7 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
             state = states[b]
             begin, end = (ends[0], ends[1]), (ends[2], ends[3])
             hermite = state.small == 0
-            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, samples[b], profiles)
+            sample(records[b], tables[b], state, state.trial_dt, hermite, begin, end, None, samples[b], profiles)
 
 
 @kernel

@@ -11,9 +11,12 @@ from ..compiled import kernel
 from ..dimensions import size_of
 from ..physics.damping import left_after
 from ..physics.tension.kernels import tension
+from ..planar.columns import EPS  # in space the same column
+from ..record import STRAIN, TENSION
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 LEFT_BEHIND = 0.1  # phase (rad) in one passage along the line beyond which a wave is the grid's: it may be damped
+BEYOND = 0.05  # of the range of the stages of a step: cosines of up to 2 rad in a step have no extreme further off
 SMOOTH = 0.2  # phase (rad) of ringing in a step beyond which the tension may have an extreme worth seeing within
 
 
@@ -127,3 +130,22 @@ def watch_ringing(p, tables, state, top, low, high, jumps):
     if z > SMOOTH and not damped:
         state.low = min(state.low, low)
         state.high = max(state.high, high)
+
+
+@kernel
+def near_stages(p, tables, Ys, row):
+    """Keep the strains of a row of output within BEYOND of the range of the stages Ys (s, n, unknowns) of its step.
+
+    Only of a held end. What a step damps in waves that it does not resolve stays in its rates, omega times as large,
+    and a cubic through them swings; the stages do not. Where waves are resolved no strain is that far off.
+    """
+    if not p.all_waves:
+        return
+    for k in range(row.shape[0]):
+        low = high = Ys[0, k, EPS]
+        for i in range(1, Ys.shape[0]):
+            low, high = min(low, Ys[i, k, EPS]), max(high, Ys[i, k, EPS])
+        beyond = BEYOND * (high - low)
+        eps = min(max(row[k, STRAIN], low - beyond), high + beyond)
+        if eps != row[k, STRAIN]:
+            row[k, STRAIN], row[k, TENSION] = eps, tension(eps, p, tables)[0]

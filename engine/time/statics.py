@@ -7,6 +7,7 @@ Waves are left out; a current bends the tether. Held upper ends move to their pl
 """
 
 import math
+from itertools import product
 
 import numpy as np
 
@@ -30,7 +31,9 @@ MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
 LEANING = 1.0
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
-SINKING, STIFFER = 0.01, 10.0  # into the softest bed, of the length of the line; each stiffer one over the one before
+SINKING = 0.01, 0.1, 1.0, 0.03, 0.3  # into the softest bed, of the length of the line, tried in turn
+STIFFER = 10.0  # each bed over the one before
+PRESSED = 10.0  # of weight and buckling load together: more compression than that is no rest on a bed
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
@@ -40,32 +43,41 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
     that buckles, or tips over about a pinned anchor where the line is too stiff to buckle, and Newton's method meets it
     as easily as the slack one. Then other guesses are tried, at last a straight line that leans. Of rests that press
-    the line by more than its weight the one that does so least counts, if its bending can bear that.
+    the line by more than its weight the one that does so least counts, if its bending can bear that. On a bed a folded
+    line may be such a rest: there other beds to begin with are tried.
     """
     h, best = lengths_of(record, tables), None
-    weight = abs(float(record["w0"])) * float(np.sum(h))
-    for span in SPANS:
+    weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
+    capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])
+    for span, sinking in product(SPANS if capped else SPANS[:1], SINKING if bedded else SINKING[:1]):
         Y = first_guess(record, scene, h, span)
-        code = _settle_on_bed(record, tables, Y, target_m)
-        if not record["spherical_cap"]:
+        code = _settle_on_bed(record, tables, Y, target_m, sinking)
+        if not (capped or bedded):
             return code, Y
-        if code != OK:
+        if code != OK and not bedded:
             break
-        least = tension_at(float(Y[:, col.EPS].min()), scene.tether.tension)
-        if least >= -weight:
+        least = tension_at(float(Y[:, col.EPS].min()), scene.tether.tension) if code == OK else -math.inf
+        folded = bedded and _folded(Y)
+        if least >= -weight and not folded:
             return OK, Y
-        if best is None or least > best[0]:
-            best = least, Y
-    if best is not None and best[0] >= -weight - buckling_load(scene.tether, scene.end):
-        return OK, best[1]
+        if best is None or (not folded, least) > best[:2]:
+            best = not folded, least, Y
+    if best is not None and best[1] >= -(PRESSED * (weight + borne) if bedded else weight + borne):
+        return OK, best[2]
     return STATICS_FAILED, Y
 
 
-def _settle_on_bed(record, tables, Y, target_m):
-    """As `settle`, with a bed: first one so soft that its line sinks into it by SINKING, then stiffer ones."""
+def _folded(Y):
+    """Does a line turn by more than a right angle in one element?"""
+    q = lift.stretch_vectors(Y)
+    return bool(np.min(np.sum(q[1:] * q[:-1], axis=1)) < 0.0)
+
+
+def _settle_on_bed(record, tables, Y, target_m, sinking):
+    """As `settle`, with a bed: first one so soft that its line sinks into it, then stiffer ones."""
     soft = record.copy()
     if has_extras(record) and record["floored"]:
-        softer = SINKING * float(np.sum(lengths_of(record, tables))) / float(record["bed_onset"])
+        softer = sinking * float(np.sum(lengths_of(record, tables))) / float(record["bed_onset"])
         while softer > 1.0:
             soft["bed_stiffness"], soft["bed_onset"] = record["bed_stiffness"] / softer, record["bed_onset"] * softer
             trial = Y.copy()

@@ -14,7 +14,7 @@ at a time; others wait. The number of releases is part of the result.
 Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
 Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
 interpolated linearly. Positions are the sums of the interpolated q; strains are interpolated by themselves
-(`simd.elementary.strain_within`). Columns of samples and profiles: `engine.record`.
+(`simd.elementary.strain_within`), of held lines near their stages. Columns of samples and profiles: `engine.record`.
 """
 
 import math
@@ -32,7 +32,7 @@ from ..physics.shocks import deforming_element, renew_viscosity
 from ..planar.columns import EPS, TURN  # EPS: in space the same column
 from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
-from .ringing import jumps_of_rates, watch_ringing
+from .ringing import jumps_of_rates, near_stages, watch_ringing
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step, trial_error
 
@@ -164,10 +164,11 @@ def weights_within(hermite, theta, dt):
 
 
 @kernel
-def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
+def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
     """Store the samples and profiles that lie within the step from state.t to state.t + dt.
 
-    begin, end: conserved variables and rates (n, conserved) at its begin and its end; samples, profiles: of Output.
+    begin, end: conserved variables and rates (n, conserved) at its begin and its end; Ys: its stages, or None; samples,
+    profiles: of Output.
     """
     (C0, K0), (C1, K1) = begin, end
     n, until = C0.shape[0], state.t + dt
@@ -180,6 +181,8 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = configuration(
             p, tables, weights, C0, K0, C1, K1, row
         )
+        if hermite and Ys is not None:
+            near_stages(p, tables, Ys, row)
         add_damping(p, weights, share, begin, end, row)
         least = row[0, col.TENSION]
         for k in range(1, n):
@@ -197,6 +200,8 @@ def sample(p, tables, state, dt, hermite, begin, end, samples, profiles):
         theta = (t - state.t) / dt
         weights, share = weights_within(hermite, theta, dt), theta if hermite else 0.5
         configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
+        if hermite and Ys is not None:
+            near_stages(p, tables, Ys, profiles[state.profiles])
         add_damping(p, weights, share, begin, end, profiles[state.profiles])
         state.profiles += 1
     top = top_tension(p, tables, 1.0 if hermite else 0.5, C1, K0, K1)
@@ -256,7 +261,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
             continue
         # what lies within the accepted step goes into the output
         hermite = stiff and not small
-        sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), output.samples, output.profiles)
+        sample(p, tables, state, step.dt, hermite, (C, K), (trial.C, K_new), trial.Y, output.samples, output.profiles)
         if not small and state.ringing >= 0.0:
             if stiff:
                 low, high = stage_tensions(p, tables, trial.Y, trial.K)

@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 
-from engine import simulate
+from engine import load_scene, simulate
 from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear
 from tests.engine.physics.test_bed import CHAIN, EA, WEIGHT, G
 
@@ -78,3 +78,22 @@ def test_a_line_laid_down_again_comes_to_rest(floor):
     assert run.status == "ok", run.message
     late = run.profiles.time_s > 12.0
     assert run.profiles.speed_mps[late].max() < 0.25 * run.profiles.speed_mps[~late].max()
+
+
+@pytest.mark.parametrize(
+    ("place", "law", "rho", "stiffness"),
+    [
+        ([16.0, 0.0, 4.0], 5e4, 1140.0, 1e4),
+        ([18.0, 0.0, 1.0], 1e7, 7800.0, 1e5),
+        ([18.0, 0.0, 1.0], 5e4, 7800.0, 1e9),
+    ],
+)
+def test_a_line_that_folds_back_on_itself_is_no_rest(place, law, rho, stiffness):
+    """Pressed by a kilonewton such a line is in balance too; what lies and hangs is pulled by less than its weight."""
+    motion = {"law": "harmonic", "amplitude_m": [0.0, 0.0, 0.5], "period_s": 3.0}
+    changes = {"waves": None, "buoy": None, "end": {"kind": "held", "position_m": place, "motion": motion}}
+    changes |= {"tether.density_kgpm3": rho, "tether.tension.stiffness_N": law, "output.profiles": True}
+    scene = load_scene("tethered_buoy", changes | {"floor.stiffness_Npm3": stiffness, "floor.friction": 0.3})
+    weight = (rho - scene.water.density_kgpm3) * scene.tether.area_m2 * scene.gravity_mps2 * scene.tether.length_m
+    tension = simulate(scene, duration_s=0.05).profiles.tension_N[0]
+    assert -0.1 * weight < tension.min() and tension.max() < 0.2 * weight
