@@ -21,7 +21,7 @@ JUDGED = (
     Column("quantity", symbol="quantity", meaning="what is compared"),
     Column("ours", symbol="ours", meaning="our number"),
     Column("theirs", symbol="theirs", meaning="that of the source"),
-    Column("error", "", "error", "difference of the two, of the whole curves where rms is said, in the unit", 4),
+    Column("error", "", "error", "difference of the two, along the curves where rms is said, in the unit", 4),
     Column("bar", "", "bar", "most that the error may be, set before the run", 4),
     Column("unit", symbol="unit", meaning="unit of error and bar"),
     Column("verdict", symbol="verdict", meaning="holds, misses, not run; told: a number that is not judged"),

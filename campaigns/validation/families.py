@@ -127,19 +127,21 @@ def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
     run, period_s = runs[0], period_of(runs[0].scene)
     _, time_s, theirs = (rows := table("lowe_langley.csv"))[rows[:, 0] == case.options["record"]].T
     steady = over_a_period(run.columns["time_s"], 1e-3 * run.columns["tension_top_N"], period_s, 1)
-    settled = time_s >= case.options.get("settled_s", 0.0)
+    since_s = case.options.get("settled_s", 0.0)
+    settled = time_s >= since_s
     _, shift_s = shifted(steady, period_s, time_s[settled], theirs[settled])
     ours = along(steady, period_s, time_s + shift_s)
     said = span(ours, "kN"), span(theirs, "kN")
-    numbers = {"tension, rms": Number(*said, rms((ours - theirs)[settled]))}
-    if not settled.all():
+    name = f"tension from {since_s:g} s on, rms" if since_s else "tension, rms"
+    numbers = {name: Number(*said, rms((ours - theirs)[settled]))}
+    if since_s:
         numbers["whole record, rms"] = Number(*said, rms(ours - theirs), "kN")
     if run.scene.waves is None:  # a motion with a stated start; of waves the phase is not known
         as_is = along(steady, period_s, time_s)
         numbers["without a shift, rms"] = Number(*said, rms(as_is - theirs), "kN")
     note = f"ours shifted by {shift_s:.2f} s"
-    if not settled.all():
-        note += f"; judged from {time_s[settled][0]:.1f} s on, where their record repeats"
+    if since_s:
+        note += f"; judged from {since_s:g} s on, where their record repeats"
     return Found(numbers, [("", time_s, ours, theirs)], note)
 
 

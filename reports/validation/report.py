@@ -71,7 +71,7 @@ def summary(study: Study) -> Table:
     """One row a case and quantity that is judged."""
     rows = [row for one in study.cases.values() for row in one if row["verdict"] != "told"]
     caption = (
-        "Error: difference of ours from theirs, of the whole curves where rms is said. Bar: the most that it may be, "
+        "Error: difference of ours from theirs, along the curves where rms is said. Bar: the most that it may be, "
         "set before the run. From `cases.csv`."
     )
     return numbers(rows, ("title", "verdict", "quantity"), caption)
