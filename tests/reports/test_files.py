@@ -23,13 +23,13 @@ from engine import load_scene
 from reports import build, content_of
 from reports.__main__ import main
 from reports.buoy_sweep.report import report
-from reports.parts.content import Figure, Heading, Notice, Report, Sheet, Text, plain
+from reports.parts.content import Bullets, Figure, Heading, Notice, Picture, Report, Sheet, Text, plain
 from reports.parts.folder import read_rows
 from reports.parts.pdf import render_pdf
 from tests.reports.conftest import campaign
 
 ROOT = Path(__file__).parents[2]
-LINK = re.compile(rb"/Subtype ?/Link\b")
+LINK, PAGE = re.compile(rb"/Subtype ?/Link\b"), re.compile(rb"/Type ?/Page\b")
 needs_pdftotext = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="no pdftotext to read the PDF with")
 
 
@@ -107,6 +107,15 @@ def test_the_title_of_a_notice_stays_with_its_first_line(tmp_path):
     for k in range(80):
         (place,) = (page for page in pages if f"Title {k}." in page)
         assert f"Line {k}." in place
+
+
+@pytest.mark.parametrize("height", [110, 140])
+def test_the_first_picture_shrinks_to_the_page_of_the_answer(height):
+    """Over the whole width a picture of 100 by 140 would not fit there; behind it are the contents, on a second page."""
+    drawn = f'<svg xmlns="http://www.w3.org/2000/svg" width="100" height="{height}"><rect width="9" height="9"/></svg>'
+    figure = Figure(Picture(drawn.encode(), "svg"), "A caption.", "d")
+    items = (Bullets(("An answer of a line or two, as they are. " * 4,) * 6), Text("It took 2 s."), figure)
+    assert len(PAGE.findall(render_pdf(Report("a", "b", items)))) == 2
 
 
 def content(folder):
