@@ -111,7 +111,7 @@ def test_the_title_of_a_notice_stays_with_its_first_line(tmp_path):
 
 @pytest.mark.parametrize("height", [110, 140])
 def test_the_first_picture_shrinks_to_the_page_of_the_answer(height):
-    """Over the whole width a picture of 100 by 140 would not fit there; behind it are the contents, on a second page."""
+    """Over the whole width a picture of 100 by 140 would not fit there; the contents are on the second page."""
     drawn = f'<svg xmlns="http://www.w3.org/2000/svg" width="100" height="{height}"><rect width="9" height="9"/></svg>'
     figure = Figure(Picture(drawn.encode(), "svg"), "A caption.", "d")
     items = (Bullets(("An answer of a line or two, as they are. " * 4,) * 6), Text("It took 2 s."), figure)
