@@ -122,27 +122,21 @@ def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds
 def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
     """Top tension of the last period against that of another code, along its record; rms in kN.
 
-    Where the option settled_s is given the record is judged from then on: its beginning is not yet periodic.
+    The option settled_s tells too how far they are apart from then on: a record may not be periodic where it begins.
     """
     run, period_s = runs[0], period_of(runs[0].scene)
     _, time_s, theirs = (rows := table("lowe_langley.csv"))[rows[:, 0] == case.options["record"]].T
     steady = over_a_period(run.columns["time_s"], 1e-3 * run.columns["tension_top_N"], period_s, 1)
-    since_s = case.options.get("settled_s", 0.0)
-    settled = time_s >= since_s
-    _, shift_s = shifted(steady, period_s, time_s[settled], theirs[settled])
-    ours = along(steady, period_s, time_s + shift_s)
+    ours, shift_s = shifted(steady, period_s, time_s, theirs)
     said = span(ours, "kN"), span(theirs, "kN")
-    name = f"tension from {since_s:g} s on, rms" if since_s else "tension, rms"
-    numbers = {name: Number(*said, rms((ours - theirs)[settled]))}
-    if since_s:
-        numbers["whole record, rms"] = Number(*said, rms(ours - theirs), "kN")
+    numbers = {"tension, rms": Number(*said, rms(ours - theirs))}
+    if since_s := case.options.get("settled_s"):
+        later = time_s >= since_s
+        numbers[f"from {since_s:g} s on, rms"] = Number(*said, rms((ours - theirs)[later]), "kN")
     if run.scene.waves is None:  # a motion with a stated start; of waves the phase is not known
         as_is = along(steady, period_s, time_s)
         numbers["without a shift, rms"] = Number(*said, rms(as_is - theirs), "kN")
-    note = f"ours shifted by {shift_s:.2f} s"
-    if since_s:
-        note += f"; judged from {since_s:g} s on, where their record repeats"
-    return Found(numbers, [("", time_s, ours, theirs)], note)
+    return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
 
 
 def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Found:
