@@ -64,11 +64,11 @@ def test_a_record_in_waves_repeats_from_its_second_period_on(case, beginning_kN)
     _, time_s, tension_kN = rows[rows[:, 0] == CASES[case].options["record"]].T
     first, second, third = (np.interp(i * 10.0 + t[:198], time_s, tension_kN) for i in range(3))
     assert families.rms(second - first) == pytest.approx(beginning_kN, abs=0.01)
-    assert families.rms(third - second) < 0.11
+    assert (digitising := families.rms(third - second)) < 0.11
     columns = {"time_s": t, "tension_top_N": 1e3 * np.interp(10.0 + t, time_s, tension_kN)}
     run = SimpleNamespace(scene=CASES[case].jobs()[0].scene, columns=columns)
     whole, later = (number.error for number in families.computed_history(CASES[case], [run]).numbers.values())
-    assert later < 0.08 and later < whole
+    assert later < digitising and later < whole
 
 
 def test_the_peak_of_a_sine_is_found_between_the_lines_of_a_spectrum():
