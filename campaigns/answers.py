@@ -11,6 +11,7 @@ from pathlib import Path
 
 from campaigns.statements import FAILS, HOLDS, HOLDS_IF, OPEN, listed
 from campaigns.statements import FILE as STATEMENTS
+from engine.views import carries_tangents, in_regular_waves
 
 Row = Mapping[str, object]
 PERIODIC, QUASI, CHAOTIC = "period-", "quasi-periodic", "chaotic"
@@ -65,16 +66,17 @@ def verdicts(folder: Path, quoted: int) -> Iterator[str]:
         yield f"{'Further ones' if quoted else 'Those'} that do not: no. {listed(more)} of {STATEMENTS}."
 
 
-def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float]) -> tuple[list[str], list[str]]:
+def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) -> tuple[list[str], list[str]]:
     """Where the motion is regular, and of which kind; then chaos with its exponents, and what is not decided.
 
-    rows: of `buoy_sweep.rows`, sorted by `values`, called symbol. Without verdicts: whether motions repeat.
+    rows: of `buoy_sweep.rows`, sorted by `values`, called symbol; scene: of one of them. Without verdicts: whether
+    motions repeat, and what a verdict needs.
     """
     said = [str(row.get("regime") or "") for row in rows]
     if not any(said):
         found = [known(row, "strobed_period") for row in rows]
         if not any(map(math.isfinite, found)):
-            return ["No run is judged, and none repeats at t = k T: more --periods decide."], []
+            return [f"No run is judged, because {_lacking(scene)}."], []
         most, place = max(filter(math.isfinite, found)), spans([*map(math.isfinite, found)], values)
         return [f"No run is judged. Repeats after 1 to {most:g} wave periods: {symbol} = {place}."], []
 
@@ -97,6 +99,15 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float]) -> tuple[
     if more := "; ".join(f"{words} at {symbol} = {at(word)}" for word, words in OPEN_WORDS.items() if word in found):
         rest.append(f"Not decided: {more}.")
     return regular, rest
+
+
+def _lacking(scene) -> str:
+    """What a verdict needs that runs of this scene, none of which repeats, do not have."""
+    if not in_regular_waves(scene):
+        return "verdicts exist only for a buoy in regular waves"
+    if scene.motion.dimensions == 2 and not carries_tangents(scene):
+        return "verdicts in a plane need bending stiffness and an implicit integrator"
+    return "none repeats at t = k T within so few --periods"
 
 
 def _growth(rows: Sequence[Row]) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from campaigns.answers import Row, greatest, kilonewton, known, spans
 from campaigns.basins.grid import COLUMNS, PHASE
-from campaigns.buoy_sweep.answer import reasons
+from campaigns.buoy_sweep.answer import use_of
 from campaigns.motions.along import from_rest
 from campaigns.motions.starts import UNSETTLED
 from campaigns.statements import listed
@@ -45,8 +45,7 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
         yield f"It depends on how it is computed: {'; '.join(said)}."
     else:
         yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
-    if doubts := [*reasons(worst, scene)]:
-        yield f"The tension of {worst['motion']} is no load to design for, because {listed(doubts)}."
+    yield f"On the tension of {worst['motion']}: {use_of(worst, scene, searched=True)}"
 
 
 def _pull(one: Row) -> str:

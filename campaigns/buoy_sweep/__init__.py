@@ -47,7 +47,8 @@ def options(group) -> None:
     three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
     cli.add(group, "--dimensions", "|".join(DIMENSIONS), three, cli.one_of(DIMENSIONS))
     cli.add_evidence(group)
-    cli.add_accuracy(group)
+    without = "leave out the errors of the largest tensions and the runs with the wetted cap"
+    group.add_argument("--no-accuracy", action="store_true", help=without)
     fewer = "do not run further values between for the orbit diagram of a sweep of nine values or more"
     group.add_argument("--no-between", action="store_true", help=fewer)
     motions.add_options(group)
@@ -137,18 +138,15 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """What follows the runs (`campaigns.buoy_sweep.batches`): values between, the largest load, errors, a close-up."""
+    """What follows the runs (`campaigns.buoy_sweep.batches`): values between, the wetted cap, errors, a close-up."""
     from campaigns.buoy_sweep import batches
     from campaigns.buoy_sweep.errors import errors
-    from campaigns.buoy_sweep.rows import buoy_row
 
     if order.looks and not order.own.no_between and len(order.cases) >= batches.LEAST_VALUES:
         yield partial(batches.between, key=SWEPT, cases=order.cases)
     if not order.own.no_accuracy:
         yield partial(batches.companions, key=SWEPT, periods=order.periods)
-        row = partial(buoy_row, transient_periods=order.transient)
         yield errors
-        yield partial(batches.repeat, carrying=not order.looks, row_of=row, said="regime")
     yield partial(batches.close_up, periods=order.periods)
 
 

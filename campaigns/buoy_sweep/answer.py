@@ -9,12 +9,14 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from statistics import median
 
-from campaigns.answers import Row, greatest, kilonewton, known, regimes, spans
+from campaigns.answers import OPEN_WORDS, Row, greatest, kilonewton, known, regimes, spans
 from campaigns.machinery.session import MOST_LINES
 from campaigns.motions.along import from_rest
 from campaigns.statements import listed
+from engine.views import in_regular_waves
 
 PEAK, ERROR = "tension_top_max_N", "tension_top_max_error_N"
+HEIGHT = "max_buoy_height_above_water_m"
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
 MOST_ENDS = 4  # that are told
 TOLD = 3  # jumps beside the largest that are told
@@ -23,7 +25,7 @@ FLIES = "the sphere flies above still water with all its buoyancy (buoy.submerge
 LOOPS = "loops were released (motion.dimensions)"
 COARSE = 0.05  # of the largest tension: an error above it is told in words
 OTHER = "becomes another motion"  # said in a row's message (`errors.error_N`)
-AS_RUN, CAPPED = "as run", "wetted cap"  # roles of companions
+CAPPED = "wetted cap"  # role of companions
 
 
 def sentences(
@@ -38,7 +40,7 @@ def sentences(
         return ["No run lasts beyond the transient, so nothing can be said of the motion."]
     good.sort(key=lambda row: known(row, key))
     first = [row for row in good if from_rest(row)]
-    regular, rest = regimes(first, symbol, [known(row, key) for row in first])
+    regular, rest = regimes(first, symbol, [known(row, key) for row in first], scene)
     many = [*coexisting(good, key, symbol, ends)]
     said = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular] if many else regular
     found = [*said, *jumps(first, key, symbol), *rest, *many, *use(good, key, symbol, scene, companions)]
@@ -117,29 +119,50 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     times = f" ({known(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
     motion = "" if from_rest(peak) else f", motion {peak['motion']}"
     said = f"Largest tension {largest(peak)} at {symbol} = {known(peak, key):.4g}{motion}{times}"
-    sound = [row for row in companions if row["status"] == "ok"]
-    again = {str(row["role"]): row for row in sound if _of(row, key) == _of(peak, key)}
-    if (usual := again.pop(AS_RUN, None)) is not None and again:
-        words = (
-            f"{'with the' if role == CAPPED else 'on'} {role} {kilonewton(known(row, PEAK))}"
-            for role, row in reversed(again.items())
-        )
-        first, last = known(usual, "transient_periods"), known(usual, "periods")
-        said += f"; over periods {first:.0f} to {last:.0f} it is {kilonewton(known(usual, PEAK))}, {', '.join(words)}"
+    sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
+    for row in sound:
+        if _of(row, key) == _of(peak, key):
+            said += f"; with the {CAPPED} {kilonewton(known(row, PEAK))}"
     yield f"{said}."
-    doubts = [*reasons(peak, scene)]
-    if scene is None or scene.buoy is None:
+    searched = any(math.isfinite(known(row, "share")) for row in rows)
+    if scene is None:
         return
-    if not doubts:
-        yield "No loop was released in its run, and the buoy is loaded where it is wet: nothing here speaks against it."
+    yield use_of(peak, scene, searched)
+    free = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
+    if free is None or free is peak:
         return
-    yield f"It is no load to design for, because {listed(doubts)}."
-    others = [*rows, *(row for row in sound if row["role"] == CAPPED)]
-    free = greatest([row for row in others if not [*reasons(row, scene)]], PEAK)
-    if free is not None:
-        load, at = largest(free), f"at {symbol} = {known(free, key):.4g}"
-        capped = f"With the wetted cap the largest tension is {load}, {at}: use this one."
-        yield capped if free.get("role") == CAPPED else f"Largest tension without that: {load} {at}."
+    which = f"With the {CAPPED} the largest tension is" if free in sound else "Largest tension without that:"
+    yield f"{which} {largest(free)} at {symbol} = {known(free, key):.4g}. {use_of(free, scene, searched)}"
+
+
+def use_of(row: Row, scene, searched: bool) -> str:
+    """What speaks against using the tension of a row; else what was checked of it, and what was not.
+
+    searched: whether other motions were looked for.
+    """
+    doubts = [*reasons(row, scene)]
+    return f"It is no load to design for, because {listed(doubts)}." if doubts else f"{_checks(row, scene, searched)}."
+
+
+def _checks(row: Row, scene, searched: bool) -> str:
+    """What was checked of the tension of a row, and what was not, by what the row knows and the scene has."""
+    error, waves = known(row, ERROR) / known(row, PEAK), scene.waves
+    room = 3 in (known(row, "dimensions"), scene.motion.dimensions)
+    grid = f"grid and steps (± {100.0 * error:.2g} %)" if math.isfinite(error) else "grid and steps"
+    checks = {grid: math.isfinite(error), "loops": math.isfinite(known(row, "loop_releases"))}
+    if scene.buoy is not None and waves is not None:
+        wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
+        checks["wetted buoy"] = wetted or math.isfinite(known(row, HEIGHT))
+    if in_regular_waves(scene):
+        checks["that the motion has settled"] = row.get("regime") not in (None, "", *OPEN_WORDS)
+        checks |= {"other motions": searched, "an irregular sea": False}
+    elif waves is not None:
+        checks[f"a sea longer than its {known(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
+    if scene.water is not None:
+        checks["the sea bed"] = scene.floor is not None
+    checks["motion out of the plane"] = room
+    lists = (listed(name for name, made in checks.items() if made is wanted) for wanted in (True, False))
+    return "Checked: {}; not checked: {}".format(*lists)
 
 
 def largest(row: Row) -> str:
@@ -155,7 +178,7 @@ def _of(row: Row, key: str) -> tuple:
 def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
     if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
-        if row.get("role") != CAPPED and known(row, "max_buoy_height_above_water_m") > scene.buoy.diameter_m:
+        if row.get("role") != CAPPED and known(row, HEIGHT) > scene.buoy.diameter_m:
             yield FLIES
     if known(row, "loop_releases") > 0 and known(row, "dimensions") != 3:
         yield LOOPS

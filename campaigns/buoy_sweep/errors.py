@@ -19,9 +19,11 @@ import math
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from campaigns.answers import PERIODIC, kilonewton, known
 from campaigns.buoy_sweep.answer import COARSE, OTHER
-from campaigns.buoy_sweep.batches import UNFOLLOWED, Batch, changed, finer, maxima_of_blocks
+from campaigns.buoy_sweep.batches import UNFOLLOWED, Batch, changed, finer
 from campaigns.buoy_sweep.rows import ERROR
 from campaigns.columns import MESSAGE, PERIODS_RUN, RINGING, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import job_from, tighter_scene
@@ -93,8 +95,17 @@ def usual_max_N(trajectory, transient_periods: float, period: int | None) -> flo
     if period:
         samples = round(_whole(period) * scene.waves.period_s / scene.sample_step_s())
         return float(columns["tension_top_high_N"][-samples:].max())
-    largest = maxima_of_blocks(scene, columns, transient_periods, BLOCK)
+    largest = _maxima_of_blocks(scene, columns, transient_periods)
     return float(largest.mean()) if len(largest) else math.nan
+
+
+def _maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
+    """The largest tension (N) of every BLOCK wave periods after the transient."""
+    from analysis import block_maxima
+
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    first = round(transient_periods * period_s / step_s) + 1
+    return block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
 
 
 def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:

@@ -118,9 +118,7 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
     because across the plane a loop has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
-    if len(columns["time_s"]) and scene.water is not None:
-        top_m = scene.anchor.position_m[2] + float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
-        row["max_buoy_height_above_water_m"] = top_m - scene.water.depth_m
+    row[HEIGHT.name] = height_m(scene, columns)
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     periods = (len(columns["time_s"]) - 1) * step_s / period_s
     if periods >= 0.0:
@@ -154,6 +152,14 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
             **(exponents(WOLF, wolf) if wolf is not None else {}),
         }
     return row
+
+
+def height_m(scene, columns) -> float | None:
+    """How high the sphere of a run has risen above still water; None without either, or without a record."""
+    if scene.buoy is None or scene.water is None or not len(columns["time_s"]):
+        return None
+    top_m = scene.anchor.position_m[2] + float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
+    return top_m - scene.water.depth_m
 
 
 def judged(trajectory, periods: float, transient_periods: int | None, checks=None):

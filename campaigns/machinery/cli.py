@@ -137,12 +137,6 @@ def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) 
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
-def add_accuracy(group) -> None:
-    """Add --no-accuracy (`campaigns.buoy_sweep.batches`)."""
-    again = "do not repeat runs tighter, finer or with the wetted cap"
-    group.add_argument("--no-accuracy", action="store_true", help=again)
-
-
 def add_evidence(group) -> None:
     """Add --evidence."""
     more = "dynamics, or full: Wolf's exponent and the tests for records of unknown origin as well, seconds a run"

@@ -17,7 +17,6 @@ from functools import partial
 from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep.space import SEED_MPS, velocity
 from campaigns.judge import LEAST_JUDGED, judged_scene
-from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
@@ -103,6 +102,10 @@ def compared(one: Variant, base: Variant) -> bool:
     return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, in_plane(spatial))
 
 
+def options(group) -> None:
+    group.add_argument("--no-accuracy", action="store_true", help="changes nothing; scripts give it")
+
+
 def cases(order: Order) -> Iterator[Job]:
     """Every run of `variants` with its scene; planar ones carry perturbations."""
     base = base_of(order)
@@ -143,16 +146,8 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """Two of the runs at the paper's two waves again, tighter and finer; pairs.csv; statements.csv on figure 20."""
-    from campaigns.buoy_sweep.batches import repeat
-    from campaigns.out_of_plane.rows import offplane_row
-
+    """pairs.csv, and statements.csv on figure 20."""
     base = base_of(order)
-    if not order.own.no_accuracy:
-        waves = (base, replace(base, steepness=SMALL))
-        among = {case.key for case in order.cases if variant(case.labels) in waves}
-        row = partial(offplane_row, transient_periods=order.transient)
-        yield partial(repeat, carrying=True, row_of=row, said="rope_motion", among=among)
     yield partial(judge, base=base, transient=order.transient, quick=order.periods - order.transient < LEAST_JUDGED)
 
 
@@ -194,7 +189,7 @@ STUDY = Study(
     lengths=Lengths(periods=250, transient=50, share=5),
     in_waves=True,
     taken=_TAKEN,
-    options=cli.add_accuracy,
+    options=options,
     cases=cases,
     measures=measures,
     parameters=parameters,

@@ -10,12 +10,16 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from campaigns.breaking_line.lines import read_lines
 from campaigns.figure_data import Array, Source, source
 from campaigns.machinery.folder import Row, read_json, read_rows, run_of, stored_run, trajectory_path
 from campaigns.paper.measures import LARGE, SMALL, buckling_waves, calm_measures, scales, snaps, violent_measures
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
+NODES = (41, 81)  # of the part `doubled`
+EARLY = 10  # wave periods
 TREATED = ("above_still_water", "submergence")
 
 
@@ -93,7 +97,7 @@ class Results:
 
     lines: tuple[Row, ...] = ()  # runs of the breaking line (`breaking_line.lines`)
     buoy: dict[float, Row] = field(default_factory=dict)  # rows of the two long runs by steepness, with `snaps`
-    accuracy: tuple[Row, ...] = ()  # the same runs tighter and finer
+    doubled: tuple[Row, ...] = ()  # the two waves, with what twice the elements change (`_doubled`)
     sweep: tuple[Row, ...] = ()  # rows over steepness, one a motion
     # Rows of other depths, treatments and stiffnesses; those at the large wave, with linear waves continued above still
     # water, with `snaps`.
@@ -134,7 +138,7 @@ def read_results(directory: str | Path) -> Results:
         lambda *_: {"lines": read_lines(parts.root / "breaking_line")},
         lambda *_: {"sweep": parts.part("sweep").rows},
     )
-    for reader in (*whole_tables, _buoy, _dependence, _plane, _oscillator):
+    for reader in (*whole_tables, _buoy, _doubled, _dependence, _plane, _oscillator):
         with contextlib.suppress(LeftOut, OSError, ValueError, KeyError, TrajectoryError):
             found |= reader(parts, numbers)
     return Results(**found, numbers=numbers)
@@ -157,8 +161,23 @@ def _buoy(parts: Parts, numbers: dict) -> dict:
             rows[steepness] |= snaps(trajectory, transient)
             small = steepness == SMALL
             numbers |= calm_measures(trajectory, modes) if small else violent_measures(trajectory, transient)
-    again = part.folder / "accuracy" / "table.csv"
-    return {"buoy": rows, "accuracy": read_rows(again) if again.exists() else ()}
+    return {"buoy": rows}
+
+
+def _doubled(parts: Parts, numbers: dict) -> dict:
+    """Rows on the coarser grid, with the rms change of r (m) on the finer one, early and over the whole record."""
+    part = parts.part("doubled")
+    runs = {(row["waves.steepness"], row["tether.nodes"]): run_of(part.folder, row) for row in part.rows}
+    found = []
+    for row in part.rows:
+        coarse, fine = (runs.get((row["waves.steepness"], nodes)) for nodes in NODES)
+        if row["tether.nodes"] != NODES[0] or coarse is None or fine is None:
+            continue
+        off_m = fine.columns["radius_m"] - coarse.columns["radius_m"]
+        early = round(EARLY * coarse.scene.waves.period_s / coarse.scene.sample_step_s()) + 1
+        errors_m = {"error_early_m": off_m[:early], "error_m": off_m}
+        found.append(row | {name: float(np.sqrt(np.mean(values**2))) for name, values in errors_m.items()})
+    return {"doubled": tuple(found)}
 
 
 def _dependence(parts: Parts, numbers: dict) -> dict:

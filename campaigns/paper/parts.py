@@ -2,6 +2,7 @@
 
     DIR/breaking_line   section 4.1: eight cases and their companions (figures 2-7)
     DIR/buoy            section 4.2: the paper's two waves, long enough for a verdict (figures 9-19)
+    DIR/doubled         section 3: the paper's two waves on the grid as shipped and on twice the elements
     DIR/sweep           section 4.2: wave steepness between and beyond the two (the threshold)
     DIR/dependence      section 4.2 with other depths, treatments and stiffnesses (`campaigns.paper.dependence`)
     DIR/out_of_plane    figure 20
@@ -44,9 +45,11 @@ COLUMNS = (
 SOURCES = (
     "analysis",
     "engine",
-    *(f"campaigns/{name}" for name in ("machinery", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    "campaigns/machinery",
+    *(f"campaigns/{name}" for name in ("buoy_sweep", "sweep", "breaking_line", "oscillator", "out_of_plane")),
     *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data")),
-    *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "breaking_line", "oscillator", "out_of_plane")),
+    *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "sweep")),
+    *(f"reports/{name}" for name in ("breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
 )
 _TIMES = ("compile_s", "run_s")
@@ -54,13 +57,14 @@ _TIMES = ("compile_s", "run_s")
 
 _TWO = ("--steepness", "0.016", "0.13")
 _LONG = ("--periods", "8000", "--transient", "200", "--evidence", "full")  # the statements and figure 14 ask for it
-_ONCE = ("--no-accuracy",)  # the part buoy repeats its runs tighter and finer, and out_of_plane has grids of its own
+_GRIDS = ("--vary", "waves.steepness", "0.016", "0.13", "2", "--vary", "tether.nodes", "41", "81", "2")
 _SHORT = ("--periods", "60", "--transient", "10", "--no-accuracy")
 CAMPAIGNS = {  # part -> its command; the words of its command line, those of --quick
     "breaking_line": ("campaigns.breaking_line", (), ("--no-companions", "--set", "tether.nodes=401")),
     "buoy": ("campaigns.buoy_sweep", (*_TWO, *_LONG), (*_TWO, *_SHORT)),
-    "sweep": ("campaigns.buoy_sweep", _ONCE, ("--steepness-range", "0.016", "0.13", "6", *_SHORT)),
-    "out_of_plane": ("campaigns.out_of_plane", _ONCE, ("--periods", "12", "--no-accuracy")),
+    "doubled": ("campaigns.sweep", (*_GRIDS, "--periods", "135"), (*_GRIDS, "--periods", "60")),
+    "sweep": ("campaigns.buoy_sweep", ("--no-accuracy",), ("--steepness-range", "0.016", "0.13", "6", *_SHORT)),
+    "out_of_plane": ("campaigns.out_of_plane", (), ("--periods", "12")),
     "oscillator": ("campaigns.oscillator", (), ("--effort", "0.02")),
 }
 assert {*CAMPAIGNS, "dependence"} == set(PARTS)

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known
-from campaigns.buoy_sweep.answer import reasons
+from campaigns.buoy_sweep.answer import reasons, use_of
 from campaigns.columns import Column
 from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, SHARE, TENSION
 from campaigns.statements import listed
@@ -56,12 +56,11 @@ def sentences(
 def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
     some = sorted(motions, key=lambda one: -known(one, TENSION.name))
-    doubts = [*reasons(some[0], scene(some[0]))] if some else []
-    if not doubts:
-        return
     free = next((one for one in some if not [*reasons(one, scene(one))]), None)
-    best = "" if free is None else f"; without that it is {kilonewton(known(free, TENSION.name))}, at {_at(free, keys)}"
-    yield f"It is no load to design for, because {listed(doubts)}{best}."
+    for row in some[:1]:
+        searched = known(row, "share") == known(row, "share")
+        best = f" Without that it is {kilonewton(known(free, TENSION.name))}, at {_at(free, keys)}." if free else ""
+        yield use_of(row, scene(row), searched) + ("" if free is row else best)
 
 
 def _share(count: int, of: Sequence) -> str:

@@ -177,7 +177,7 @@ def measures(order: Order) -> Measures:
     from campaigns.buoy_sweep import rows
 
     labels = tuple(one.column for one in order.own.vary)
-    measured = (rows.DIMENSIONS, STATUS, *rows.EXTREMES, *STATISTICS, RUN_KEY, MESSAGE)
+    measured = (rows.DIMENSIONS, STATUS, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
     if any(in_regular_waves(case.scene) for case in order.cases):
         others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
@@ -191,12 +191,13 @@ def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int 
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
     """
-    from campaigns.buoy_sweep.rows import buoy_row, settled, sound_part
+    from campaigns.buoy_sweep.rows import HEIGHT, buoy_row, height_m, settled, sound_part
 
     scene = trajectory.scene
     if in_regular_waves(scene):
         return buoy_row(trajectory, transient_periods, checks, full)
     row, columns = counted(trajectory), sound_part(trajectory.columns)
+    row[HEIGHT.name] = height_m(scene, columns)
     transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
         row |= settled(scene, columns, transient_s)
@@ -225,7 +226,7 @@ def beside(order: Order) -> Iterator[Callable]:
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
     from campaigns.answers import greatest, known
-    from campaigns.buoy_sweep.answer import PEAK, largest, sentences
+    from campaigns.buoy_sweep.answer import PEAK, largest, sentences, use_of
 
     keys = [one.key for one in order.own.vary]
     if len(keys) == 1:
@@ -239,6 +240,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     if (peak := greatest(rows, PEAK)) is not None:
         where = " and ".join(f"{key} = {known(peak, key):.4g}" for key in keys)
         said.append(f"Largest tension {largest(peak)} at {where}.")
+        said.append(use_of(peak, order.cases[0].scene, searched=False))
     return said
 
 

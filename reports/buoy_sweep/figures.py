@@ -14,7 +14,7 @@ from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import NARROW_IN, Column, Range, orbit_diagram
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
-from ..parts.style import BLUE, INK, REGIME_COLOURS, VERMILION, WIDTH_IN
+from ..parts.style import BLUE, INK, REGIME_COLOURS, WIDTH_IN
 from ..parts.wording import T_I, T_S, count, decimals, number, printed
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, PEAK, lines, shares_panel, tension_panel
@@ -26,7 +26,7 @@ TANGENT, WOLF = (
 )  # the largest exponents in the table, each with its standard error
 _PERIOD = "period-"
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
-_CAP, _AS_RUN = "wetted cap", "as run"  # roles in companions/table.csv
+_CAP = "wetted cap"  # role in companions/table.csv
 _DEFINED = (
     "A run is looked at after 90, 135, 205, ... wave periods, each time without its first third. A word counts when "
     "two looks in a row find it, or a clear one from 465 periods on (docs/verdicts.md). Periodic: the strobed orbit "
@@ -113,11 +113,6 @@ def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterato
         yield f"(hatched: not settled); {exponent}."
     else:
         yield f"Below: time with less than 5 % of the static tension; {exponent}; {tension}."
-    for role, fine, coarse in _finer(sweep):
-        yield (
-            f"{role.capitalize()} at {fine.named}: {number(fine[PEAK] / 1e3, 3)} kN, where the run over the same "
-            f"periods has {number(coarse[PEAK] / 1e3, 3)}."
-        )
     left = [run for run in sweep.judged if run["regime"] in ("undecided", "transient")]
     if sweep.judged:
         yield f"Not decided: {sweep.at(left) if left else 'no run'}."
@@ -162,12 +157,9 @@ def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Pan
     several, label = bool(sweep.colours), f"largest T\n{unit}"
     shown = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
     shown = lines(sweep, drawn, PEAK, scale) if several else shown
-    if capped := _companions(sweep, _CAP):
+    if capped := _capped(sweep):
         look = {"line": "", "mark": "_", "colour": INK} if several else {"colour": BLUE}  # of one motion or another
         shown.append(Curve(_of(capped, "steepness"), scale * _of(capped, PEAK), _CAP, **look))
-    for role, fine, _ in _finer(sweep):
-        place = np.array([fine.steepness]), np.array([scale * fine[PEAK]])
-        shown.append(Curve(*place, role, "", "D", INK if several else VERMILION, size=4.0))
     if several:
         return tension_panel(sweep, drawn, shown, scale, label)
     return Panel(shown, y_label=label, settings={"ylim": (0.0, None)})
@@ -178,18 +170,11 @@ def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
     return Run(row if sweep.colours else {**row, "motion": ""})
 
 
-def _companions(sweep: Sweep, role: str) -> list[Run]:
-    """Those of a role in companions/table.csv that ended as asked, by steepness."""
+def _capped(sweep: Sweep) -> list[Run]:
+    """The runs with the wetted cap that ended as asked, by steepness."""
     part = part_of(sweep.folder, "companions")
     rows = in_order(part.table if part else (), ["steepness"])
-    return [_run(sweep, row) for row in rows if row["role"] == role and row["status"] == "ok"]
-
-
-def _finer(sweep: Sweep) -> Iterator[tuple[str, Run, Run]]:
-    """(role, the run on the finer grid, the run of the table cut to the same periods)."""
-    for coarse in _companions(sweep, _AS_RUN):
-        role = f"{2 * int(coarse['nodes']) - 1} nodes"
-        yield from ((role, fine, coarse) for fine in _companions(sweep, role) if fine.named == coarse.named)
+    return [_run(sweep, row) for row in rows if row["role"] == _CAP and row["status"] == "ok"]
 
 
 def close_up_items(sweep: Sweep) -> list[Item]:

@@ -1,13 +1,11 @@
-"""The tables of a buoy sweep: the runs, what is out of the plane, runs repeated, their cost, the scene."""
+"""The tables of a buoy sweep: the runs, what is out of the plane, their cost, the scene."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 
-from ..parts.columns import Name, number_of, plus_minus, table_of
+from ..parts.columns import Name, plus_minus, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
-from ..parts.folder import read_columns, read_rows
 from ..parts.provenance import scene_items, timing_items
 from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, OMEGA_THETA, T_S, decimals, listed, number, percent, ranges
 from ..sweep.quantities import over_key, series
@@ -24,31 +22,12 @@ _PLANE = (
     "max_turn_rad", "radius_min_m", "radius_max_m", "planar_radius_min_m", "planar_radius_max_m", "regime",
     "planar_regime",
 )  # fmt: skip
-_REPEATED = (
-    "role", "label", "run", "status", "nodes", "rtol", "periods", "error_early_m", "error_m", "tension_top_max_N",
-    "error_tension_early_N", "error_tension_N", "wall_s",
-)  # fmt: skip
-_REPORTED = (
-    "role", "label", "run", "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N",
-    "slack_fraction", ("tension_block_max_N", "tension_block_max_error_N"),
-    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "verdict",
-)  # fmt: skip
 _COST = ("wall_s", "newton_iterations")
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
     "`campaigns.out_of_plane` compares planar runs that release loops with runs in three dimensions, at kA = 0.13 and "
     "H = 21.0, 21.6 and 22.0 m, over 200 wave periods. Range of r, section, exponent and regime of the buoy agree; its "
     "path in time after the first loops, and the shape of the rope in a loop, do not."
-)
-_WHY_REPEATED = (
-    "Two runs were repeated at a tenth of the tolerance and at twice the elements: that whose tension peaks highest "
-    "(violent), and of the short ones that whose tension peaks lowest (regular). Past the limit of predictability r "
-    "differs by the size of the motion; verdicts and extremes are then what may be compared. A dash: not decided by a "
-    "record of this length."
-)
-_NOT_REPEATED = (
-    "No run was repeated (`--no-accuracy`, or none ended as asked), so that nothing is known of the error of this "
-    "sweep. What tolerance and grid give in general: docs/how_far_to_trust_a_run.md."
 )
 
 
@@ -116,27 +95,6 @@ def plane_items(sweep: Sweep) -> list[Item]:
         )
         items += [Text(COMPARED), sweep_table(sweep, _PLANE, shown, caption)]
     return items
-
-
-def accuracy_items(directory: Path) -> list[Item]:
-    """The sweep's own error against run time, from `accuracy/table.csv`; a sentence where the check was left out."""
-    heading, rows = Heading("Error against run time"), read_rows(directory / "accuracy" / "table.csv")
-    if not rows:
-        return [heading, Text(_NOT_REPEATED)]
-    own = {
-        "label": lambda row: number(float(row["label"])),
-        "rtol": lambda row: number(number_of(row["rtol"] or row["step_s"])),
-    }
-    caption = "Runs repeated: what changed against the run as it was made. From `accuracy/table.csv`."
-    columns = read_columns(directory / "accuracy")
-    names = *(name for name in ("motion",) if name in columns), *_REPEATED
-    found = [heading, Text(_WHY_REPEATED), table_of(columns, names, rows, caption, own)]
-    told = tuple(name for name in _REPORTED if _pair(name)[0] in columns)
-    caption = (
-        "What the repeated runs report, after the first third of their periods: of a chaotic motion these may be "
-        "compared, the mean of the largest tensions within its error. From `accuracy/table.csv`."
-    )
-    return [*found, table_of(columns, told, rows, caption, own)] if len(told) > 4 else found
 
 
 def time_items(sweep: Sweep) -> list[Item]:

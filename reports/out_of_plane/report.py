@@ -4,7 +4,6 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..buoy_sweep.tables import accuracy_items
 from ..parts.content import Heading, Item, Notice, Report
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
@@ -35,7 +34,6 @@ def report(directory: str | Path) -> Report:
         *sections.grid_items(study),
         *sections.shape_items(study),
         *sections.comparison_items(study),
-        *accuracy_items(study.folder.directory),
         Heading("Warnings"),
         *_warnings(study),
         Heading("Table of runs"),

@@ -19,6 +19,7 @@ __all__ = ["beside", "report"]
 PARTS = {
     "breaking_line": "the breaking line, section 4.1, figures 2 to 7",
     "buoy": "the buoy at the paper's two waves, section 4.2, figures 9 to 19",
+    "doubled": "the two waves on twice the elements, section 3",
     "sweep": "the buoy over wave steepness",
     "dependence": "other depths, treatments and stiffnesses (told below)",
     "out_of_plane": "out of the plane of the waves, figure 20",

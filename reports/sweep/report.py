@@ -17,6 +17,7 @@ from .quantities import Measured, at, colours_of, extremes, in_order, measured, 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _LONGEST = 24  # letters of a cell of the tables of runs
 _NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")
+_SOUND = "Every run reached its full length, and no axial ringing is left; the answer says what else was checked."
 _EXTREMES = "Least and greatest value of every column that is not the same in all runs."
 _SCENE = "The scene as run, from `scene.toml`, with the first value of what is varied."
 _COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
@@ -103,7 +104,7 @@ def _failed(keys: Sequence[Quantity], rows) -> Notice:
         and (float(row.get("unresolved_ringing_N") or 0.0) > 0.0 or "largest tension" in str(row["message"]))
     ]
     if not failed and not less:
-        return Notice("note", "Nothing to warn of", ("Every run reached its full length.",))
+        return Notice("note", "Nothing to warn of", (_SOUND,))
     lines = (": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less)
     return Notice("warning", "Runs that failed" if failed else "Tensions that hold less", tuple(lines))
 

@@ -1,5 +1,5 @@
-"""What the buoy sweep runs beside its values: runs in space where the plane is not enough, two runs again tighter and
-finer, the most violent one again with its line; and nothing twice.
+"""What the buoy sweep runs beside its values: runs in space where the plane is not enough, flying spheres again with a
+wetted cap, the most violent run again with its line; and nothing twice.
 """
 
 import io
@@ -13,11 +13,9 @@ from PIL import Image
 
 from campaigns import buoy_sweep
 from campaigns.buoy_sweep import batches
-from campaigns.buoy_sweep.answer import AS_RUN
-from campaigns.buoy_sweep.batches import ACCURACY, FINER, FRAMES, PERIODS, TIGHTER, chosen
+from campaigns.buoy_sweep.batches import FRAMES, PERIODS, of_largest_tension
 from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.buoy_sweep.space import SEED_MPS
-from campaigns.columns import names
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of
@@ -27,24 +25,7 @@ from tests.campaigns.conftest import finished, forget, rows_of
 from tests.campaigns.fake_engine import FakeEngine, shapes, sines
 
 THREE = ("0.02", "0.05", "0.13")
-TOLERANCE_M, GRID_M = 0.02, 4.0  # error of r at rtol 1 and with one element, as sines of their own
-GRID_N = 1e6  # error of the tension with one element
-REPEATED = ["--periods", "12", "--transient", "2", "--no-report"]
 SHOWN = ["--periods", "15", "--transient", "3", "--no-report", "--no-accuracy"]
-
-
-@dataclass(frozen=True)
-class Drifting(FakeEngine):
-    """A FakeEngine whose r depends on tolerance and grid, and whose tension on grid and steepness of the wave."""
-
-    def __call__(self, scene, periods=None, duration_s=None):
-        run = super().__call__(scene, periods, duration_s)
-        t, nodes = run.columns["time_s"], scene.tether.nodes
-        off = (TOLERANCE_M * scene.solver.rtol + GRID_M / (nodes - 1) ** 2) * np.sin(0.7 * t)
-        columns = run.columns | {"radius_m": run.columns["radius_m"] + off}
-        columns["tension_top_high_N"] = columns["tension_top_high_N"] * (1.0 + scene.waves.steepness)
-        columns["tension_top_high_N"] = columns["tension_top_high_N"] + GRID_N / (nodes - 1) ** 2
-        return replace(run, columns=columns)
 
 
 @dataclass(frozen=True)
@@ -65,60 +46,10 @@ class Slackening(FakeEngine):
         return replace(run, profiles=shapes(run))
 
 
-@pytest.fixture
-def repeated(sweep):
-    """repeated() -> exit code, table of the folder accuracy, steepness of the runs begun."""
-
-    def run():
-        code, _, begun = sweep("--steepness", "0.016", "0.05", "0.13", usual=REPEATED, kind=Drifting)
-        return code, rows_of(sweep.out / "accuracy"), begun
-
-    run.out = sweep.out
-    return run
-
-
-def test_the_least_and_the_most_violent_run_are_repeated_with_the_errors_that_were_put_in(repeated):
-    _, rows, _ = repeated()
-    assert [row["steepness"] for row in rows_of(repeated.out)] == ["0.016", "0.05", "0.13"], "a table of its own"
-    assert [(row["role"], row["label"]) for row in rows] == 3 * [("regular", "0.016")] + 3 * [("violent", "0.13")]
-    assert [row["run"] for row in rows] == 2 * [AS_RUN, TIGHTER, FINER]
-    assert {row["periods"] for row in rows} == {"12"}
-    assert set(rows[0]) == set(names(ACCURACY))
-    scene = load_scene("tethered_buoy")
-    nodes, rtol = scene.tether.nodes, scene.solver.rtol
-    rms = np.sqrt(np.mean(np.sin(0.7 * np.arange(1001) * 0.05) ** 2))
-    expected = {
-        AS_RUN: (nodes, rtol, 0.0),
-        TIGHTER: (nodes, rtol / 10, 0.9 * TOLERANCE_M * rtol * rms),
-        FINER: (2 * nodes - 1, rtol, 0.75 * GRID_M / (nodes - 1) ** 2 * rms),
-    }
-    for row in rows:
-        found = [float(row[name]) for name in ("nodes", "rtol", "error_early_m")]
-        assert found == pytest.approx(expected[row["run"]], rel=1e-6, abs=1e-15)
-        less_N = 0.75 * GRID_N / (nodes - 1) ** 2 if row["run"] == FINER else 0.0
-        for name in ("error_tension_N", "error_tension_block_max_N"):
-            assert float(row[name]) == pytest.approx(-less_N, rel=1e-6, abs=1e-9)
-        assert float(row["error_tension_top_min_N"]) == float(row["error_slack_fraction"]) == 0.0
-
-
-def test_repeated_again_nothing_is_computed(repeated):
-    _, rows, _ = repeated()
-    killed_within = [repeated.out / folder / "trajectories" / ".run.nc.1.tmp" for folder in ("accuracy", "")]
-    for path in killed_within:
-        path.touch()
-    assert repeated() == (0, rows, [])
-    assert not any(path.exists() for path in killed_within)
-
-
-def test_a_sweep_that_leaves_it_out_repeats_nothing(sweep):
-    assert sweep("--steepness", "0.016", "0.05", kind=Drifting)[0] == 0
-    assert not (sweep.out / "accuracy").exists()
-
-
-def test_runs_that_failed_are_not_chosen():
+def test_runs_that_failed_are_not_repeated():
     good = {"status": "ok", "run_key": "a", "tension_top_max_N": 10.0}
     wild = {"status": "newton-failed", "run_key": "b", "tension_top_max_N": 99.0}
-    assert chosen([wild]) == [] and chosen([good, wild]) == [("regular", good)]
+    assert of_largest_tension([wild]) is None and of_largest_tension([good, wild]) is good
 
 
 @pytest.fixture
@@ -146,14 +77,12 @@ def test_between_judged_values_there_are_about_as_many_in_each_gap_and_two_hundr
     assert all(job.scene.output.tangent_vectors == 0 for job in jobs)
 
 
-def test_the_largest_tension_has_its_companions_and_every_flying_sphere_a_wetted_cap(nine):
+def test_every_flying_sphere_has_a_wetted_cap(nine):
     plan, summary, cases, jobs = nine
     batches.companions(plan, summary, "waves.steepness", 1500)
     values = [job.labels["steepness"] for job in cases]
-    assert [job.labels["role"] for job in jobs] == [*4 * ["wetted cap"], "as run", "81 nodes"]
-    assert [job.labels["steepness"] for job in jobs] == [*values[5:], values[-1], values[-1]]
-    assert [job.scene.buoy.submergence for job in jobs] == [*4 * ["spherical-cap"], *2 * ["full"]]
-    assert [job.scene.tether.nodes for job in jobs] == 5 * [41] + [81] and {job.periods for job in jobs} == {60}
+    assert [job.labels["steepness"] for job in jobs] == values[5:]
+    assert {job.scene.buoy.submergence for job in jobs} == {"spherical-cap"} and {job.periods for job in jobs} == {60}
 
 
 @pytest.fixture

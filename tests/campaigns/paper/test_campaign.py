@@ -94,8 +94,8 @@ def test_parts_chosen_are_run_beside_those_that_are_there(campaign):
 @pytest.mark.parametrize(("ended", "code"), [(CampaignStopped("the disk is full"), 1), (KeyboardInterrupt(), 130)])
 def test_what_stops_a_part_stops_the_campaign_and_keeps_what_is_done(campaign, ended, code):
     campaign.ends["sweep"] = ended
-    assert campaign() == (code, ["breaking_line", "buoy", "sweep"])
-    assert list(rows(campaign.out)) == ["breaking_line", "buoy"]
+    assert campaign() == (code, ["breaking_line", "buoy", "doubled", "sweep"])
+    assert list(rows(campaign.out)) == ["breaking_line", "buoy", "doubled"]
     campaign.ends.clear()
     assert campaign() == (0, ["sweep", "dependence", "out_of_plane", "oscillator", "writing"])
 
@@ -127,5 +127,5 @@ def test_a_quick_look_at_everything(tmp_path, capsys):
     content = {path: path.read_bytes() for path in out.rglob("*") if path.is_file() and path.name != ".lock"}
     capsys.readouterr()
     assert paper.main(words) == 0
-    assert "0 computed, 6 found" in capsys.readouterr().out
+    assert "0 computed, 7 found" in capsys.readouterr().out
     assert {path: path.read_bytes() for path in content} == content

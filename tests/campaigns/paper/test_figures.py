@@ -141,7 +141,7 @@ def whole(tmp_path_factory):
     folder = tmp_path_factory.mktemp("paper") / "whole"
     usual = ["--backend", "threading", "--jobs", "2", "--no-report"]
     two = ["--steepness", "0.016", "0.13", "--periods", "260", "--transient", "20", "--no-accuracy"]
-    space = ["--periods", "80", "--transient", "10", "--no-accuracy"]
+    space = ["--periods", "80", "--transient", "10"]
     parts = {
         "buoy": (buoy_sweep, [*two, *usual], {}),
         "breaking_line": (breaking_line, ["--no-companions", "--set", "tether.nodes=101", *usual], {}),

@@ -1,0 +1,77 @@
+"""What an answer says was checked of a load follows from the row and from the scene; so does why nothing is judged."""
+
+import pytest
+
+from campaigns.answers import regimes
+from campaigns.buoy_sweep.answer import sentences, use_of
+from engine import load_scene
+
+SEA = {"waves.jonswap.significant_height_m": 1.0}
+KNOWN = {
+    "grid and steps": {"tension_top_max_error_N": 30.0},
+    "loops": {"loop_releases": 0},
+    "wetted buoy": {"max_buoy_height_above_water_m": 0.1},
+    "settled": {"regime": "period-1"},
+    "out of the plane": {"dimensions": 3},
+}
+IN_SCENE = {
+    "sea bed": {"floor.stiffness_Npm3": 1e4},
+    "wetted buoy": {"buoy.submergence": "spherical-cap"},
+    "out of the plane": {"motion.dimensions": 3, "tether.bending_stiffness_Nm2": 0.4},
+}
+PULLS = {"status": "ok", "tension_top_max_N": 1000.0, "steepness": 0.1, "end_time_s": 360.0}
+
+
+def checked(row, scene, searched=False) -> tuple[str, str]:
+    """The two lists of the sentence."""
+    said = use_of(row, scene, searched)
+    made, _, missing = said.partition("; not checked: ")
+    assert made.startswith("Checked: ") and missing
+    return made, missing
+
+
+def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left():
+    scene = load_scene("tethered_buoy")
+    assert checked(PULLS, scene)[0] == "Checked: none"
+    best = PULLS | {name: entry for known in KNOWN.values() for name, entry in known.items()}
+    bedded = load_scene("tethered_buoy", IN_SCENE["sea bed"])
+    assert checked(best, bedded, searched=True)[1] == "an irregular sea."
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_what_a_row_knows_was_checked(name):
+    made, missing = checked(PULLS | KNOWN[name], load_scene("tethered_buoy"))
+    assert name in made and name not in missing
+
+
+@pytest.mark.parametrize("name", IN_SCENE)
+def test_what_a_scene_has_was_checked(name):
+    made, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
+    assert name in made and name not in missing
+
+
+def test_other_motions_were_looked_for_where_a_share_is_known():
+    scene = load_scene("tethered_buoy")
+    alone = sentences([PULLS], "steepness", "kA", scene)
+    kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
+    assert "other motions" in alone[-1].partition("not checked")[2]
+    assert "other motions" not in kicked[-1].partition("not checked")[2]
+
+
+def test_a_random_sea_says_how_long_it_was():
+    missing = checked(PULLS, load_scene("tethered_buoy", SEA))[1]
+    assert "6 min" in missing and "irregular" not in missing
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes", "why"),
+    [
+        ("tethered_buoy", {}, "so few --periods"),
+        ("tethered_buoy", SEA, "only for a buoy in regular waves"),
+        ("hanging_line", {}, "only for a buoy in regular waves"),
+        ("tethered_buoy", {"tether.bending_stiffness_Nm2": 0.0}, "bending stiffness"),
+    ],
+)
+def test_more_periods_are_asked_for_only_where_they_would_help(scene, changes, why):
+    regular, _ = regimes([PULLS], "kA", [0.1], load_scene(scene, changes))
+    assert why in regular[0] and ("--periods" in regular[0]) == ("--periods" in why)
