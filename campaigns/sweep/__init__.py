@@ -37,7 +37,8 @@ MOST_KEYS = 2
 class Varied:
     """A key with its values, and the column of the table that holds them. index: of the list's element, None: a number.
 
-    key: as on the command line, "water.depth_m" or "start.buoy_velocity_mps[1]".
+    key: as on the command line, "water.depth_m", "start.buoy_velocity_mps[1]" or "waves.components[0].amplitude_m".
+    part: the number in an element that is a table, "" for an element that is a number.
     """
 
     key: str
@@ -45,6 +46,7 @@ class Varied:
     index: int | None
     values: tuple
     column: Column
+    part: str = ""
 
     def put(self, value: float, base, changes: dict[str, object]) -> Iterator[str]:
         """Put a value into the changes of a scene; yields the fault of a list that has no such element.
@@ -56,11 +58,12 @@ class Varied:
             return
         whole = changes.get(self.name)
         if whole is None:
-            whole = reduce(lambda part, name: getattr(part, name, None), self.name.split("."), base)
+            whole = reduce(lambda part, name: (part or {}).get(name), self.name.split("."), base.as_dict())
         if not isinstance(whole, list | tuple) or self.index >= len(whole):
             yield f"--vary {self.key}: the scene has no such element; {self.name} is {whole}"
             return
-        changes[self.name] = [*whole[: self.index], value, *whole[self.index + 1 :]]
+        element = {**whole[self.index], self.part: value} if self.part else value
+        changes[self.name] = [*whole[: self.index], element, *whole[self.index + 1 :]]
 
     def of(self, scene) -> float | None:
         """The value of the key in a scene; None where it has none."""
@@ -76,9 +79,10 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
     from engine.scene.reference import keys
 
     key = words[0]
-    element = re.fullmatch(r"(.+)\[(\d+)\]", key)
-    name, index = (element[1], int(element[2])) if element else (key, None)
-    known = keys()
+    element = re.fullmatch(r"(.+)\[(\d+)\](?:\.(\w+))?", key)
+    name, index, part = (element[1], int(element[2]), element[3] or "") if element else (key, None, "")
+    known, in_list = keys(), name
+    name = f"{name}.{part}" if part else name
     told = of_words and name in known and known[name].kind == "text"
     values = list(dict.fromkeys(words[1:])) if told else cli.evenly(words[1:], f"{option} {key}", faults)
     if name not in known:
@@ -100,7 +104,7 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
     symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
     digits = None if told else max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
-    return Varied(key, name, index, tuple(values), Column(key, unit, symbol, meaning, digits))
+    return Varied(key, in_list, index, tuple(values), Column(key, unit, symbol, meaning, digits), part)
 
 
 def options(group) -> None:

@@ -16,7 +16,7 @@ from ..parts.provenance import appendix, provenance_items, scene_items, timing_i
 from ..parts.sections import section_items
 from ..parts.style import BLUE, INK
 from ..parts.wording import count, listed, number
-from ..sweep.quantities import colours_of
+from ..sweep.quantities import colours_of, further
 
 _AXES = {
     "vx": ("kick_x_mps", "velocity along the waves (m/s)"),
@@ -94,7 +94,12 @@ def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> It
 
 def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
     yield Heading("Motions")
-    yield table_of(part.columns, _MOTIONS, motions, "One judged run a motion; shares are of the starts of the grid.")
+    yield table_of(
+        part.columns,
+        (*_MOTIONS, *further(part.columns)),
+        motions,
+        "One judged run a motion; shares are of the starts of the grid.",
+    )
     for row in motions:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")

@@ -8,7 +8,7 @@ from ..parts.columns import Name, plus_minus, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
 from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, OMEGA_THETA, T_S, decimals, listed, number, percent, ranges
-from ..sweep.quantities import over_key, series
+from ..sweep.quantities import further, over_key, series
 from .runs import Run, Sweep
 
 _RUNS = (
@@ -62,7 +62,7 @@ def runs_items(sweep: Sweep) -> list[Item]:
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
         "leads to the sheet of the run."
     )
-    names = (*space, "share", "found_by", "status", "strobed_period", *_RUNS)
+    names = (*space, "share", "found_by", "status", "strobed_period", *_RUNS, *further(sweep.folder.columns))
     return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
 
 

@@ -8,13 +8,21 @@ from ..parts.content import Heading, Item, Notice, Report
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import count, listed, number
+from ..sweep.quantities import further
 from . import sections
-from .runs import VARIED, Run, Study, read_study
+from .runs import BODIES, VARIED, Run, Study, read_study
 
 _RUNS = (
     *VARIED[:-1], "periods", "status", "buoy_motion", "rope_motion", "max_turn_rad", "loop_releases",
     "newton_iterations", "wall_s",
 )  # fmt: skip
+_MEASURED = (
+    "rate_bits_per_period rate_error rate_nats_per_period fit_from_period fit_to_period fit_span_nats bursts "
+    "burst_median_m burst_max_m first_burst_period first_burst_m rise_nats rise_periods lateral_late_m "
+    "share_of_inplane early_gain_s"
+).split()
+_PLACED = {f"{body}_{name}" for body in BODIES for name in _MEASURED}
+_PLACED |= {*VARIED, "inplane_m", "bow_inplane_m", "bow_lateral_m"}
 _RESOLVED_RAD = 0.5 * math.pi  # in one element
 
 
@@ -37,7 +45,7 @@ def report(directory: str | Path) -> Report:
         Heading("Warnings"),
         *_warnings(study),
         Heading("Table of runs"),
-        study.table(_RUNS, study.runs, "Every run."),
+        study.table((*_RUNS, *further(study.folder.columns, _PLACED)), study.runs, "Every run."),
         *appendix(*_scene_and_times(study), *provenance_items(study.folder)),
     ]
     return Report("Tethered buoy: out of the plane of the waves", scene.title or scene.name, tuple(items))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -40,20 +41,26 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
     comes = shipped in list_scenes()
     told, known = sources(shipped) if comes else {}, keys()
     values, defaults = dict(_flat(scene.as_dict())), dict(_flat(load_scene(shipped).as_dict() if comes else {}))
+    changing = {_key(name) for name in varied}
     rows = []
     for name in dict.fromkeys([*values, *varied]):
-        if name in ("name", "title"):
+        if name in ("name", "title") or _key(name) not in known:  # a campaign may vary what is no key of a scene
             continue
-        source = "varied by this campaign" if name in varied else told.get(name, "default of this work")
-        if name not in varied and values[name] != defaults.get(name):
+        source = "varied by this campaign" if _key(name) in changing else told.get(name, "default of this work")
+        if _key(name) not in changing and values[name] != defaults.get(name):
             source = "set by the user" + (f" (default {_shown(defaults[name])})" if name in defaults else "")
-        key, shown = known[name], varied[name] if name in varied else _shown(values[name])
+        key, shown = known[_key(name)], varied[name] if name in varied else _shown(values[name])
         meaning = key.meaning + (f", {key.symbol}" if key.symbol else "")
         unit = key.unit if key.unit not in ("", "1") else EMPTY
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
     columns = heads("key", "parameter", ("value", ""), "unit", "source")
     where = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
     return Table(columns, tuple(rows), f"{caption} {where}", small=True)
+
+
+def _key(name: str) -> str:
+    """The key of a scene that a name such as "start.buoy_velocity_mps[0]", of an element of a list, stands for."""
+    return re.sub(r"\[\d+\]", "", name)
 
 
 def timing_items(folder: Folder, *more: Item | None) -> list[Item]:
@@ -104,7 +111,7 @@ def _shown(entry: object) -> str:
     if isinstance(entry, float):
         return number(entry, 6)
     if isinstance(entry, (list, tuple)):
-        if any(isinstance(item, (list, tuple)) for item in entry):
+        if any(isinstance(item, (list, tuple, dict)) for item in entry):
             return f"{len(entry)} entries"
         words = [_shown(item) for item in entry]
         if len(words) > 6:

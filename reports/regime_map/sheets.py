@@ -10,7 +10,7 @@ from ..parts.columns import plus_minus
 from ..parts.content import CellSheets, plain
 from ..parts.folder import Folder
 from ..parts.wording import number, printed
-from ..sweep.quantities import at, colours_of, errors_of
+from ..sweep.quantities import at, colours_of, errors_of, further
 from .maps import COMPUTED, LIMITS, PULL, SCREENED, Atlas
 
 _FACTS = (
@@ -30,6 +30,7 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
     columns, errors = folder.columns, errors_of(folder.columns)
     names = [name for name in _FACTS if name in columns]
+    names += [name for name, _ in further(columns, (key.name for key in atlas.keys))]
     motions: dict[tuple[str, ...], list] = {}
     for row, series in zip(folder.table, _series(folder), strict=True):
         facts = [plus_minus(columns, row, name, errors.get(name, "")) for name in names]

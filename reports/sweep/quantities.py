@@ -13,6 +13,18 @@ from ..parts.wording import EMPTY, number
 
 PER_ROW = 2
 _CALM = BLUE, GREEN, ORANGE, PURPLE, SKY  # of all motions but that of the largest tension
+# numbers of a run for which the reports on buoys have chosen a place, or none
+PLACED = frozenset(
+    """
+    steepness dimensions share share_low share_high periods transient_periods strobed_period radius_min_m radius_max_m
+    angle_min_rad angle_max_rad tension_top_min_N tension_top_max_N tension_top_max_error_N slack_fraction
+    compression_fraction lyapunov_wolf_bits_per_period lyapunov_wolf_error lyapunov_tangent_bits_per_period
+    lyapunov_tangent_error multiplier_modulus multiplier_angle_rad multiplier_error offplane_growth_bits_per_period
+    offplane_growth_error max_buoy_height_above_water_m max_turn_rad min_strain unresolved_ringing_N loop_releases
+    buoy_lateral_max_m rope_lateral_max_m planar_loop_releases planar_radius_min_m planar_radius_max_m steps
+    rejected_steps newton_iterations newton_failures end_time_s wall_s tension_static_N level
+    """.split()
+)
 Measured = tuple[tuple[Quantity, Quantity | None], ...]  # one panel: columns of one unit, each with its errors or None
 
 
@@ -127,11 +139,25 @@ def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
     )
 
 
+def further(columns: Mapping[str, Quantity], placed: Iterable[str] = ()) -> tuple[tuple[str, str], ...]:
+    """The numbers of a table that no report has chosen a place for, each with its error, "" for none.
+
+    A column that a campaign declares so reaches its report. placed: names beside PLACED.
+    """
+    errors, placed = errors_of(columns), PLACED.union(placed)
+    return tuple(
+        (name, errors.get(name, ""))
+        for name, column in columns.items()
+        if column.digits is not None and name not in placed and name not in errors.values()
+    )
+
+
 def errors_of(names: Iterable[str]) -> dict[str, str]:
-    """Column -> the column of its standard errors: X_..._error belongs to the columns before it that begin so."""
+    """Column -> the column of its standard errors: X_error belongs to X, or X_..., where these stand before it."""
     names, found = list(names), {}
     for place, name in enumerate(names):
         if name.endswith("_error"):
             stem = name.removesuffix("error")
-            found |= {owner: name for owner in names[:place] if owner.startswith(stem) and not owner.endswith("_error")}
+            owners = (one for one in names[:place] if f"{one}_".startswith(stem) and not one.endswith("_error"))
+            found |= dict.fromkeys(owners, name)
     return found

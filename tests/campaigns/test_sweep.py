@@ -190,3 +190,40 @@ def test_errors_belong_to_their_quantity_and_ends_of_a_range_share_a_panel(tmp_p
     shown = measured(read.columns, read.table, [DEPTH])
     names = [[(one.name, error and error.name) for one, error in panel] for panel in shown]
     assert names == [[("pull_min_N", None), ("pull_max_N", None)], [("growth_bits", "growth_error")]]
+
+
+PUSH, SEA = (
+    "start.buoy_velocity_mps",
+    "waves.components=[{amplitude_m=0.3, period_s=6.0}, {amplitude_m=0.2, period_s=5.0}]",
+)
+
+
+@pytest.mark.parametrize(
+    ("keys", "changes"),
+    [
+        ((f"{PUSH}[0]",), ()),
+        ((f"{PUSH}[0]", f"{PUSH}[2]"), ()),
+        (("buoy.mass_kg", f"{PUSH}[0]"), ()),
+        (("waves.components[1].amplitude_m", "waves.components[0].amplitude_m"), ("--set", SEA)),
+    ],
+)
+def test_keys_take_their_values_in_lists_too_and_leave_the_rest(keys, changes):
+    ranges = {key: (1500, 1700) if key == "buoy.mass_kg" else (0.1, 0.4) for key in keys}
+    words = [word for key, ends in ranges.items() for word in ("--vary", key, *ends, 2)]
+    cases = cases_of(*words, "--periods", 6, "--transient", 2, *changes)
+    entries = [dict(_entries(job.scene.as_dict())) for job in cases]
+    assert len(cases) == 2 ** len(keys)
+    for job, found in zip(cases, entries, strict=True):
+        assert {key: found[key] for key in keys} == {key: job.labels[key] for key in keys}
+    others = [{key: entry for key, entry in found.items() if key not in keys} for found in entries]
+    assert all(other == others[0] for other in others)
+
+
+def _entries(part, name=""):
+    """(key, entry) of every number and word in a scene's dictionary, those in lists too."""
+    if not isinstance(part, dict | list | tuple):
+        yield name, part
+        return
+    inside = part.items() if isinstance(part, dict) else enumerate(part)
+    for key, entry in inside:
+        yield from _entries(entry, f"{name}.{key}".lstrip(".") if isinstance(part, dict) else f"{name}[{key}]")
