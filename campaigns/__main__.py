@@ -5,6 +5,8 @@ import importlib
 import sys
 from pathlib import Path
 
+from engine.streams import open_streams, printed
+
 
 def main(argv: list[str] | None = None) -> int:
     """List the campaigns with their first line (exit code 0), or run the one that is named."""
@@ -27,4 +29,5 @@ def _names() -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    open_streams()
+    sys.exit(printed(main))

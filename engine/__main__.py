@@ -16,6 +16,7 @@ from pathlib import Path
 
 import engine.scene
 from engine import views
+from engine.streams import open_streams, printed
 
 MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
 KINDS = (".png", ".svg", ".pdf")
@@ -186,4 +187,5 @@ def _show(run, out: Path | None) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    open_streams()
+    sys.exit(printed(main))

@@ -4,6 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
+from engine.streams import open_streams, printed
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Build and print the two paths.
@@ -37,6 +39,8 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("\ninterrupted; an earlier report is as it was", file=sys.stderr)
         return 130
+    except BrokenPipeError:  # of stdout
+        raise
     except OSError as error:
         print(f"the report could not be written: {error}", file=sys.stderr)
         return 1
@@ -44,4 +48,5 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    open_streams()
+    sys.exit(printed(main))

@@ -1,4 +1,4 @@
-"""The lower bounds of pyproject.toml are true: with these very versions a scene runs and a report is made."""
+"""The lower bounds of pyproject.toml are true: with these versions a scene runs, is drawn, and goes into xarray."""
 
 import os
 import subprocess
@@ -27,4 +27,8 @@ def test_a_campaign_runs_and_reports_with_the_lowest_versions_that_are_allowed(t
     own = os.environ | {"PYTHONPATH": str(ROOT), "TETHER_CACHE_DIR": str(tmp_path / "cache")}
     done = subprocess.run(words, capture_output=True, text=True, env=own, cwd=tmp_path)
     assert done.returncode == 0, done.stderr[-2000:]
+    labelled = "import sys; from engine import Trajectory; print(Trajectory.load(sys.argv[1]).to_xarray().sizes)"
+    (run,) = (tmp_path / "out/trajectories").glob("*.nc")
+    shown = subprocess.run([python, "-c", labelled, str(run)], capture_output=True, text=True, env=own, cwd=tmp_path)
+    assert shown.returncode == 0 and "time" in shown.stdout, shown.stderr[-2000:]
     assert "1 computed" in done.stdout and (tmp_path / "out/report.pdf").read_bytes().startswith(b"%PDF")

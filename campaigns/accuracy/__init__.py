@@ -49,7 +49,7 @@ def done(order: Order):
     """
     from campaigns.accuracy import jobs, pieces
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
-    from campaigns.machinery.folder import made_by, trajectory_path, write_table
+    from campaigns.machinery.folder import made_by, write_table
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
@@ -57,20 +57,20 @@ def done(order: Order):
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
-    timing, known, found = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], 0
+    timing, known, made = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], set()
     alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
     for how, phase in zip((plan, plan, plan, alone), phases, strict=True):
         if phase and not known:
             write_scene(out, STUDY.name, phase)
         known += phase
-        found += sum(trajectory_path(out, job.key).exists() for job in phase)
         more, summary = run(how, known)
+        made |= summary.made
         timing = {name: timing[name] + more[name] for name in timing}
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
     if ours:
         pieces.keep(out, own.quick)
-    return timing, replace(summary, computed=len(summary.rows) - found, found=found)
+    return timing, replace(summary, computed=len(made), found=len(summary.rows) - len(made))
 
 
 def parameters(order: Order) -> dict[str, object]:

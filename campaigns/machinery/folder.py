@@ -14,6 +14,7 @@ import json
 import math
 import os
 import re
+import shutil
 import socket
 import time
 from collections.abc import Iterator
@@ -24,6 +25,7 @@ from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
 
 Row = dict[str, object]  # of a table, by column
+PROGRESS = ".progress-"  # begins the names of folders in which workers say how far they are
 SEAL = b"sha256:" + 64 * b"0"  # stands in a content that `write_sealed` is given
 _SEALED = re.compile(rb"sha256:[0-9a-f]{64}")
 _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -83,6 +85,8 @@ def claimed(directory: Path) -> Iterator[None]:
 
 
 def _drop_temporaries(directory: Path) -> None:
+    for path in directory.glob(f"{PROGRESS}*"):
+        shutil.rmtree(path, ignore_errors=True)
     for place in (directory, directory / "trajectories"):
         for path in place.glob(".*.tmp"):
             with contextlib.suppress(OSError):

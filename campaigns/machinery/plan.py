@@ -89,7 +89,8 @@ class Outcome:
 class Summary:
     """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers.
 
-    whole: whether nothing was done, and the report that is there stays as it is.
+    whole: whether nothing was done, and the report that is there stays as it is. made: keys of the runs that were
+    computed, or went on.
     """
 
     rows: list[dict[str, object]]
@@ -97,6 +98,7 @@ class Summary:
     computed: int
     analysis_s: float
     whole: bool = False
+    made: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 
 import engine
-from campaigns.machinery.folder import Table, keep_row, trajectory_path
+from campaigns.machinery.folder import PROGRESS, Table, keep_row, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import in_time, shares, stage, tell, teller, ticking
@@ -102,7 +102,7 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
         return sum(costs[int(number)] * share for number, share in told.items())
 
     with (
-        tempfile.TemporaryDirectory(prefix="tether-progress-") as place,
+        _progress(plan) as place,
         opened(*where) as execute,
         stage(ENGINE, sum(costs), "s of one processor", far),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
@@ -110,6 +110,11 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
         for (number, _), _ in execute(partial(_compiled, Path(place)), list(enumerate(tasks))):
             ended.add(str(number))
             _ready.update(tasks[number])
+
+
+def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
+    """A folder in which workers say how far they are: in that of the campaign, which drops what a kill leaves there."""
+    return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=plan.how.out.absolute())
 
 
 def _compiled(place: Path, task: tuple[int, dict]) -> None:
@@ -148,7 +153,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
             table.write()
         raise
     table.write()
-    return Summary(table.in_order(), len(found), len(by_key) - len(found), analysis_s)
+    return Summary(table.in_order(), len(found), len(missing), analysis_s, made=frozenset(missing))
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
@@ -184,7 +189,7 @@ def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iter
         return total * (1.0 - (sum(sizes[key] for key in [*left]) - begun) / sum(sizes.values()))
 
     with (
-        tempfile.TemporaryDirectory(prefix="tether-progress-") as place,
+        _progress(plan) as place,
         opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute,
         stage(plan.said, total, unit, far, plan.then),
     ):

@@ -19,6 +19,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 
@@ -28,6 +29,7 @@ from campaigns.machinery.folder import CampaignStopped, claimed, read_json, writ
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import counting, stage
 from engine.atomic import write_atomic
+from engine.streams import open_streams, printed
 
 PROVENANCE, ANSWER = "provenance.json", "answer.txt"
 MOST_LINES = 8  # of an answer
@@ -49,8 +51,7 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
     """
     argv = list(sys.argv[1:] if argv is None else argv)
     faults: list[str] = []
-    # A closed stream (>&-) is None, which progress bars and workers write to.
-    sys.stdout, sys.stderr = (stream or open(os.devnull, "w") for stream in (sys.stdout, sys.stderr))
+    open_streams()
     try:
         with stage(module.rpartition(".")[2]):
             order = read_order(argv, faults)
@@ -116,7 +117,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
             except Exception as error:  # the results stand without a report
                 fault = f"{type(error).__name__}: {error}"
         timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
-    code = say(how, summary, answer, timing, fault)
+    code = printed(partial(say, how, summary, answer, timing, fault))
     return EXIT_FAILED if study.strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 

@@ -8,7 +8,6 @@ import engine
 from campaigns.columns import Column
 from campaigns.judge import judged_job
 from campaigns.machinery import cli
-from campaigns.machinery.folder import trajectory_path
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
@@ -109,7 +108,6 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         from campaigns.motions.starts import DISPLACED, start_job
         from campaigns.motions.tracing import Scenes
 
-        there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
         later = plan.then or (lambda seconds: 0.0)
         real = plan.simulate is engine.simulate
@@ -121,7 +119,6 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         along.find(kicks, order.own.kick_speed, order.own.seed)
 
         others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
-        there |= {job.key for job in others.values() if trajectory_path(plan.how.out, job.key).exists()}
         more, found = run(plan, [*jobs, *others.values()])
         along.judged(others, found.rows)
         along.name()
@@ -135,9 +132,9 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
             judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
             judged += [job_of(order, job, motion, along.labels(motion)) for motion in some]
         last, summary = run(plan, judged)
-        kept = sum(row["run_key"] in there for row in summary.rows)
+        computed = sum(row["run_key"] in first.made | found.made | summary.made for row in summary.rows)
         for times in (more, last, along.starts.times):
             timing = {name: seconds + times[name] for name, seconds in timing.items()}
-        return timing, replace(summary, computed=len(summary.rows) - kept, found=kept)
+        return timing, replace(summary, computed=computed, found=len(summary.rows) - computed)
 
     return runs

@@ -121,7 +121,7 @@ def work(plan: Plan, folder: Path, said: str, tasks: Sequence[Task]) -> tuple[li
         return [], 0
     folder.mkdir(exist_ok=True)
     results: dict[str, tuple] = {}
-    there = {task.key for task in tasks if (folder / f"{task.key}.npz").exists()}
+    there = sum(_kept(folder / f"{task.key}.npz") is not None for task in tasks)
     kept, how = None if plan.sends else folder.absolute(), plan.how
     try:
         with (
@@ -132,7 +132,7 @@ def work(plan: Plan, folder: Path, said: str, tasks: Sequence[Task]) -> tuple[li
                 results[task.key] = result
     except PoolBroken as broken:
         raise CampaignStopped(f"a worker process ended: {broken}; what is finished is kept") from broken
-    return [results[task.key] for task in tasks], len(there)
+    return [results[task.key] for task in tasks], there
 
 
 def worked(folder: Path | None, task: Task) -> tuple[dict, list[np.ndarray]]:

@@ -15,7 +15,7 @@ import engine
 from campaigns.buoy_sweep.rows import TANGENT, buoy_row
 from campaigns.columns import number
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery.folder import trajectory_path, write_table
+from campaigns.machinery.folder import write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import tell
 from campaigns.machinery.runner import run
@@ -77,7 +77,7 @@ class Map(Lattice):
         self.rows: dict[str, dict] = {}
         self.screen: list[list[dict]] = []
         self.times: Counter = Counter()
-        self.there: set[str] = set()
+        self.made: set[str] = set()
         self.drawn_s = time.monotonic()
         # seconds of the runs from rest, and of starts before them; cells to come, as a share of those at hand; of the
         # level at hand, what its runs from rest leave to do, as a share of their time
@@ -135,8 +135,8 @@ class Map(Lattice):
     def _run(self, jobs: list[Job], said: str, ahead: Sequence[Job] = ()) -> None:
         if not jobs:
             return
-        self.there |= {job.key for job in jobs if trajectory_path(self.plan.how.out, job.key).exists()}
         timing, summary = run(replace(self.plan, said=said), jobs, ahead)
+        self.made |= summary.made
         self.rows |= {row["run_key"]: row for row in summary.rows}
         self.times.update(timing)
 
@@ -206,7 +206,7 @@ class Map(Lattice):
             self.starts.write()
         tables.write_strobes(out, self)
         self._show()
-        kept = sum(row.get("run_key") in self.there for row in rows)
+        kept = sum(row.get("run_key") not in self.made for row in rows)
         return Summary(rows, kept, len(rows) - kept, self.times["analysis_s"])
 
     def _hear(self, row: dict) -> None:

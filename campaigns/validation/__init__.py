@@ -11,7 +11,6 @@ source gives, is fitted, told in the row, and not judged. A code that is not ins
 
 from argparse import Namespace
 from collections.abc import Iterator
-from dataclasses import replace
 
 import engine
 from campaigns.machinery import cli
@@ -35,7 +34,7 @@ def read(options: Namespace, faults: list[str]) -> None:
 
 def done(order: Order):
     """All runs, side by side; then each case beside its source. Returns times and summary."""
-    from campaigns.machinery.folder import trajectory_path, write_table
+    from campaigns.machinery.folder import write_table
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
     from campaigns.validation import cases, judging
@@ -45,13 +44,12 @@ def done(order: Order):
     plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
     jobs = cases.jobs(order.own.cases)
     write_scene(out, STUDY.name, jobs)
-    there = sum(trajectory_path(out, job.key).exists() for job in jobs)
     timing, summary = run(plan, jobs)
     rows, points = judging.judged(out, order.own.cases)
     write_table(out / "cases.csv", JUDGED, rows)
     write_table(out / "curves.csv", judging.POINTS, points)
     write_atomic(out / "cases.md", judging.page(rows).encode())
-    return timing, replace(summary, computed=len(summary.rows) - there, found=there)
+    return timing, summary
 
 
 def parameters(order: Order) -> dict[str, object]:

@@ -45,6 +45,16 @@ def chosen(rows, **wanted):
     return [row for row in rows if wanted.items() <= row.items()]
 
 
+def test_a_damaged_file_counts_as_computed_again(tmp_path, capsys):
+    made(tmp_path)
+    damaged = sorted((tmp_path / "trajectories").glob("*.nc"))[:2]
+    for path in damaged:
+        path.write_bytes(path.read_bytes()[:100])
+    capsys.readouterr()
+    made(tmp_path)
+    assert f": {len(damaged)} computed" in capsys.readouterr().out
+
+
 def test_every_series_shows_the_order_that_was_put_in(out):
     rows = orders_of(out)
     judged = [row for row in rows if row["kind"] in ("time", "space")]

@@ -164,6 +164,15 @@ def test_the_same_command_computes_nothing_again(tmp_path, unscreened):
     assert len(FakeEngine(log=log).begun()) == 6
 
 
+def test_a_damaged_file_counts_as_computed_again(tmp_path, unscreened, capsys):
+    assert run(tmp_path, *VARY) == 0
+    path, *_ = (tmp_path / "trajectories").glob("*.nc")
+    path.write_bytes(b"CDF")
+    capsys.readouterr()
+    assert run(tmp_path, *VARY) == 0
+    assert ": 1 computed, 5 found" in capsys.readouterr().out
+
+
 @pytest.mark.slow
 def test_a_massless_screen_computes_no_cell(tmp_path):
     assert run(tmp_path, *VARY, "--screen") == 0
