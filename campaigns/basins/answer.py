@@ -45,7 +45,8 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
         yield f"It depends on how it is computed: {'; '.join(said)}."
     else:
         yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
-    yield f"On the tension of {worst['motion']}: {use_of(worst, scene, searched=True)}"
+    used = use_of(worst, scene, searched=True)
+    yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
 
 
 def _pull(one: Row) -> str:
