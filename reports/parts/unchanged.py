@@ -10,9 +10,12 @@ from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
 
+from machine_code.store import hash_of
+
 FILE = ".report.json"
 _READ = (".csv", ".json", ".toml", ".txt")  # told by what they say
 _SOURCES = ("reports", "analysis", "engine")
+_DRAWING = (".py", ".js", ".css", ".typ", ".toml", ".jinja", ".mplstyle")
 _LIBRARIES = ("numpy", "matplotlib", "jinja2", "typst", "pillow")
 
 
@@ -36,10 +39,7 @@ def key_of(directory: Path, without: Iterable[str]) -> str:
     """The key; without: names of drawings in the folder."""
     left_out = {FILE, *without}
     said = sha256(" ".join(f"{name} {metadata.version(name)}" for name in _LIBRARIES).encode())
-    for name in _SOURCES:
-        for path in sorted(Path(__file__).parents[2].joinpath(name).rglob("*")):
-            if path.suffix in (".py", ".js", ".css", ".typ", ".toml", ".jinja", ".mplstyle"):
-                said.update(path.name.encode() + path.read_bytes())
+    said.update(hash_of(*(Path(__file__).parents[2] / name for name in _SOURCES), endings=_DRAWING).encode())
     for path in sorted(directory.rglob("*")):
         name = str(path.relative_to(directory))
         if name in left_out or path.name == ".lock" or not path.is_file():
