@@ -33,13 +33,13 @@ def code_hash(sources: Mapping[str, Path], folder: Path | None = None) -> str:
         known = "" if folder is None else (folder / exact).read_text("ascii")
         if len(known) == DIGITS:
             return known
-    found = _digest({name: code_of(text) if name.endswith(".py") else text for name, text in contents.items()})
+    code_digest = _digest({name: code_of(text) if name.endswith(".py") else text for name, text in contents.items()})
     if folder is not None:
         part = folder / f"{exact}.{os.getpid()}"
         with contextlib.suppress(OSError):
-            part.write_text(found, "ascii")
+            part.write_text(code_digest, "ascii")
             part.replace(folder / exact)
-    return found
+    return code_digest
 
 
 def code_of(source: str | bytes) -> bytes:

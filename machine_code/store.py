@@ -58,8 +58,8 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
             continue
         probe.close()
         with contextlib.suppress(OSError):  # another process may be dropping the same folders
-            others = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
-            for _, old in others[: -kept or None]:
+            older = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
+            for _, old in older[: -kept or None]:
                 shutil.rmtree(old, ignore_errors=True)
         _in_use.append(folder)
         return folder
@@ -80,10 +80,10 @@ def made_since(time_s: float) -> int:
 
 def _roots() -> Iterator[Path]:
     # In full: a process may go to another folder between this and its first kernel.
-    told = os.environ.get("TETHER_CACHE_DIR")
+    chosen = os.environ.get("TETHER_CACHE_DIR")
     cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    if told:
-        yield Path(told).absolute()
+    if chosen:
+        yield Path(chosen).absolute()
     elif not cache.startswith("~"):  # a user whom the system does not know has no home
         yield Path(cache, "tether-workbench").absolute()
     with contextlib.suppress(OSError):  # there may be no place for temporary files, or one full to the last byte

@@ -45,13 +45,13 @@ def done(order: Order):
     plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
     jobs = cases.jobs(order.own.cases)
     write_scene(out, STUDY.name, jobs)
-    there = sum(trajectory_path(out, job.key).exists() for job in jobs)
+    finished = sum(trajectory_path(out, job.key).exists() for job in jobs)
     timing, summary = run(plan, jobs)
     rows, points = judging.judged(out, order.own.cases)
     write_table(out / "cases.csv", JUDGED, rows)
     write_table(out / "curves.csv", judging.POINTS, points)
     write_atomic(out / "cases.md", judging.page(rows).encode())
-    return timing, replace(summary, computed=len(summary.rows) - there, found=there)
+    return timing, replace(summary, computed=len(summary.rows) - finished, found=finished)
 
 
 def parameters(order: Order) -> dict[str, object]:
