@@ -14,9 +14,9 @@ _KEPT_CACHES = 16
 
 @cache
 def source_hash():
-    """sha256, hexadecimal, of the names and contents of all ``analysis/**/*.py`` and of ``machine_code``: of everything
+    """sha256, hexadecimal, of the names and the code of all ``analysis/**/*.py`` and of ``machine_code``: of everything
     that can change a result of a kernel."""
-    return hash_of(Path(__file__).parent, ".py")
+    return hash_of(Path(__file__).parent)
 
 
 def kernel(function):

@@ -82,8 +82,8 @@ def rosenstein_lyapunov(
     def distances(x, points, rows, lag, theiler, horizon):
         index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
         # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
-        kept = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
-        rows, index = rows[kept], index[kept, 0]
+        usable = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
+        rows, index = rows[usable], index[usable, 0]
         return [np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1)]
 
     return _estimated(ROSENSTEIN, series, step_s, distances, delay, dimension, theiler, horizon)
@@ -125,10 +125,10 @@ def kantz_lyapunov(
                 return "neighbours coincide: the series takes too few different values"
         used["radius"] = checked_positive(within, "radius")
         near = (distance <= within) & (index >= 0)
-        kept = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
-        rows, index, near, last = rows[kept], index[kept], near[kept], len(x) - len(points)
-        apart = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
-        return [np.sum(np.where(near, one, 0.0), axis=1) / np.sum(near, axis=1) for one in apart]
+        usable = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
+        rows, index, near, last = rows[usable], index[usable], near[usable], len(x) - len(points)
+        separations = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
+        return [np.sum(np.where(near, separation, 0.0), axis=1) / np.sum(near, axis=1) for separation in separations]
 
     return _estimated(KANTZ, series, step_s, distances, delay, dimension, theiler, horizon, used)
 
@@ -152,12 +152,12 @@ def _estimated(method, series, step_s, distances, delay, dimension, theiler, hor
     rows = np.arange(usable)
     if usable > CENTRES:
         rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
-    apart = distances(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
-    if isinstance(apart, str):
-        return no_exponent(method, apart)
+    separations = distances(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
+    if isinstance(separations, str):
+        return no_exponent(method, separations)
     details = {"embedding": embedding, "dimension": m, "theiler": theiler, **dict(used)}
     with np.errstate(divide="ignore"):
-        return _slope_of(np.log(apart), step_s, period, method, details)
+        return _slope_of(np.log(separations), step_s, period, method, details)
 
 
 def _slope_of(growth, step_s, period, method, details):

@@ -183,8 +183,8 @@ def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice
         delay = quarter if minimum is None else min(minimum, quarter)
         reason = f"first minimum of the mutual information, {information[delay]:.3g} nats"
         if delay != minimum:
-            found = f"at {minimum}" if minimum else f"none up to {max_delay}"
-            reason = f"a quarter of the mean period; first minimum of the mutual information: {found} samples"
+            minimum_text = f"at {minimum}" if minimum else f"none up to {max_delay}"
+            reason = f"a quarter of the mean period; first minimum of the mutual information: {minimum_text} samples"
     return DelayChoice(delay, reason, locked(information), (cells - 1) ** 2 / (2.0 * len(x)), cells, period)
 
 
@@ -222,12 +222,17 @@ def choose_embedding(
     theiler = round(chosen.mean_period) if theiler is None else int(theiler)
     share, growth, change = np.full((3, checked_count(max_dimension, "max_dimension", least=2)), np.nan)
     for m in range(1, max_dimension + 1):
-        apart, radius, more = _next_coordinate(x, lag, m, theiler)
-        if len(apart):
-            share[m - 1] = np.mean((more > FALSE_RATIO * apart) | (np.hypot(apart, more) > FALSE_SIZE * np.std(x)))
+        separation, radius, next_coordinate = _next_coordinate(x, lag, m, theiler)
+        if len(separation):
+            share[m - 1] = np.mean(
+                (next_coordinate > FALSE_RATIO * separation)
+                | (np.hypot(separation, next_coordinate) > FALSE_SIZE * np.std(x))
+            )
         if np.any(radius > 0.0):
-            growth[m - 1] = np.mean((np.maximum(radius, more) / np.where(radius > 0.0, radius, 1.0))[radius > 0.0])
-            change[m - 1] = np.mean(more)
+            growth[m - 1] = np.mean(
+                (np.maximum(radius, next_coordinate) / np.where(radius > 0.0, radius, 1.0))[radius > 0.0]
+            )
+            change[m - 1] = np.mean(next_coordinate)
     with np.errstate(divide="ignore", invalid="ignore"):
         e1, e2 = growth[1:] / growth[:-1], change[1:] / change[:-1]
     kennel = _first(share <= np.nanmin(share) + FALSE_SHARE) if np.nanmin(share) <= FALSE_AT_MOST else None
@@ -250,7 +255,7 @@ def _next_coordinate(x, delay, m, theiler):
     points = delay_vectors(x, delay, m + 1)
     following, points = points[:, m], np.ascontiguousarray(points[:, :m])
     rows = np.random.default_rng(0).choice(len(points), min(CENTRES, len(points)), replace=False)
-    index, distance = (found[:, 0] for found in nearest_outside(points, theiler, rows))
+    index, distance = (nearest[:, 0] for nearest in nearest_outside(points, theiler, rows))
     fine = index >= 0
     rows, index = rows[fine], index[fine]
     largest = np.max(np.abs(points[rows] - points[index]), axis=1)
@@ -285,14 +290,14 @@ def noise_level(series: ArrayLike, delay: int) -> float:
     reach = 2 * NOISE_REACH
     neighbours = 6 * (reach + 1)
     vectors = delay_vectors(x, max(1, min(delay, (len(x) - 2 * neighbours) // reach)), reach + 1)
-    middle, others = vectors[:, NOISE_REACH], np.delete(vectors, NOISE_REACH, axis=1)
+    middle, neighbours_of_middle = vectors[:, NOISE_REACH], np.delete(vectors, NOISE_REACH, axis=1)
     if len(vectors) < 2 * neighbours:
         raise ValueError(f"noise level: {2 * neighbours} delay vectors at least are needed, given {len(vectors)}")
     rows = np.random.default_rng(1).choice(len(vectors), min(NOISE_CENTRES, len(vectors)), replace=False)
-    _, near = cKDTree(others).query(others[rows], neighbours)
+    _, near = cKDTree(neighbours_of_middle).query(neighbours_of_middle[rows], neighbours)
     residual = np.empty(len(rows))
     for k, (row, j) in enumerate(zip(rows, near, strict=True)):
-        terms = np.column_stack([np.ones(neighbours), others[j] - others[row]])
+        terms = np.column_stack([np.ones(neighbours), neighbours_of_middle[j] - neighbours_of_middle[row]])
         fit = terms @ np.linalg.lstsq(terms, middle[j], rcond=None)[0]
         residual[k] = np.sqrt(np.sum((middle[j] - fit) ** 2) / (neighbours - terms.shape[1]))
     return float(min(level, np.median(residual)))

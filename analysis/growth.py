@@ -82,15 +82,15 @@ def growth_or_bursts(
     lacking = []
     for span in (window_periods * period, period):
         time, size = envelope_of(y, step, span)
-        found = _straight_part(time, size, least_span)
-        if isinstance(found, Growth):
-            return found
-        lacking.append(found)
-    found = _bursts(size, least_span)
-    if not len(found):
+        bursts = _straight_part(time, size, least_span)
+        if isinstance(bursts, Growth):
+            return bursts
+        lacking.append(bursts)
+    bursts = _bursts(size, least_span)
+    if not len(bursts):
         return _without_rate("neither", f"{lacking[0]}; no burst of {least_span:g} nats")
-    reason = f"{lacking[0]}; {len(found)} burst{'s' if len(found) > 1 else ''} of at least {least_span:g} nats"
-    return _without_rate("bursts", reason, time[found], size[found])
+    reason = f"{lacking[0]}; {len(bursts)} burst{'s' if len(bursts) > 1 else ''} of at least {least_span:g} nats"
+    return _without_rate("bursts", reason, time[bursts], size[bursts])
 
 
 def envelope_of(magnitude: ArrayLike, step: float, span: float) -> tuple[np.ndarray, np.ndarray]:
@@ -152,9 +152,9 @@ def _sums(t, y):
 def _slope(sums, begin, end):
     """Least-squares slope of part [begin, end) and its standard error from the scatter about the line."""
     n, t, y, tt, ty, yy = sums[:, end] - sums[:, begin]
-    across, along, up = tt - t * t / n, ty - t * y / n, yy - y * y / n
-    slope = along / across
-    return slope, np.sqrt(max(up - slope * along, 0.0) / max(n - 2.0, 1.0) / across)
+    across, ty_excess, up = tt - t * t / n, ty - t * y / n, yy - y * y / n
+    slope = ty_excess / across
+    return slope, np.sqrt(max(up - slope * ty_excess, 0.0) / max(n - 2.0, 1.0) / across)
 
 
 def _straightness(sums, begin, end, slope):
@@ -162,22 +162,22 @@ def _straightness(sums, begin, end, slope):
     edges = begin + np.linspace(0, end - begin - 1, QUARTERS + 1).astype(int)
     quarters = []
     for first, last in pairwise(edges):
-        one, error = _slope(sums, first, last + 1)
-        if one * slope <= 0.0 or abs(one - slope) > max(MOST_CURVATURE * abs(slope), 2.0 * error):
+        slope_here, error = _slope(sums, first, last + 1)
+        if slope_here * slope <= 0.0 or abs(slope_here - slope) > max(MOST_CURVATURE * abs(slope), 2.0 * error):
             return None, None
-        quarters.append(one)
+        quarters.append(slope_here)
     n, t, y, _, ty, yy = sums[:, end] - sums[:, begin]
-    left = max(yy - y * y / n - slope * (ty - t * y / n), 0.0)
-    return np.sqrt(left / n), quarters
+    residual = max(yy - y * y / n - slope * (ty - t * y / n), 0.0)
+    return np.sqrt(residual / n), quarters
 
 
 def _separates(y, begin, end, slope):
     """Whether what comes before [begin, end) lies on one side of its middle level, what comes after on the other."""
     middle = 0.5 * (y[begin] + y[end - 1])
-    before, after = y[:begin], y[end:]
+    earlier, later = y[:begin], y[end:]
     if slope < 0.0:
-        before, after = after, before
-    return bool(np.all(before < middle) and np.all(after > middle))
+        earlier, later = later, earlier
+    return bool(np.all(earlier < middle) and np.all(later > middle))
 
 
 def _bursts(size, least_span):

@@ -66,17 +66,19 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     frequency, fitted = [], np.zeros_like(z)
     amplitude = np.zeros((0, z.shape[1]))
     while len(frequency) < min(most, len(z) // POINTS_PER_LINE) and np.mean((z - fitted) ** 2) > _NEGLIGIBLE:
-        found = _next_line(z - fitted, frequency)
-        if found is None:
+        peak = _next_line(z - fitted, frequency)
+        if peak is None:
             break
-        frequency.append(found)
+        frequency.append(peak)
         frequency, fitted, amplitude = _fit(z, frequency)
     unit = np.where(np.isinf(size), 0.0, size)
-    whole = mean + fitted * unit
+    reconstructed = mean + fitted * unit
     variance = z.var(axis=0)
-    left = np.mean((z - fitted) ** 2, axis=0) / np.where(variance > 0.0, variance, 1.0)
-    whole = whole[:, 0] if np.ndim(series) == 1 else whole
-    return LineSpectrum(locked(np.array(frequency)), locked(amplitude * unit), locked(whole), locked(left))
+    unexplained = np.mean((z - fitted) ** 2, axis=0) / np.where(variance > 0.0, variance, 1.0)
+    reconstructed = reconstructed[:, 0] if np.ndim(series) == 1 else reconstructed
+    return LineSpectrum(
+        locked(np.array(frequency)), locked(amplitude * unit), locked(reconstructed), locked(unexplained)
+    )
 
 
 def _next_line(rest, known):
@@ -119,8 +121,8 @@ def _refine(weighted, start, bin_width):
 
     high = min(start + bin_width, 0.5)
     fine = {"xatol": 1e-6 * bin_width}
-    found = minimize_scalar(minus_power, bounds=(start - bin_width, high), method="bounded", options=fine)
-    return 0.5 if 0.5 - found.x < 0.25 / len(weighted) else float(found.x)
+    refined = minimize_scalar(minus_power, bounds=(start - bin_width, high), method="bounded", options=fine)
+    return 0.5 if 0.5 - refined.x < 0.25 / len(weighted) else float(refined.x)
 
 
 def _fit(z, frequency):

@@ -47,12 +47,14 @@ def nearest_outside(
         d, j = tree.query(points[rows[missing]], width)
         d, j = d.reshape(len(missing), -1), j.reshape(len(missing), -1)
         fine = np.abs(j - rows[missing, None]) > theiler
-        done = np.sum(fine, axis=1) >= count if width < n else np.ones(len(missing), dtype=bool)
-        order = np.argsort(~fine[done], axis=1, kind="stable")[:, :count]
-        kept = np.take_along_axis(fine[done], order, axis=1)
-        index[missing[done], : order.shape[1]] = np.where(kept, np.take_along_axis(j[done], order, axis=1), -1)
-        distance[missing[done], : order.shape[1]] = np.where(kept, np.take_along_axis(d[done], order, axis=1), np.inf)
-        missing, width = missing[~done], min(2 * width, n)
+        enough = np.sum(fine, axis=1) >= count if width < n else np.ones(len(missing), dtype=bool)
+        order = np.argsort(~fine[enough], axis=1, kind="stable")[:, :count]
+        nearest = np.take_along_axis(fine[enough], order, axis=1)
+        index[missing[enough], : order.shape[1]] = np.where(nearest, np.take_along_axis(j[enough], order, axis=1), -1)
+        distance[missing[enough], : order.shape[1]] = np.where(
+            nearest, np.take_along_axis(d[enough], order, axis=1), np.inf
+        )
+        missing, width = missing[~enough], min(2 * width, n)
     return index, distance
 
 
@@ -118,5 +120,5 @@ def _distance(state, horizon, theiler):
 
 def _resolution(column):
     """Least distance of two different values of a column (n,) in standard deviations; beyond rounding."""
-    apart = np.diff(np.sort(column))
-    return np.min(apart, initial=np.inf, where=apart > 64 * np.finfo(float).eps * np.abs(column).max())
+    gaps = np.diff(np.sort(column))
+    return np.min(gaps, initial=np.inf, where=gaps > 64 * np.finfo(float).eps * np.abs(column).max())

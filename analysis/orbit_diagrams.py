@@ -59,8 +59,8 @@ def orbit_diagram(parameters: ArrayLike, strobed: Iterable[ArrayLike], last: int
     parameter = checked_series(parameters, "parameters")
     strobed = list(strobed)
     if len(parameter) == 0 or len(parameter) != len(strobed):
-        given = f"{len(strobed)} arrays for {len(parameter)} values"
-        raise ValueError(f"one array of points per parameter value is needed, given {given}")
+        sizes = f"{len(strobed)} arrays for {len(parameter)} values"
+        raise ValueError(f"one array of points per parameter value is needed, given {sizes}")
     first = 0 if last is None else -checked_count(last, "last")
     arrays = [checked_series(points, f"strobed[{i}]")[first:] for i, points in enumerate(strobed)]
     values = np.unique(parameter)

@@ -151,17 +151,17 @@ def _measure(x, n, rounding):
 
 def _rivals(n, x, residual, tolerance):
     """{proper divisor of n: why n cannot be told from it}: it does nearly as well, or soon will. x: scaled."""
-    found = {}
+    rivals = {}
     for d in (d for d in range(1, n) if n % d == 0):
         tail = x[-_tail(len(x), d) :]
         step = tail[d:] - tail[:-d]
         rounds = max(len(step) // (2 * n), 1) * n  # steps of one kind come round after n
         early, late = (np.sqrt(np.mean(part**2)) for part in (step[:rounds], step[-rounds:]))
         if residual[d - 1] < CLEARLY_MORE * max(residual[n - 1], tolerance):
-            found[d] = "noise at the size of the tolerance"
+            rivals[d] = "noise at the size of the tolerance"
         elif late < FADES * early and early - late > residual[n - 1]:
-            found[d] = "what tells them apart is dying out"
-    return found
+            rivals[d] = "what tells them apart is dying out"
+    return rivals
 
 
 def _orbit(x, n):
@@ -174,8 +174,8 @@ def _orbit(x, n):
 def _reason(period, rivals, points, testable, max_period, tolerance, residual, trend):
     """One sentence on why the answer is what it is."""
     if period is not None:
-        found = residual[period - 1]
-        return f"repeats after {period} forcing period(s) within {tolerance:g} of the scale ({found:.2g})"
+        residual_here = residual[period - 1]
+        return f"repeats after {period} forcing period(s) within {tolerance:g} of the scale ({residual_here:.2g})"
     if testable == 0:
         return f"too short: {LEAST_POINTS} strobed points are needed at least, given {points}"
     for repeats, closest in rivals.items():
@@ -192,6 +192,6 @@ def _reason(period, rivals, points, testable, max_period, tolerance, residual, t
         return f"{looked}: steps over {best + 1} periods are within the tolerance but add up to more, a drift"
     nearest = f"{looked}: the nearest, N = {best + 1}, misses by {residual[best]:.2g} of the scale"
     if -np.inf < trend[best] * (points // 4) < -np.log(2.0):  # the later half of the last part moves half as much
-        more = np.log(residual[best] / tolerance) / -trend[best]
-        nearest += f", shrinking: a transient at this rate needs about {more:.0f} more forcing periods"
+        periods_left = np.log(residual[best] / tolerance) / -trend[best]
+        nearest += f", shrinking: a transient at this rate needs about {periods_left:.0f} more forcing periods"
     return nearest

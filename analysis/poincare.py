@@ -97,9 +97,9 @@ def section_at_phases(series: ArrayLike, step_s: float, period_s: float, transie
     column j (its name), the times those of column 0. That is enough for a state of dimension 4.
     """
     seen = [poincare_section(series, step_s, period_s, phase / PHASES, transient_periods) for phase in range(PHASES)]
-    rows = min(len(one.points) for one in seen)
-    points = locked(np.hstack([one.points[:rows] for one in seen]))
-    names, interpolated = tuple(str(phase) for phase in range(PHASES)), any(one.interpolated for one in seen)
+    rows = min(len(section.points) for section in seen)
+    points = locked(np.hstack([section.points[:rows] for section in seen]))
+    names, interpolated = tuple(str(phase) for phase in range(PHASES)), any(section.interpolated for section in seen)
     return PoincareSection(points, seen[0].period_index[:rows], seen[0].time_s[:rows], names, 0.0, interpolated)
 
 

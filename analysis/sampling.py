@@ -17,8 +17,8 @@ def checked_series(values: ArrayLike, name: str = "series", dimensions: tuple[in
         raise ValueError(f"{name}: an array of {allowed} dimension(s) is needed, given shape {array.shape}")
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
-        where = tuple(bad[0].tolist())
-        first = f"the first at index {where[0] if len(where) == 1 else where} ({array[where]})"
+        position = tuple(bad[0].tolist())
+        first = f"the first at index {position[0] if len(position) == 1 else position} ({array[position]})"
         raise ValueError(f"{name}: {len(bad)} value(s) not finite, {first}; cut the record before it")
     return array
 
@@ -36,8 +36,8 @@ def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
     """
     size = x.std(axis=0) if len(x) else np.zeros(x.shape[1])
     moves = size > 64 * np.finfo(float).eps * np.abs(x).max(axis=0, initial=0.0)
-    kept = x[:, moves]
-    return (kept - kept.mean(axis=0) if centred else kept) / size[moves]
+    moving = x[:, moves]
+    return (moving - moving.mean(axis=0) if centred else moving) / size[moves]
 
 
 def states_of(z: np.ndarray, coordinates: int, rows: int | None = None) -> np.ndarray:

@@ -52,7 +52,7 @@ def section_distance(first: ArrayLike, second: ArrayLike) -> SectionDistance:
     scale[scale == 0.0] = 1.0
     halves = [part / scale for part in (a[:half], a[half:], b[:half], b[half:])]
     within = [energy_distance(halves[0], halves[1]), energy_distance(halves[2], halves[3])]
-    across = [energy_distance(one, other) for one in halves[:2] for other in halves[2:]]
+    across = [energy_distance(early_part, late_part) for early_part in halves[:2] for late_part in halves[2:]]
     return SectionDistance(float(np.mean(across)), float(np.mean(within)), f"halves of {half} points")
 
 
@@ -63,5 +63,5 @@ def energy_distance(first: np.ndarray, second: np.ndarray) -> float:
     across = cdist(first, second).mean()
     if across == 0.0:
         return 0.0
-    apart = 2.0 * across - cdist(first, first).mean() - cdist(second, second).mean()
-    return float(np.sqrt(max(apart, 0.0) / (2.0 * across)))
+    distance = 2.0 * across - cdist(first, first).mean() - cdist(second, second).mean()
+    return float(np.sqrt(max(distance, 0.0) / (2.0 * across)))

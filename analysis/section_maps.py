@@ -66,10 +66,10 @@ class PredictionGain:
     def growth_nats(self) -> np.ndarray:
         """Logarithm of the growth of a perturbation from each point to the next, nats (k,)."""
         growth, size = np.empty(len(self.slopes)), self.slopes.shape[1]
-        kept = size - self.slopes.shape[2]
+        usable = size - self.slopes.shape[2]
         v = np.full(size, 1.0)
         for k, slope in enumerate(self.slopes):
-            v = np.concatenate([v @ slope, v[:kept]]) / np.sqrt(v @ v)
+            v = np.concatenate([v @ slope, v[:usable]]) / np.sqrt(v @ v)
             growth[k] = np.log(max(np.sqrt(v @ v), _LEAST_GROWTH))
             if growth[k] == np.log(_LEAST_GROWTH):
                 v = np.full(size, 1.0)
@@ -121,10 +121,10 @@ def section_lyapunov(section: ArrayLike, delays: int | None = None, theiler: int
     Source: J.-P. Eckmann & D. Ruelle, Rev. Mod. Phys. 57 (1985) 617; in noise: D. Nychka, S. Ellner, D. McCaffrey &
     A. R. Gallant, J. R. Stat. Soc. B 54 (1992) 399; error: `analysis.tangent_growth`.
     """
-    found = prediction_gain(section, delays, theiler)
-    if not np.isfinite(found.gain):
-        return (no_exponent(METHOD, found.reason, BITS_PER_PERIOD),) * 3
-    growth = found.growth_nats()
+    gain = prediction_gain(section, delays, theiler)
+    if not np.isfinite(gain.gain):
+        return (no_exponent(METHOD, gain.reason, BITS_PER_PERIOD),) * 3
+    growth = gain.growth_nats()
     half = len(growth) // 2
     parts = growth, growth[:half], growth[half:]
     return tuple(replace(tangent_lyapunov(part)[0], method=METHOD) for part in parts)
@@ -144,13 +144,13 @@ def _local_maps(state, target, theiler):
     """(rms error, neighbours, slopes (points, s, c)) of affine maps fitted to the nearest neighbours of each state,
     itself not among them, for each number of neighbours."""
     points, size = state.shape
-    most = points - 2 * theiler - 1
-    counts = sorted({min(many * (size + 1), most) for many in NEIGHBOURS_PER_COEFFICIENT})
+    largest = points - 2 * theiler - 1
+    counts = sorted({min(per_coefficient * (size + 1), largest) for per_coefficient in NEIGHBOURS_PER_COEFFICIENT})
     near, _ = nearest_outside(state, theiler, count=counts[-1])
-    away, aim = state[near] - state[:, None, :], target[near]
+    offset, aim = state[near] - state[:, None, :], target[near]
     for count in counts:
-        centre, mean = away[:, :count].mean(axis=1, keepdims=True), aim[:, :count].mean(axis=1, keepdims=True)
-        spread = (away[:, :count] - centre).transpose(0, 2, 1)
+        centre, mean = offset[:, :count].mean(axis=1, keepdims=True), aim[:, :count].mean(axis=1, keepdims=True)
+        spread = (offset[:, :count] - centre).transpose(0, 2, 1)
         square = spread @ spread.transpose(0, 2, 1)
         trace = np.trace(square, axis1=1, axis2=2)[:, None, None]
         square = square + (_RIDGE * trace / size + 1e-24) * np.eye(size)

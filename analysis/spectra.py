@@ -132,10 +132,10 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
     largest = amplitude.max()
     if largest <= noise:
         return ()
-    found, _ = find_peaks(amplitude, prominence=least_prominence * largest)
+    indices, _ = find_peaks(amplitude, prominence=least_prominence * largest)
     return tuple(
         SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]), int(j))
-        for j in found[np.argsort(-amplitude[found], kind="stable")]
+        for j in indices[np.argsort(-amplitude[indices], kind="stable")]
     )
 
 
@@ -155,10 +155,10 @@ def peaks_near(
     """
     peaks = spectral_peaks(spectrum, least_prominence)
 
-    def beside(given: float) -> SpectralPeak:
-        nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - given))
-        away = (nearest.angular_frequency_radps - given) / spectrum.bin_radps
-        return replace(nearest, reference_radps=given, bins_away=away)
+    def beside(frequency_radps: float) -> SpectralPeak:
+        nearest = min(peaks, key=lambda peak: abs(peak.angular_frequency_radps - frequency_radps))
+        bins = (nearest.angular_frequency_radps - frequency_radps) / spectrum.bin_radps
+        return replace(nearest, reference_radps=frequency_radps, bins_away=bins)
 
-    wanted = [checked_not_negative(given, "frequencies_radps") for given in frequencies_radps]
+    wanted = [checked_not_negative(frequency_radps, "frequencies_radps") for frequency_radps in frequencies_radps]
     return tuple(beside(given) if peaks else None for given in wanted)

@@ -95,14 +95,14 @@ def outlying(series: ArrayLike) -> np.ndarray:
     """
     x = checked_columns(series)
     far = np.zeros(len(x), dtype=bool)
-    most = max(1, len(x) // 100)
+    largest = max(1, len(x) // 100)
     for column in x.T:
         order = np.argsort(column, kind="stable")
         value, low, high = column[order], 0, len(x)
-        for j in range(1, most + 1):
-            if value[j] - value[j - 1] > FAR * (value[-most - 1] - value[j]):
+        for j in range(1, largest + 1):
+            if value[j] - value[j - 1] > FAR * (value[-largest - 1] - value[j]):
                 low = j
-            if value[-j] - value[-j - 1] > FAR * (value[-j - 1] - value[most]):
+            if value[-j] - value[-j - 1] > FAR * (value[-j - 1] - value[largest]):
                 high = len(x) - j
         far[order[:low]] = far[order[high:]] = True
     return np.flatnonzero(far)
@@ -111,9 +111,9 @@ def outlying(series: ArrayLike) -> np.ndarray:
 def _line(values):
     """Change along the least-squares line over the blocks, first to last, and the correlation with time."""
     time = np.arange(len(values)) - 0.5 * (len(values) - 1)
-    away = values - values.mean()
-    total = np.sqrt(np.sum(away**2))
+    deviation = values - values.mean()
+    total = np.sqrt(np.sum(deviation**2))
     if total <= 1e-12 * max(1.0, np.abs(values).max()):
         return 0.0, 0.0
-    slope = np.sum(time * away) / np.sum(time**2)
-    return float(slope * (len(values) - 1)), float(np.sum(time * away) / (np.sqrt(np.sum(time**2)) * total))
+    slope = np.sum(time * deviation) / np.sum(time**2)
+    return float(slope * (len(values) - 1)), float(np.sum(time * deviation) / (np.sqrt(np.sum(time**2)) * total))

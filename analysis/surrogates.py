@@ -156,42 +156,42 @@ def null_ranks(section: np.ndarray, surrogates: int, seed: Seed) -> list[NullRan
     ranks = []
     for i, points in enumerate((normal_scores(section), section)):
         gain = prediction_gain(points).gain
-        kept = spectral_lines(points).fitted if i and np.isfinite(gain) else 0.0
+        fitted = spectral_lines(points).fitted if i and np.isfinite(gain) else 0.0
         rng = np.random.default_rng([*np.atleast_1d(seed), 100 + i])
-        ranks.append(rank_until_lost(gain, _gains(points, kept, rng), surrogates))
+        ranks.append(rank_until_lost(gain, _gains(points, fitted, rng), surrogates))
     return ranks
 
 
-def _gains(points, kept, rng):
-    """Prediction gains of surrogates of what is left of a section beside the part `kept`, one after another."""
+def _gains(points, fitted, rng):
+    """Prediction gains of surrogates of what is left of a section beside the part `fitted`, one after another."""
     while True:
-        for one in kept + _iaaft(points - kept, AT_ONCE, rng):
-            yield prediction_gain(one).gain
+        for surrogate in fitted + _iaaft(points - fitted, AT_ONCE, rng):
+            yield prediction_gain(surrogate).gain
 
 
 def rank_until_lost(statistic: float, drawn: Iterator[float], surrogates: int, share: float = SHARE) -> NullRank:
     """`rank_among` of a statistic among `surrogates` values of an iterator, which is asked for no more of them once so
     many are as large that the share cannot be reached; NaN where the statistic or one drawn is none."""
-    most = np.floor((1.0 - share) * (surrogates + 1) + 1e-9) - 1.0  # that may be as large as the record's
-    found = []
-    while np.isfinite(statistic) and len(found) < surrogates and np.sum(np.array(found) >= statistic) <= most:
-        found.append(next(drawn))
-        if not np.isfinite(found[-1]):
+    allowed = np.floor((1.0 - share) * (surrogates + 1) + 1e-9) - 1.0  # that may be as large as the record's
+    values = []
+    while np.isfinite(statistic) and len(values) < surrogates and np.sum(np.array(values) >= statistic) <= allowed:
+        values.append(next(drawn))
+        if not np.isfinite(values[-1]):
             break
-    if not found or not np.isfinite(found[-1]):
+    if not values or not np.isfinite(values[-1]):
         return NullRank(None, np.nan, np.nan, np.nan, np.empty(0))
-    if len(found) == surrogates:
-        return rank_among(statistic, found, share)
-    below = np.mean(np.array(found) < statistic)
-    return NullRank(False, float(below), float(statistic - np.median(found)), statistic, locked(np.array(found)))
+    if len(values) == surrogates:
+        return rank_among(statistic, values, share)
+    below = np.mean(np.array(values) < statistic)
+    return NullRank(False, float(below), float(statistic - np.median(values)), statistic, locked(np.array(values)))
 
 
-def _drawn(series, count, seed, kept):
-    """Surrogates of what is left of a record beside the part `kept` (a function of its columns), with this part."""
+def _drawn(series, count, seed, fitted):
+    """Surrogates of what is left of a record beside the part `fitted` (a function of its columns), with this part."""
     columns, count = checked_columns(series), checked_count(count, "count")
     if len(columns) < LEAST_POINTS:
         raise ValueError(f"series: {LEAST_POINTS} samples at least are needed for surrogates, given {len(columns)}")
-    part = kept(columns)
+    part = fitted(columns)
     surrogates = part + _iaaft(columns - part, count, np.random.default_rng(seed))
     return surrogates[:, :, 0] if np.ndim(series) == 1 else surrogates
 

@@ -139,31 +139,31 @@ def _candidates(points, evolution, count, floor, longest):
     rng = np.random.default_rng(0)
     stops = np.arange(count) * evolution
     probe = rng.choice(stops, min(200, count), replace=False)
-    kept, k = np.arange(len(points)), min(NEIGHBOURS, len(points))
+    remaining, k = np.arange(len(points)), min(NEIGHBOURS, len(points))
     while True:
-        tree = cKDTree(points[kept], balanced_tree=False, compact_nodes=False)
+        tree = cKDTree(points[remaining], balanced_tree=False, compact_nodes=False)
         reach = np.median(tree.query(points[probe], k)[0].reshape(len(probe), -1)[:, -1])
-        if reach >= min(2.0 * floor, 0.75 * longest) or len(kept) < 4 * NEIGHBOURS:
+        if reach >= min(2.0 * floor, 0.75 * longest) or len(remaining) < 4 * NEIGHBOURS:
             break
-        kept = np.sort(rng.choice(kept, len(kept) // 2, replace=False))
+        remaining = np.sort(rng.choice(remaining, len(remaining) // 2, replace=False))
     distance, near = tree.query(points[stops], k)
-    return kept[near.reshape(count, -1)], np.ascontiguousarray(distance.reshape(count, -1))
+    return remaining[near.reshape(count, -1)], np.ascontiguousarray(distance.reshape(count, -1))
 
 
 def _mean_growth(growth, time, room, floor, size):
     """Exponent, its error from blocks and the reason, from the growth over evolutions of `time` each."""
-    kept = growth[np.isfinite(growth)]
+    finite = growth[np.isfinite(growth)]
     if size == 0.0:
         return np.nan, np.nan, "the series is constant"
     if not room:
         return np.nan, np.nan, f"noise: vectors would have to be longer than {floor / size:.2g} of the rms radius"
-    if len(kept) < LEAST_STEPS or len(kept) < 0.5 * len(growth):
-        followed = f"{len(kept)} of {len(growth)} evolutions could be followed"
+    if len(finite) < LEAST_STEPS or len(finite) < 0.5 * len(growth):
+        followed = f"{len(finite)} of {len(growth)} evolutions could be followed"
         return np.nan, np.nan, f"no neighbours: {followed}, {LEAST_STEPS} and half of all are needed"
-    blocks = min(BLOCKS, len(kept) // 4)
-    means = np.array([block.mean() for block in np.array_split(kept, blocks)]) / time
+    blocks = min(BLOCKS, len(finite) // 4)
+    means = np.array([block.mean() for block in np.array_split(finite, blocks)]) / time
     error = float(np.std(means, ddof=1) / np.sqrt(blocks))
-    return float(kept.mean() / time), error, f"{len(kept)} of {len(growth)} evolutions followed"
+    return float(finite.mean() / time), error, f"{len(finite)} of {len(growth)} evolutions followed"
 
 
 @kernel

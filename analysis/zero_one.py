@@ -80,8 +80,8 @@ def _why_not(phi):
         return "no motion: the section is one point to the last digits"
     per_step = span / np.mean(np.abs(np.diff(phi)))
     if per_step > MOST_RANGE_PER_STEP:
-        given = f"the range is {per_step:.3g} mean steps, more than {MOST_RANGE_PER_STEP:g}"
-        return f"oversampled: {given}; the test needs the motion once per forcing period, not every sample of it"
+        reason = f"the range is {per_step:.3g} mean steps, more than {MOST_RANGE_PER_STEP:g}"
+        return f"oversampled: {reason}; the test needs the motion once per forcing period, not every sample of it"
     return ""
 
 

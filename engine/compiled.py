@@ -31,9 +31,10 @@ types.Record.mangling_args = property(lambda kind: ("Record", (hashlib.sha256(ki
 def source_hash() -> str:
     """Hash of everything in the engine that can change a result; part of the key of every stored run.
 
-    sha256, hexadecimal, over the names and contents of all `engine/**/*.py` and `*.toml`, and of `machine_code`.
+    sha256, hexadecimal, over the names and the code of all `engine/**/*.py` and `*.toml`, and of `machine_code`.
+    Docstrings and comments do not count.
     """
-    return hash_of(_ROOT, ".py", ".toml")
+    return hash_of(_ROOT, endings=(".py", ".toml"))
 
 
 def kernel(function):

@@ -30,9 +30,9 @@ class _Library(JITCodeLibrary):
 
     def add_linking_library(self, library):
         below = library._linking_libraries if isinstance(library, _Part) else ()
-        for one in (library, *below):
-            if one not in self._linking_libraries:
-                super().add_linking_library(one)
+        for linked in (library, *below):
+            if linked not in self._linking_libraries:
+                super().add_linking_library(linked)
 
     def add_ir_module(self, module):
         """Takes in a module, whose functions shall find their stack where vectors of 64 bytes may be put: LLVM would
@@ -71,13 +71,13 @@ def _passes():
     """Numba's own passes, without those for what no kernel has: closures, comprehensions, generators, literal types,
     objects, exceptions, parallel loops, functions that are inlined before they have types."""
     manager = PassManager("kernel")
-    for one in (
+    for numba_pass in (
         untyped.TranslateByteCode, untyped.FixupArgs, untyped.IRProcessing, untyped.RewriteSemanticConstants,
         untyped.DeadBranchPrune, untyped.GenericRewrites, untyped.ReconstructSSA, typed.NopythonTypeInference,
         typed.PreLowerStripPhis, typed.NopythonRewrites, typed.IRLegalization, typed.NativeLowering,
         typed.NoPythonBackend,
     ):  # fmt: skip
-        manager.add_pass(one)
+        manager.add_pass(numba_pass)
     manager.finalize()
     return manager
 

@@ -8,18 +8,19 @@ folder is set only while a kernel is being declared, so other users of Numba in 
 import contextlib
 import fcntl
 import glob
-import hashlib
 import os
 import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 
 import numba
 from numba import config
+
+from .sources import code_hash, sources_of
 
 PATIENCE_S = 20.0  # for a lock that is held for milliseconds
 _ROOT = Path(__file__).parent
@@ -28,15 +29,18 @@ _in_use: list[Path] = []
 _NOT_KEPT = "machine code cannot be kept in {} ({}); every process compiles it anew"
 
 
-def hash_of(package: Path, *endings: str) -> str:
-    """sha256, hexadecimal, over names and contents of all files of a package's folder with these endings (".py"), and
-    of the .py files here."""
-    digest = hashlib.sha256()
-    for root, kinds in ((package, endings), (_ROOT, (".py",))):
-        for path in sorted(path for kind in kinds for path in root.rglob(f"*{kind}")):
-            digest.update(path.relative_to(root).as_posix().encode() + b"\0")
-            digest.update(path.read_bytes() + b"\0")
-    return digest.hexdigest()
+def hash_of(*packages: Path, endings: tuple[str, ...] = (".py",)) -> str:
+    """sha256, hexadecimal, over the code of all files of the packages' folders with these endings (`sources`), and of
+    the .py files here."""
+    files = sources_of(_ROOT, ".py")
+    for package in packages:
+        files |= {f"{package.name}/{name}": path for name, path in sources_of(package, *endings).items()}
+    return kept_hash(files)
+
+
+def kept_hash(files: Mapping[str, Path]) -> str:
+    """`sources.code_hash`, remembered on disk."""
+    return code_hash(files, folder_for("sources", "code", kept=1))
 
 
 def folder_for(name: str, sources: str, kept: int) -> Path | None:
@@ -54,8 +58,8 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
             continue
         probe.close()
         with contextlib.suppress(OSError):  # another process may be dropping the same folders
-            others = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
-            for _, old in others[: -kept or None]:
+            older = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
+            for _, old in older[: -kept or None]:
                 shutil.rmtree(old, ignore_errors=True)
         _in_use.append(folder)
         return folder
@@ -76,10 +80,10 @@ def made_since(time_s: float) -> int:
 
 def _roots() -> Iterator[Path]:
     # In full: a process may go to another folder between this and its first kernel.
-    told = os.environ.get("TETHER_CACHE_DIR")
+    chosen = os.environ.get("TETHER_CACHE_DIR")
     cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    if told:
-        yield Path(told).absolute()
+    if chosen:
+        yield Path(chosen).absolute()
     elif not cache.startswith("~"):  # a user whom the system does not know has no home
         yield Path(cache, "tether-workbench").absolute()
     with contextlib.suppress(OSError):  # there may be no place for temporary files, or one full to the last byte

@@ -22,20 +22,71 @@ from engine.parameters import record_of
 from engine.planar.columns import NODE_WIDTH
 from engine.planar.node import shape
 from machine_code.parts import compiled_in_parts
+from machine_code.sources import code_hash, code_of
 from machine_code.store import compiled, folder_for, hash_of, one_at_a_time
 
 PROCESSES, KINDS = 4, 12
 
 
-def test_every_source_counts_by_name_and_content(tmp_path):
-    found = {hash_of(tmp_path, ".py", ".toml")}
-    for name, content in (("a.py", "x"), ("a.py", "y"), ("b.py", "y"), ("inner/c.toml", "")):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(content)
-        found.add(hash_of(tmp_path, ".py", ".toml"))
-    assert len(found) == 5
-    (tmp_path / "notes.md").write_text("nothing of this compiles")
-    assert hash_of(tmp_path, ".py", ".toml") in found
+def test_every_source_counts_by_name_and_code(tmp_path, monkeypatch):
+    monkeypatch.setenv("TETHER_CACHE_DIR", str(tmp_path / "cache"))
+    package = tmp_path / "package"
+    package.mkdir()
+    endings = (".py", ".toml")
+    found = {hash_of(package, endings=endings)}
+    for name, content in (("a.py", "x"), ("a.py", "y"), ("b.py", "y"), ("inner/c.toml", ""), ("inner/c.toml", "# x")):
+        (package / name).parent.mkdir(exist_ok=True)
+        (package / name).write_text(content)
+        found.add(hash_of(package, endings=endings))
+    assert len(found) == 6
+    (package / "notes.md").write_text("nothing of this compiles")
+    assert hash_of(package, endings=endings) in found
+
+
+SOURCE = '''"""Module."""
+def f(a, b=2):
+    """Function."""
+    return [a + b for a in "x"]  # comment
+
+
+class C:
+    """Class."""
+'''
+
+
+@pytest.mark.parametrize(
+    "old, new, same",
+    [
+        ('"""Module."""', "", True),
+        ('"""Function."""\n', "", True),
+        ("# comment", "# another one, longer", True),
+        ("a + b for", "(a\n  + b)  for", True),
+        ('"x"', 'u"x"', True),
+        ('"x"', '"y"', False),
+        ("b=2", "b=2.0", False),
+        ("b=2", "b=None", False),
+        ("a + b for", "b + a for", False),
+        ('    """Class."""', '    name = """Class."""', False),
+        ("(a, b=2)", "(a, /, b=2)", False),
+        ("def f", "async def f", False),
+        ("    return [", '    ("a",)\n    return [', False),
+    ],
+)
+def test_only_code_counts(old, new, same):
+    assert old in SOURCE
+    assert (code_of(SOURCE.replace(old, new)) == code_of(SOURCE)) == same
+
+
+@pytest.mark.parametrize("damage", [b"", b"short", b"\xff" * 64])
+def test_a_damaged_note_of_a_hash_is_not_believed(tmp_path, damage):
+    (tmp_path / "a.py").write_text("x = 1")
+    files = {"a.py": tmp_path / "a.py"}
+    found = code_hash(files, tmp_path / "notes")
+    (tmp_path / "notes").mkdir()
+    assert code_hash(files, tmp_path / "notes") == found
+    (note,) = (tmp_path / "notes").iterdir()
+    note.write_bytes(damage)
+    assert code_hash(files, tmp_path / "notes") == found and note.read_text() == found
 
 
 def test_the_latest_folders_of_a_name_stay(tmp_path, monkeypatch):

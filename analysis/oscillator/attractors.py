@@ -93,14 +93,14 @@ def search_periodic_orbits(oscillator: SnapOscillator, period: int, starts: Arra
     Returns a tuple of PeriodicOrbit, stable ones first, then by first displacement; empty where none was met. Newton's
     method finds stable and unstable orbits alike, and a search from starts proves no completeness.
     """
-    found: list[PeriodicOrbit] = []
+    orbits: list[PeriodicOrbit] = []
     for start in checked_starts(starts):
         orbit = periodic_orbit(oscillator, period, start)
         if orbit is None or orbit.period != period:
             continue
-        if all(np.abs(orbit.points[0] - other.points).max(axis=1).min() > 1e-6 for other in found):
-            found.append(orbit)
-    return tuple(sorted(found, key=lambda orbit: (not orbit.stable, orbit.points[0, 0])))
+        if all(np.abs(orbit.points[0] - known.points).max(axis=1).min() > 1e-6 for known in orbits):
+            orbits.append(orbit)
+    return tuple(sorted(orbits, key=lambda orbit: (not orbit.stable, orbit.points[0, 0])))
 
 
 def _described(x, period, iterations, table):
@@ -172,12 +172,12 @@ def snap_basins(
     label, settled = np.full((2, len(state)), -1)
     orbits: list[np.ndarray] = []
     waiting = np.arange(len(state))
-    for done in range(_LOOK_EVERY, periods + 1, _LOOK_EVERY):
+    for passed in range(_LOOK_EVERY, periods + 1, _LOOK_EVERY):
         further = strobed_orbits(state[waiting], 0, _LOOK_EVERY + 1, table)[:, 1:]
         state[waiting], recent = further[:, -1], np.concatenate([recent, further], axis=1)[:, -2 * longest :]
         for i, period in zip(waiting, _repeats(recent, longest), strict=True):
             if period and (orbit := _attracted(oscillator, state[i], int(period), table)) is not None:
-                label[i], settled[i] = _index(orbits, orbit), done
+                label[i], settled[i] = _index(orbits, orbit), passed
         recent, waiting = recent[label[waiting] < 0], waiting[label[waiting] < 0]
     return _counted(label, settled, orbits, periods)
 
@@ -185,11 +185,11 @@ def snap_basins(
 def _repeats(recent, longest):
     """Least period p after which orbits (n, m, 2) repeat themselves at their end; 0 for the others, and for all
     while m is below twice the longest period looked for."""
-    found = np.zeros(len(recent), dtype=int)
+    repeats_after = np.zeros(len(recent), dtype=int)
     for p in range(longest if recent.shape[1] >= 2 * longest else 0, 0, -1):
-        apart = np.abs(recent[:, -p:] - recent[:, -2 * p : -p]).max(axis=(1, 2))
-        found[apart <= _NEARLY] = p  # a state that is NaN repeats nothing
-    return found
+        difference = np.abs(recent[:, -p:] - recent[:, -2 * p : -p]).max(axis=(1, 2))
+        repeats_after[difference <= _NEARLY] = p  # a state that is NaN repeats nothing
+    return repeats_after
 
 
 def _attracted(oscillator, state, period, table):
@@ -197,13 +197,13 @@ def _attracted(oscillator, state, period, table):
     orbit = periodic_orbit(oscillator, period, state)
     if orbit is None or not orbit.stable:
         return None
-    before, after = strobed_orbits(state[None], 0, 64 * period + 1, table)[0, [0, -1]]
-    return orbit.points if _distance(after, orbit.points) <= max(_distance(before, orbit.points), 1e-9) else None
+    start, end = strobed_orbits(state[None], 0, 64 * period + 1, table)[0, [0, -1]]
+    return orbit.points if _distance(end, orbit.points) <= max(_distance(start, orbit.points), 1e-9) else None
 
 
 def _index(orbits, orbit):
-    for index, other in enumerate(orbits):
-        if len(other) == len(orbit) and _distance(orbit[0], other) < 1e-6:
+    for index, orbit_seen in enumerate(orbits):
+        if len(orbit_seen) == len(orbit) and _distance(orbit[0], orbit_seen) < 1e-6:
             return index
     orbits.append(orbit)
     return len(orbits) - 1

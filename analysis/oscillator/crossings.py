@@ -57,7 +57,7 @@ def cubic_guess(g0, v0, g1, v1, width):
 
 
 @kernel
-def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, most, theta, k, p0, w0):
+def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, curvature, theta, k, p0, w0):
     """The crossing between lo and hi, where g has opposite signs."""
     tau = lo + (hi - lo) * cubic_guess(g_lo, v_lo, g_hi, v_hi, hi - lo)
     for _ in range(80):
@@ -67,7 +67,7 @@ def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, most, theta, k, p0, 
         else:
             hi = tau
         step = -g / slope if slope != 0.0 else math.inf
-        if most * step * step < _TIME_ERROR * abs(slope) or abs(step) < 1e-15 * hi:
+        if curvature * step * step < _TIME_ERROR * abs(slope) or abs(step) < 1e-15 * hi:
             return min(max(tau + step, lo), hi)
         tau += step
         if not lo < tau < hi:
@@ -78,20 +78,20 @@ def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, most, theta, k, p0, 
 
 
 @kernel
-def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, most, floor, theta, k, p0, w0):
-    """The first crossing in (lo, end], or NONE; see the head of this file. `most` bounds |g''|.
+def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, curvature, floor, theta, k, p0, w0):
+    """The first crossing in (lo, end], or NONE; see the head of this file. `curvature` bounds |g''|.
 
     g_lo, v_lo: state at lo, on the side of a up to rounding; g_end, v_end: state at end.
     """
     side = 1.0 if a == 1 else -1.0
     hi, g_hi, v_hi = end, g_end, v_end
     while True:
-        bulge = 0.125 * most * (hi - lo) ** 2
+        bulge = 0.125 * curvature * (hi - lo) ** 2
         crossed = side * g_hi <= 0.0
         hidden = bulge <= floor or hi - lo < 1e-13 * end
-        one_way = v_lo * v_hi > 0.0 and abs(v_lo) + abs(v_hi) > most * (hi - lo)
+        one_way = v_lo * v_hi > 0.0 and abs(v_lo) + abs(v_hi) > curvature * (hi - lo)
         if crossed and one_way and side * g_lo > 0.0:
-            return bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, most, theta, k, p0, w0)
+            return bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, curvature, theta, k, p0, w0)
         if crossed and hidden:
             return hi
         if not crossed and (hidden or min(side * g_lo, side * g_hi) > bulge):
@@ -106,16 +106,16 @@ def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, most, floor, theta, k, p0
 
 
 @kernel
-def leave(a, start, end, x, v, most, floor, theta, k, p0, w0):
+def leave(a, start, end, x, v, curvature, floor, theta, k, p0, w0):
     """`search` after a crossing at `start` that is close to grazing."""
     _, slope = state_at(a, start, x, v, theta, k, p0, w0)
-    clear = abs(slope) / most if most > 0.0 else math.inf
+    clear = abs(slope) / curvature if curvature > 0.0 else math.inf
     lo = min(start + max(clear, 1e-12), end)
     if lo >= end:
         return NONE
     g_lo, v_lo = state_at(a, lo, x, v, theta, k, p0, w0)
     g_end, v_end = state_at(a, end, x, v, theta, k, p0, w0)
-    return search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, most, floor, theta, k, p0, w0)
+    return search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, curvature, floor, theta, k, p0, w0)
 
 
 @kernel
@@ -131,18 +131,18 @@ def first_crossing(a, start, x, v, window, table):
     phi, q = table.phi[a], table.q[window, a]
     if a == 0 and x + max(v, 0.0) * phi[1, last] + table.reach[window] < 0.0:
         return NONE  # slack and too deep to come up within the window
-    most = curvature_bound(a, x, v, k, p0, w0)
+    curvature = curvature_bound(a, x, v, k, p0, w0)
     floor = _ROUNDING * (abs(x) + abs(v) * tau[last] + table.size[window])
     side = 1.0 if a == 1 else -1.0
     j, g = 0, x
     if start > 0.0:
         j = min(int(start / tau[1]) + 1, last)
         g = phi[0, j] * x + phi[1, j] * v + q[0, j]
-        if side * g <= 0.5 * most * (tau[j] - start) ** 2 and start < tau[j]:
-            found = leave(a, start, tau[j], x, v, most, floor, theta, k, p0, w0)
-            if found != NONE:
-                return found
-    bulge = 0.125 * most * tau[1] * tau[1]
+        if side * g <= 0.5 * curvature * (tau[j] - start) ** 2 and start < tau[j]:
+            crossing = leave(a, start, tau[j], x, v, curvature, floor, theta, k, p0, w0)
+            if crossing != NONE:
+                return crossing
+    bulge = 0.125 * curvature * tau[1] * tau[1]
     stride = 1 if start > 0.0 else 4
     while j < last:
         step = min(stride, last - j)
@@ -156,8 +156,8 @@ def first_crossing(a, start, x, v, window, table):
         else:
             v_j = phi[2, j] * x + phi[3, j] * v + q[1, j]
             v_i = phi[2, i] * x + phi[3, i] * v + q[1, i]
-            found = search(a, tau[j], g, v_j, tau[i], g_next, v_i, x, v, most, floor, theta, k, p0, w0)
-            if found != NONE:
-                return found
+            crossing = search(a, tau[j], g, v_j, tau[i], g_next, v_i, x, v, curvature, floor, theta, k, p0, w0)
+            if crossing != NONE:
+                return crossing
             j, g = i, g_next
     return NONE

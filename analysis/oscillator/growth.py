@@ -107,9 +107,9 @@ def _grown(oscillators, starts, transient_periods, periods, blocks, points):
     if periods % blocks or points > periods:
         raise ValueError(f"periods: a multiple of blocks = {blocks}, at least points = {points}, given {periods}")
     transient, length = checked_count(transient_periods, "transient_periods", 0), periods // blocks
-    parameters = np.array([astuple(one) for one in oscillators], dtype=float)
+    parameters = np.array([astuple(oscillator) for oscillator in oscillators], dtype=float)
     sums, section, end, slack = growth_over_values(parameters, starts, transient, blocks, length, points)
-    spans = length * np.array([one.period for one in oscillators])
+    spans = length * np.array([oscillator.period for oscillator in oscillators])
     return sums / spans[:, None, None, None], section, end, slack
 
 
@@ -141,10 +141,13 @@ def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     running = np.cumsum(rates[:, :, 0], axis=1) / np.arange(1, blocks + 1)
     time = np.arange(1, blocks + 1) * (periods // blocks * oscillator.period)
     convergence = np.column_stack([time, running.mean(axis=0), standard_error(running)])
-    both = (Exponent(*found, NATS_PER_TIME, METHOD, reason) for found in ((first, error[0]), (second, error[1])))
+    exponents = (
+        Exponent(*value_and_error, NATS_PER_TIME, METHOD, reason)
+        for value_and_error in ((first, error[0]), (second, error[1]))
+    )
     uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
     measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
-    return SnapExponents(*both, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
+    return SnapExponents(*exponents, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
 
 
 @dataclass(frozen=True, eq=False)

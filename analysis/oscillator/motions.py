@@ -62,10 +62,10 @@ def strobed_states_within(
     boxes = checked_series(boxes, "boxes", (2,))
     if boxes.shape[1] != 4:
         raise ValueError(f"boxes: an array (b, 4) is needed, given shape {boxes.shape}")
-    points, most = checked_count(points, "points"), checked_count(most_periods, "most_periods")
+    points, longest = checked_count(points, "points"), checked_count(most_periods, "most_periods")
     x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
-    found, counts, seen = _within(x, v, boxes, points, most, tables(oscillator))
-    return tuple(found[i, : counts[i]].copy() for i in range(len(boxes))), int(seen)
+    states, counts, seen = _within(x, v, boxes, points, longest, tables(oscillator))
+    return tuple(states[i, : counts[i]].copy() for i in range(len(boxes))), int(seen)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +111,7 @@ def _sampled(x, v, periods, samples, period, table):
     log = np.empty((MOST_PIECES, 5))
     motion = np.empty((periods * samples + 1, 2))
     switches = np.empty(64)
-    found, slack_time = 0, 0.0
+    crossings, slack_time = 0, 0.0
     span = period / len(table.steady)
     for n in range(periods):
         start, speed = x, v
@@ -119,10 +119,10 @@ def _sampled(x, v, periods, samples, period, table):
         slack_time += slack
         for piece in range(pieces):
             if log[piece, 1] > 0.0:
-                if found == len(switches):
-                    switches = np.append(switches, np.empty(found))
-                switches[found] = n * period + log[piece, 0] * span + log[piece, 1]
-                found += 1
+                if crossings == len(switches):
+                    switches = np.append(switches, np.empty(crossings))
+                switches[crossings] = n * period + log[piece, 0] * span + log[piece, 1]
+                crossings += 1
         motion[n * samples, 0], motion[n * samples, 1] = start, speed
         piece = 0
         for j in range(1, samples):
@@ -139,19 +139,19 @@ def _sampled(x, v, periods, samples, period, table):
         if pieces == 0:
             motion[n * samples + 1 :] = np.nan
     motion[periods * samples, 0], motion[periods * samples, 1] = x, v
-    return motion, switches[:found].copy(), slack_time
+    return motion, switches[:crossings].copy(), slack_time
 
 
 @kernel
-def _within(x, v, boxes, points, most, table):
+def _within(x, v, boxes, points, longest, table):
     log = np.empty((MOST_PIECES, 5))
-    found, counts = np.empty((len(boxes), points, 2)), np.zeros(len(boxes), np.int64)
-    for n in range(most):
+    states, counts = np.empty((len(boxes), points, 2)), np.zeros(len(boxes), np.int64)
+    for n in range(longest):
         for i in range(len(boxes)):
             if counts[i] < points and boxes[i, 0] <= x <= boxes[i, 1] and boxes[i, 2] <= v <= boxes[i, 3]:
-                found[i, counts[i], 0], found[i, counts[i], 1] = x, v
+                states[i, counts[i], 0], states[i, counts[i], 1] = x, v
                 counts[i] += 1
         if counts.min() == points:
-            return found, counts, n + 1
+            return states, counts, n + 1
         x, v, _, _ = next_state(x, v, table, log)
-    return found, counts, most
+    return states, counts, longest

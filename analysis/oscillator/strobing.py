@@ -131,7 +131,7 @@ def growth_along(x, v, transient, blocks, length, table, orbit):
     y, w, z, u = 1.0, 0.0, 0.0, 1.0
     product1, product2 = 1.0, 1.0
     # One logarithm for several periods, but not for so many that the products leave the range of the numbers.
-    every = _LOGARITHM_EVERY if table.constants[MU] * 2.0 * math.pi / table.constants[OMEGA] < 10.0 else 1
+    interval = _LOGARITHM_EVERY if table.constants[MU] * 2.0 * math.pi / table.constants[OMEGA] < 10.0 else 1
     for at in range(-transient, blocks * length):
         if 0 <= at < len(orbit):
             orbit[at, 0], orbit[at, 1] = x, v
@@ -145,7 +145,7 @@ def growth_along(x, v, transient, blocks, length, table, orbit):
         slack_time += slack
         product1 *= r11
         product2 *= r22
-        if (at + 1) % every == 0 or (at + 1) % length == 0:
+        if (at + 1) % interval == 0 or (at + 1) % length == 0:
             sums[at // length, 0] += math.log(product1)
             sums[at // length, 1] += math.log(product2)
             product1, product2 = 1.0, 1.0
@@ -153,13 +153,13 @@ def growth_along(x, v, transient, blocks, length, table, orbit):
 
 
 @kernel
-def growth_over_values(parameters, starts, transient, blocks, length, kept):
+def growth_over_values(parameters, starts, transient, blocks, length, recorded):
     """`growth_along` for every row (mu, omega, F, lift, phase) of parameters (p, 5), each from the same starts (n, 2).
 
     Returns sums (p, n, blocks, 2), section (p, n, kept, 2), end (p, n, 2) and slack share (p, n).
     """
     p, n = len(parameters), len(starts)
-    sums, section = np.empty((p, n, blocks, 2)), np.empty((p, n, kept, 2))
+    sums, section = np.empty((p, n, blocks, 2)), np.empty((p, n, recorded, 2))
     end, slack = np.empty((p, n, 2)), np.empty((p, n))
     for j in range(p):
         mu, omega, force, lift, phase = parameters[j]

@@ -29,8 +29,8 @@ def options(group) -> None:
     cli.add(group, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
     turns = f"turns of every timed setting (default: {FULL.rounds})"
     cli.add(group, "--rounds", "N", turns, cli.whole(1, len(FACTORS)))
-    few = f"{' and '.join(QUICK.works)} alone, few settings, one round"
-    group.add_argument("--quick", action="store_true", help=few)
+    quick_help = f"{' and '.join(QUICK.works)} alone, few settings, one round"
+    group.add_argument("--quick", action="store_true", help=quick_help)
     group.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
 
 
@@ -58,15 +58,15 @@ def done(order: Order):
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
     timing, known, made = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], set()
-    alone = replace(plan, how=replace(order.how, backend="threading", jobs=1))
+    one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
-    for how, phase in zip((plan, plan, plan, alone), phases, strict=True):
+    for phase_plan, phase in zip((plan, plan, plan, one_at_a_time), phases, strict=True):
         if phase and not known:
             write_scene(out, STUDY.name, phase)
         known += phase
-        more, summary = run(how, known)
+        phase_timing, summary = run(phase_plan, known)
         made |= summary.made
-        timing = {name: timing[name] + more[name] for name in timing}
+        timing = {name: timing[name] + phase_timing[name] for name in timing}
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
     if ours:
         pieces.keep(out, own.quick)
@@ -77,12 +77,13 @@ def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery.session import machine
 
-    own, told = order.own, ("title", "measure", "period_s", "duration_s", "rough")
+    own, fields_shown = order.own, ("title", "measure", "period_s", "duration_s", "rough")
     works = [BY_NAME[name] for name in own.effort.works]
     peers = dict.fromkeys(peer for peer, _, _ in taking_part(own.effort.works, own.quick) if not own.no_peers)
     return {
         "works": {
-            work.name: {name: getattr(work, name) for name in told} | {"unit": UNITS[work.measure]} for work in works
+            work.name: {name: getattr(work, name) for name in fields_shown} | {"unit": UNITS[work.measure]}
+            for work in works
         },
         "quick": own.quick,
         "rounds": own.effort.rounds,
@@ -97,14 +98,16 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     from campaigns.answers import known
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
-    said = []
+    sentences = []
     for work in order.own.effort.works:
-        found = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
-        if errors := [known(row, "error") for row in found if isfinite(known(row, "error"))]:
-            wall_ms = 1e3 * median(row["wall_s"] for row in found) * BY_NAME[work].period_s / BY_NAME[work].duration_s
-            said.append(f"{work} {median(errors):.2g} {UNITS[BY_NAME[work].measure]} in {wall_ms:.2g} ms")
-    if said:
-        yield f"Error of the shipped setting, and its time for a wave period: {'; '.join(said)}."
+        shipped_rows = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
+        if errors := [known(row, "error") for row in shipped_rows if isfinite(known(row, "error"))]:
+            wall_ms = (
+                1e3 * median(row["wall_s"] for row in shipped_rows) * BY_NAME[work].period_s / BY_NAME[work].duration_s
+            )
+            sentences.append(f"{work} {median(errors):.2g} {UNITS[BY_NAME[work].measure]} in {wall_ms:.2g} ms")
+    if sentences:
+        yield f"Error of the shipped setting, and its time for a wave period: {'; '.join(sentences)}."
     early = sum(row["status"] != "ok" for row in rows if row["kind"] == "point")
     yield f"{early} of our timed runs ended early."
 

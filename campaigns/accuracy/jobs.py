@@ -35,19 +35,19 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     The runs of each phase have to be in `out` before the next is asked for. with_peers: whether there are other codes.
     """
     first, second, third = plan.phases(effort)
-    asked = taking_part(effort.works, quick) if with_peers else []
-    there = [(peer, work) for peer, work, _ in asked if version(peer)]
+    wanted = taking_part(effort.works, quick) if with_peers else []
+    installed = [(peer, work) for peer, work, _ in wanted if version(peer)]
     known: Samples = {}
     ours = {(point.work, point.kind): engine_job(point, known) for point in first}
-    for peer, work in there:
+    for peer, work in installed:
         if peer.ours:  # our refined run with the changes that another code is to be compared with
             nodes, rtol = OURS_REFINED
             scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
             point = Point(work, OURS, BEST, nodes, "rtol", rtol)
             ours[work, OURS + peer.name] = job_of(point, scene, f"{OURS} {peer.name}")
     yield list(ours.values())
-    known |= {(work, what): kept_samples(BY_NAME[work], out, job.key) for (work, what), job in ours.items()}
-    refined = [(peer, work, peer.refined[work]) for peer, work in there if work in peer.refined]
+    known |= {(work, role): kept_samples(BY_NAME[work], out, job.key) for (work, role), job in ours.items()}
+    refined = [(peer, work, peer.refined[work]) for peer, work in installed if work in peer.refined]
     theirs = {(work, peer.name): peer_job(peer, work, REFERENCE, runs[0], known) for peer, work, runs in refined}
     yield list(theirs.values())
     known |= {(work, name): kept_samples(BY_NAME[work], out, job.key) for (work, name), job in theirs.items()}
@@ -55,7 +55,7 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     yield [engine_job(point, known) for point in second] + checks
     timed = [
         peer_job(peer, work, TIMED, setting, known)
-        for peer, work, settings in asked
+        for peer, work, settings in wanted
         for setting in (settings if version(peer) else settings[:1])
     ]
     yield side_by_side([engine_job(point, known) for point in third], timed, effort.rounds)
@@ -73,8 +73,8 @@ def job_of(
     """A run, held against samples of its reference and of ours; made, simulate: as of `Job`; labels: more of them."""
     length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else BY_NAME[point.work].duration_s
     describe = partial(point_row, work_name=point.work, reference=reference, ours=ours)
-    how = {"duration_s": length_s, "simulate": simulate, "describe": describe, "made": made}
-    return Job(asdict(point) | labels, scene, **how)
+    settings = {"duration_s": length_s, "simulate": simulate, "describe": describe, "made": made}
+    return Job(asdict(point) | labels, scene, **settings)
 
 
 def engine_job(point: Point, known: Samples) -> Job:
@@ -84,15 +84,15 @@ def engine_job(point: Point, known: Samples) -> Job:
     return job_of(point, scene, made, None if point.kind == "long" else reference)
 
 
-def side_by_side(ours: list[Job], others: list[Job], rounds: int) -> list[Job]:
+def side_by_side(ours: list[Job], peers: list[Job], rounds: int) -> list[Job]:
     """Timed jobs in the order in which they run: those of other codes, which run once, in the middle round of ours on
     the same work, so that the machine's noise meets both."""
     middle = rounds // 2
-    found = [job for job in ours if job.labels["round"] < middle]
-    rest = [*(job for job in ours if job.labels["round"] == middle), *others]
+    jobs = [job for job in ours if job.labels["round"] < middle]
+    rest = [*(job for job in ours if job.labels["round"] == middle), *peers]
     for work in dict.fromkeys(job.labels["work"] for job in rest):
-        found += [job for job in rest if job.labels["work"] == work]
-    return found + [job for job in ours if job.labels["round"] > middle]
+        jobs += [job for job in rest if job.labels["work"] == work]
+    return jobs + [job for job in ours if job.labels["round"] > middle]
 
 
 def version(peer: Peer) -> str:
@@ -110,12 +110,12 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
     """A run of another code, held against its own reference and against ours."""
     (nodes, value), installed = setting, version(peer)
     reference = known.get((work, "reference"))
-    own = None if kind == REFERENCE else known.get((work, peer.name), reference)
+    reference_of_peer = None if kind == REFERENCE else known.get((work, peer.name), reference)
     sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
-    made = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources}"
+    recipe = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources}"
     scene, point = scene_of(peer, work, nodes), Point(work, kind, peer.name, nodes, peer.control, value)
     simulate, ours = partial(other_code, peer=peer, settings=setting), known.get((work, OURS + peer.name), reference)
-    return job_of(point, scene, made, own, ours, simulate, peer_version=installed)
+    return job_of(point, scene, recipe, reference_of_peer, ours, simulate, peer_version=installed)
 
 
 def scene_of(peer: Peer, work: str, nodes: int):
@@ -130,8 +130,8 @@ def other_code(scene, periods=None, duration_s=None, *, peer: Peer, settings: tu
     Where it is not installed, or raises, the record of a failed run, so that it is not tried again.
     """
     if not version(peer):
-        how = f"not installed; pip install {peer.package}, or the extra bench of this project"
-        return nothing(scene, "not-installed", how)
+        advice = f"not installed; pip install {peer.package}, or the extra bench of this project"
+        return nothing(scene, "not-installed", advice)
     try:
         module = importlib.import_module(f"campaigns.accuracy.peers.{peer.module}")
         return module.simulate(scene, duration_s, *settings, *peer.name.split()[1:])  # the method of scipy

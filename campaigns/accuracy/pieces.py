@@ -70,16 +70,18 @@ def costs(rounds: int = ROUNDS) -> dict[str, object]:
     work = state.kind.work_arrays(state.record, scene.tether.nodes)
     work.C_tilde[:] = state.motion.C
     loops = {name: partial(loop, state.record, state.tables, state.motion.Y, work) for name, loop in LOOPS.items()}
-    found = []
+    entries = []
     for loop in loops.values():
         loop(10)
     for _ in range(rounds):
-        began = time.perf_counter()
+        start_s = time.perf_counter()
         run = simulate(scene, periods=PERIODS)
-        times = {"call": time.perf_counter() - began - run.statistics["wall_s"], "run": run.statistics["wall_s"]}
+        times = {"call": time.perf_counter() - start_s - run.statistics["wall_s"], "run": run.statistics["wall_s"]}
         times["sparse"] = simulate(sparse, periods=PERIODS).statistics["wall_s"]
-        found.append(times | {name: timeit(partial(loop, REPEATS), number=1) / REPEATS for name, loop in loops.items()})
-    least = {name: min(times[name] for times in found) for name in found[0]}
+        entries.append(
+            times | {name: timeit(partial(loop, REPEATS), number=1) / REPEATS for name, loop in loops.items()}
+        )
+    least = {name: min(times[name] for times in entries) for name in entries[0]}
     iterations = run.statistics["newton_iterations"]
     output = max(least["run"] - least["sparse"], 0.0)
     seconds = {

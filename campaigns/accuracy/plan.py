@@ -61,8 +61,11 @@ class Work:
 
     def made(self, changes: dict):
         """The scene with further changes. Raises SceneError."""
-        own = {**FILE["sets"][self.set], **self.changes}
-        return engine.load_scene(self.scene, {key: None if own[key] == "none" else own[key] for key in own} | changes)
+        changes_here = {**FILE["sets"][self.set], **self.changes}
+        return engine.load_scene(
+            self.scene,
+            {key: None if changes_here[key] == "none" else changes_here[key] for key in changes_here} | changes,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,22 +253,22 @@ def in_both(work: Work, effort: Effort) -> list[Setting]:
 def of_a_motion(work: Work, effort: Effort) -> list[Setting]:
     """Timed settings of a buoy or a pendulum."""
     nodes, steps = own(effort.nodes, work), own(effort.steps, work)
-    found = [(method, n, "rtol", rtol) for method in ADAPTIVE for n in nodes for rtol in effort.rtols]
-    found += [(method, n, "step_s", work.period_s / m) for method in FIXED for n in nodes[:3] for m in steps]
+    points = [(method, n, "rtol", rtol) for method in ADAPTIVE for n in nodes for rtol in effort.rtols]
+    points += [(method, n, "step_s", work.period_s / m) for method in FIXED for n in nodes[:3] for m in steps]
     if work.scene == BUOY and work.name != "pendulum":
-        found += [(BEST + STRETCHED, n, "rtol", rtol) for n in nodes[:4] for rtol in effort.rtols[:3]]
-        found += [("paper-box", BOX_NODES, "step_s", work.period_s / m) for m in BOX_STEPS if effort.whole]
-    return found
+        points += [(BEST + STRETCHED, n, "rtol", rtol) for n in nodes[:4] for rtol in effort.rtols[:3]]
+        points += [("paper-box", BOX_NODES, "step_s", work.period_s / m) for m in BOX_STEPS if effort.whole]
+    return points
 
 
 def of_a_line(work: Work, effort: Effort) -> list[Setting]:
     """Timed settings of a breaking line."""
     nodes = own(effort.nodes, work)
-    middle, few = nodes[len(nodes) // 2], [n for n in nodes if n <= MOST_ADAPTIVE_LINE]
-    found = []
+    middle, coarse = nodes[len(nodes) // 2], [n for n in nodes if n <= MOST_ADAPTIVE_LINE]
+    points = []
     for viscous in (VISCOUS, ""):
         for method in FIXED:
-            found += [(method + viscous, n, "courant", 1.0) for n in nodes]
-            found += [(method + viscous, middle, "courant", courant) for courant in COURANTS if courant != 1.0]
-        found += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in few for rtol in LINE_RTOLS]
-    return found
+            points += [(method + viscous, n, "courant", 1.0) for n in nodes]
+            points += [(method + viscous, middle, "courant", courant) for courant in COURANTS if courant != 1.0]
+        points += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in coarse for rtol in LINE_RTOLS]
+    return points

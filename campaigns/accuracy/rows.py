@@ -59,12 +59,12 @@ def point_row(
         return row
     if work.measure == STRAIN:
         return row | {"error": strain_error(trajectory)}
-    found = samples_of(work, trajectory)
+    samples = samples_of(work, trajectory)
     if reference is not None:
         early = int(EARLY * len(reference))
-        row |= {"error": rms_mm(found, reference), "error_early": rms_mm(found[:early], reference[:early])}
+        row |= {"error": rms_mm(samples, reference), "error_early": rms_mm(samples[:early], reference[:early])}
     if ours is not None:
-        row["error_against_ours"] = rms_mm(found, ours)
+        row["error_against_ours"] = rms_mm(samples, ours)
     return row
 
 
@@ -81,11 +81,11 @@ def kept_samples(work: Work, out: Path, key: str) -> np.ndarray | None:
     return samples_of(work, run) if run is not None and run.status == "ok" else None
 
 
-def rms_mm(found: np.ndarray, reference: np.ndarray) -> float:
+def rms_mm(samples: np.ndarray, reference: np.ndarray) -> float:
     """rms distance in mm of two series of the same length in m; inf where the lengths differ."""
-    if found.shape != reference.shape:
+    if samples.shape != reference.shape:
         return math.inf
-    square = (found - reference) ** 2
+    square = (samples - reference) ** 2
     return 1e3 * float(np.sqrt(np.mean(square.sum(axis=1) if square.ndim == 2 else square)))
 
 
@@ -135,26 +135,28 @@ def orders(out: Path, rows: list[dict]) -> list[dict]:
         if row["kind"] in KINDS and plain(row["method"]) in ORDERS:
             series.setdefault((row["work"], row["kind"], row["method"]), []).append(row)
     slack = {name: first_slack(out, work, rows) for name, work in BY_NAME.items() if work.rough}
-    found = []
-    for (work, kind, method), own in series.items():
-        own.sort(key=lambda row: (row["nodes"], -row["setting"]))  # coarse to fine
-        known = [row for row in own if row.get("error") is not None]
+    slopes = []
+    for (work, kind, method), members in series.items():
+        members.sort(key=lambda row: (row["nodes"], -row["setting"]))  # coarse to fine
+        known = [row for row in members if row.get("error") is not None]
         if kind == "both":  # theory: the order in space; the viscosity's limiter leaves it alone
-            errors = [math.nan if row.get("error") is None else row["error"] for row in own]
-            found.append(_judged(kind, min(2, ORDERS[plain(method)]), own, errors))
+            errors = [math.nan if row.get("error") is None else row["error"] for row in members]
+            slopes.append(_judged(kind, min(2, ORDERS[plain(method)]), members, errors))
         elif kind == "tolerance" and len(known) > 2:
             errors = [row["error"] for row in known]
             logs = np.log([row["setting"] for row in known]), np.log(np.maximum(errors, 1e-12))
             row = _judged(kind, TOLERANCE_SLOPE[method], known, errors)
-            found.append(row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""})
+            slopes.append(row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""})
         elif kind != "tolerance":
-            samples = [kept_samples(BY_NAME[work], out, row["run_key"]) for row in own]
+            samples = [kept_samples(BY_NAME[work], out, row["run_key"]) for row in members]
             theory = ORDERS[method] if kind == "time" else 2
-            found.append(_judged(kind, theory, own, _differences(samples)))
+            slopes.append(_judged(kind, theory, members, _differences(samples)))
             if early := slack.get(work):
                 cut = [values if values is None else values[:early] for values in samples]
-                found.append(_judged(kind, theory, own, _differences(cut)) | {"kind": f"{kind}-early", "rough": ""})
-    return found
+                slopes.append(
+                    _judged(kind, theory, members, _differences(cut)) | {"kind": f"{kind}-early", "rough": ""}
+                )
+    return slopes
 
 
 def first_slack(out: Path, work: Work, rows: list[dict]) -> int:

@@ -115,8 +115,8 @@ def measures(order: Order) -> Measures:
     """`rows.breaking_row` of every run."""
     from campaigns.breaking_line.rows import COLUMNS, breaking_row
 
-    own = (f"campaigns/breaking_line/{name}" for name in ("rows.py", "motion_measures.py", "theory"))
-    return Measures(COLUMNS, breaking_row, ("analysis", "engine", *own))
+    sources = (f"campaigns/breaking_line/{name}" for name in ("rows.py", "motion_measures.py", "theory"))
+    return Measures(COLUMNS, breaking_row, ("analysis", "engine", *sources))
 
 
 def beside(order: Order) -> Iterator[Callable]:

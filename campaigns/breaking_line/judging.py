@@ -27,8 +27,8 @@ DELAYED = 0.5  # of the difference of the fracture times: by so much a slow brea
 def values(lines: Iterable[Line], cases: Iterable[str], of: str) -> list[Check]:
     """(name, number) of the cases that have one, in their order; of: a formula over the columns."""
     number = formula(of)
-    found = (find(lines, case) for case in cases)
-    numbers = [(named(line["case"]), number(line)) for line in found if line is not None]
+    lines_of_cases = (find(lines, case) for case in cases)
+    numbers = [(named(line["case"]), number(line)) for line in lines_of_cases if line is not None]
     return [(name, value) for name, value in numbers if math.isfinite(value)]
 
 
@@ -48,9 +48,11 @@ def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
 
     def measure(results: "Results") -> Measured:
         groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
-        found = [values(results.lines, group, of) for group in groups]
-        checks = [(f"{a} to {b}", after - before) for one in found for (a, before), (b, after) in pairwise(one)]
-        return Measured(checks, told([one for group in found for one in group], form))
+        series = [values(results.lines, group, of) for group in groups]
+        checks = [
+            (f"{a} to {b}", later - earlier) for numbers in series for (a, earlier), (b, later) in pairwise(numbers)
+        ]
+        return Measured(checks, told([numbers for group in series for numbers in group], form))
 
     return measure
 
@@ -60,10 +62,10 @@ def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Mea
 
     def measure(results: "Results") -> Measured:
         checks, words = [], []
-        for both in pairs(results.lines):
-            numbers = [formula(of)(line) for line in both]
+        for pair in pairs(results.lines):
+            numbers = [formula(of)(line) for line in pair]
             if all(map(math.isfinite, numbers)):
-                names = [named(line["case"]) for line in both]
+                names = [named(line["case"]) for line in pair]
                 checks.append((" and ".join(names), compare(*numbers)))
                 words.append(told(zip(names, numbers, strict=True), form))
         return Measured(checks, "; ".join(words))
@@ -75,9 +77,9 @@ def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Meas
     """One check of all fast cases together; judge(their numbers, in rising order)."""
 
     def measure(results: "Results") -> Measured:
-        found = values(results.lines, FAST, of)
-        checks = [("all cases", judge(sorted(value for _, value in found)))] if len(found) > 1 else []
-        return Measured(checks, told(found, form) if checks else "")
+        numbers = values(results.lines, FAST, of)
+        checks = [("all cases", judge(sorted(value for _, value in numbers)))] if len(numbers) > 1 else []
+        return Measured(checks, told(numbers, form) if checks else "")
 
     return measure
 
@@ -100,11 +102,11 @@ def vertical(results: "Results") -> Measured:
     """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
     places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
-    for where, name in places.items():
-        found = [values(results.lines, cases, name) for cases in (FAST, SLOW)]
-        falls = [before - after for one in found for (_, before), (_, after) in pairwise(one)]
-        checks += [(where, min(falls))] if falls else []
-        words.append(told(found[0] + found[1], ".3f"))
+    for place, name in places.items():
+        series = [values(results.lines, cases, name) for cases in (FAST, SLOW)]
+        falls = [earlier - later for numbers in series for (_, earlier), (_, later) in pairwise(numbers)]
+        checks += [(place, min(falls))] if falls else []
+        words.append(told(series[0] + series[1], ".3f"))
     return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}" if any(words) else "")
 
 
@@ -117,8 +119,8 @@ def same_motion(results: "Results") -> Measured:
         if all(map(math.isfinite, way)):
             seen.append(abs(way[1] / way[0] - 1.0))
             shifted.append(min(seen[-1], abs((way[1] + late) / way[0] - 1.0)))
-            both = told(zip((named(line["case"]) for line in (fast, slow)), way, strict=True), ".2f")
-            words.append(f"{both} + {shown(late, '.2f')}")
+            ways = told(zip((named(line["case"]) for line in (fast, slow)), way, strict=True), ".2f")
+            words.append(f"{ways} + {shown(late, '.2f')}")
     checks = [("the delay of the break is taken off", max(shifted)), ("as seen", max(seen))] if seen else []
     return Measured(checks, "; ".join(words))
 
@@ -126,24 +128,24 @@ def same_motion(results: "Results") -> Measured:
 def dominant(results: "Results") -> Measured:
     """Change of the end speed over the fracture times over that over the tensions."""
     speeds = [speed for _, speed in values(results.lines, FAST, "end_speed_mps")]
-    both = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
-    if len(speeds) < 2 or not both:
+    differences = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
+    if len(speeds) < 2 or not differences:
         return Measured()
-    by_tension, by_time = max(speeds) - min(speeds), max(both)
+    by_tension, by_time = max(speeds) - min(speeds), max(differences)
     words = f"over the tensions {shown(by_tension, '.1f')}, over the fracture times at most {shown(by_time, '.2f')}"
     return Measured([("all pairs", by_time / by_tension)], words)
 
 
 def doubled(results: "Results") -> Measured:
     """The largest relative change that twice the elements bring, by case."""
-    found = []
+    verdicts = []
     for line in of_kind(results.lines, "case"):
         fine = find(results.lines, line["case"], "doubled")
-        asked = ("end_speed_mps", "recoil_m", "kinetic_largest_J") if fine else ()
-        off = [abs(fine[name] / line[name] - 1.0) for name in asked]
-        off = [one for one in off if math.isfinite(one)]
-        found += [(named(line["case"]), max(off))] if off else []
-    return Measured([(f"case {name}", off) for name, off in found], told(found, ".3%"))
+        measured = ("end_speed_mps", "recoil_m", "kinetic_largest_J") if fine else ()
+        off = [abs(fine[name] / line[name] - 1.0) for name in measured]
+        off = [error for error in off if math.isfinite(error)]
+        verdicts += [(named(line["case"]), max(off))] if off else []
+    return Measured([(f"case {name}", off) for name, off in verdicts], told(verdicts, ".3%"))
 
 
 def shock_incomplete(results: "Results") -> Measured:
@@ -157,8 +159,8 @@ def shock_incomplete(results: "Results") -> Measured:
 def dissipates(results: "Results") -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
     spread, resting = SPREAD(results), RESTING(results)
-    both = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
-    checks = [(name, min(value for _, value in one.checks)) for name, one in both.items() if one.checks]
+    ways = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
+    checks = [(name, min(value for _, value in verdict.checks)) for name, verdict in ways.items() if verdict.checks]
     return Measured(checks, f"{spread.told}; at rest {resting.told}" if checks else "")
 
 

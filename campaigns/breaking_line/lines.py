@@ -28,7 +28,7 @@ PRINTED = {  # of the four tensions: strain, and share of the strength, which ca
 
 def read_lines(folder: Path) -> tuple[Line, ...]:
     """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
-    found = []
+    lines = []
     for line in read_rows(folder / "table.csv"):
         if (run := motion_of(folder, line)) is not None:
             theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
@@ -36,8 +36,8 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
                 near, at_rest = (theory.wave_speed(share * theory.speeds.strain0) for share in (0.99, 1.0))
                 line |= {"static_strain": theory.speeds.strain0, "steepening": float(near / at_rest - 1.0)}
             line |= from_motion(line, run.profiles) if run.profiles is not None else {}
-        found.append(line)
-    return over_case_4(found)
+        lines.append(line)
+    return over_case_4(lines)
 
 
 def motion_of(folder: Path, line: Line) -> object | None:
@@ -98,5 +98,5 @@ def find(lines: Sequence[Line], case: str, kind: str = "case") -> Line | None:
 
 def pairs(lines: Sequence[Line]) -> list[tuple[Line, Line]]:
     """Fast and slow break of the same tension, where both ended as asked."""
-    found = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
-    return [(fast, slow) for fast, slow in found if fast is not None and slow is not None]
+    matches = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
+    return [(fast, slow) for fast, slow in matches if fast is not None and slow is not None]

@@ -88,8 +88,8 @@ def end_speeds(trajectory: Trajectory) -> np.ndarray:
 
 def settled_end_speed(trajectory: Trajectory) -> tuple[float, float, float]:
     """Median, least and largest speed (m/s) of the broken end from SETTLED_S after the break on."""
-    after = trajectory.columns["time_s"] >= trajectory.scene.end.force_decay_s + SETTLED_S
-    speeds = end_speeds(trajectory)[after]
+    free = trajectory.columns["time_s"] >= trajectory.scene.end.force_decay_s + SETTLED_S
+    speeds = end_speeds(trajectory)[free]
     if not len(speeds):
         return math.nan, math.nan, math.nan
     return float(np.median(speeds)), float(speeds.min()), float(speeds.max())
@@ -112,8 +112,8 @@ def strain_overshoot(profiles: Profiles, until_s: float) -> tuple[float, float]:
     Before a time at which nothing has come to the fixed end; an exact wave that unloads has neither: the strain falls
     towards the broken end, without a ripple before or behind the shock.
     """
-    before = profiles.time_s < until_s
-    strain, static = profiles.strain[before], profiles.strain[0]
+    early = profiles.time_s < until_s
+    strain, static = profiles.strain[early], profiles.strain[0]
     rise = np.max(strain - np.minimum.accumulate(strain, axis=1))
     return float(max(np.max((strain - static) / static), 0.0)), float(rise / static.max())
 
@@ -207,10 +207,10 @@ def spread(trajectory: Trajectory) -> dict[str, float]:
     and below one tenth of the settled speed of the end.
     """
     energy, profiles = trajectory.energy, trajectory.profiles
-    left = energy.strain_J < 0.5 * energy.stored_J
-    if not left.any():
+    converted = energy.strain_J < 0.5 * energy.stored_J
+    if not converted.any():
         return {}
-    time_s = float(energy.time_s[int(np.argmax(left))])
+    time_s = float(energy.time_s[int(np.argmax(converted))])
     row = int(np.argmin(np.abs(profiles.time_s - time_s)))
     T, v, s = profiles.tension_N[row], profiles.speed_mps[row], profiles.s_m
     length, top = float(s[-1]), settled_end_speed(trajectory)[0]

@@ -83,10 +83,10 @@ def exact(runs: dict[str, object]) -> xarray.Dataset | None:
 
 def measured_contours(profiles: object, theory: Theory) -> list[tuple[float, float, float]]:
     """(strain, speed, wave speed) of each contour of SHARES that can be followed; none that a shock eats."""
-    found = []
+    contours = []
     for share in (share for share in SHARES if not theory.swallowed(share)):
         speed = contour_speed(profiles, profiles.tension_N, share * theory.force_N, theory)
         if np.isfinite(speed):
             strain = theory.strain_at(share)
-            found.append((strain, speed, float(theory.wave_speed(strain))))
-    return found
+            contours.append((strain, speed, float(theory.wave_speed(strain))))
+    return contours

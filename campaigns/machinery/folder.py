@@ -212,22 +212,24 @@ def kept_json(path: Path) -> dict:
 
 
 def made_by(settings: dict, *sources: str) -> str:
-    """Hash of settings (plain values) and of every .py file in the given folders of the project, or given files.
+    """Hash of settings (plain values) and of the code of every .py file in the given folders of the project, or given
+    files; docstrings and comments do not count.
 
     A row that is kept beside its run belongs to such a hash of what made it; to any other it is as good as nothing.
     Raises FileNotFoundError for a source that is not there, or a folder with no .py file: rows would outlive what made
     them.
     """
+    from machine_code.store import kept_hash
+
     root = Path(__file__).resolve().parents[2]
-    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
+    files: dict[str, Path] = {}
     for source in sources:
         path = root / source
-        files = sorted(path.rglob("*.py")) if path.is_dir() else [path]
-        if not files:
+        found = sorted(path.rglob("*.py")) if path.is_dir() else [path]
+        if not found:
             raise FileNotFoundError(f"no source in {path}")
-        for file in files:
-            digest.update(file.relative_to(root).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
-    return digest.hexdigest()
+        files |= {file.relative_to(root).as_posix(): file for file in found}
+    return hashlib.sha256((json.dumps(settings, sort_keys=True) + kept_hash(files)).encode()).hexdigest()
 
 
 def of_the_page() -> tuple[str, ...]:

@@ -71,15 +71,17 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     exponents, basins, grazing = (of.get(part, {}) for part in ("exponents", "basins", "grazing"))
     value, error = (known(exponents, f"lambda_1_bits_{name}") for name in ("per_period", "error"))
     word = "chaotic" if value > 2 * error else "regular" if value < -2 * error else "neither shown chaotic nor regular"
-    said = []
+    sentences = []
     if exponents:
-        said.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
+        sentences.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
     if basins:
         share = 100.0 * known(basins, "aperiodic_share")
-        said.append(f"Periodic attractors: {known(basins, 'attractors'):.0f}; {share:.1f} % of the starts end in none.")
+        sentences.append(
+            f"Periodic attractors: {known(basins, 'attractors'):.0f}; {share:.1f} % of the starts end in none."
+        )
     if known(grazing, "grazing_force") > 0.0:
-        said.append(f"The line stays taut up to a force of F = {known(grazing, 'grazing_force'):.4f}.")
-    return said
+        sentences.append(f"The line stays taut up to a force of F = {known(grazing, 'grazing_force'):.4f}.")
+    return sentences
 
 
 STUDY = Study(

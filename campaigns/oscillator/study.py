@@ -79,8 +79,8 @@ def section(o: SnapOscillator, order: Namespace) -> Result:
     points, transient = _scaled(120_000, order.effort, 500), 1000
     states = strobed_states(o, START, points, transient)
     boxes = zoom_boxes(states)
-    most = _scaled(20_000_000, order.effort, 2000)
-    zooms, seen = strobed_states_within(o, START, boxes, _scaled(40_000, order.effort, 200), most, transient)
+    longest = _scaled(20_000_000, order.effort, 2000)
+    zooms, seen = strobed_states_within(o, START, boxes, _scaled(40_000, order.effort, 200), longest, transient)
     arrays = {"section": states, "boxes": boxes}
     arrays |= {f"zoom_{i + 1}": zoom for i, zoom in enumerate(zooms) if len(zoom)}
     return arrays, {"points": points, "transient": transient, "periods": seen}
@@ -109,34 +109,38 @@ def history(o: SnapOscillator, order: Namespace) -> Result:
 def exponents(o: SnapOscillator, order: Namespace) -> Result:
     """Both exponents over many random starts, with their errors, and how they settle with time."""
     starts, periods, transient = _scaled(512, order.effort, 16), 10_000, 1000
-    found = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
-    arrays = {"of_start": found.of_start, "convergence": found.convergence, "of_block": found.of_block[:, :, 0]}
-    bits = found.first.in_bits_per_period(o.period)
+    exponent = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
+    arrays = {
+        "of_start": exponent.of_start,
+        "convergence": exponent.convergence,
+        "of_block": exponent.of_block[:, :, 0],
+    }
+    bits = exponent.first.in_bits_per_period(o.period)
     row = {
-        "lambda_1_nats_per_time": found.first.value,
-        "lambda_1_error": found.first.error,
+        "lambda_1_nats_per_time": exponent.first.value,
+        "lambda_1_error": exponent.first.error,
         "lambda_1_bits_per_period": bits.value,
         "lambda_1_bits_error": bits.error,
-        "lambda_2_nats_per_time": found.second.value,
-        "sum_plus_damping": found.first.value + found.second.value + o.damping,
-        "section_dimension": found.dimension,
-        "section_dimension_error": found.dimension_error,
-        "slack_fraction": found.slack_fraction,
-        "starts": found.starts,
-        "elsewhere": found.elsewhere,
+        "lambda_2_nats_per_time": exponent.second.value,
+        "sum_plus_damping": exponent.first.value + exponent.second.value + o.damping,
+        "section_dimension": exponent.dimension,
+        "section_dimension_error": exponent.dimension_error,
+        "slack_fraction": exponent.slack_fraction,
+        "starts": exponent.starts,
+        "elsewhere": exponent.elsewhere,
         "periods": periods,
         "transient": transient,
     }
-    return arrays | {"block_error": np.array([found.block_error])}, row
+    return arrays | {"block_error": np.array([exponent.block_error])}, row
 
 
 def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     """Orbit diagram over "force" or "frequency" with exponents."""
     low, high, count = order.forces if over == "force" else order.frequencies
     values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
-    found = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
-    displacement = found.section[..., 0].reshape(len(values), -1)
-    arrays = dict(vars(found)) | {"values": values, "section": displacement}
+    points = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
+    displacement = points.section[..., 0].reshape(len(values), -1)
+    arrays = dict(vars(points)) | {"values": values, "section": displacement}
     del arrays["over"]
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
@@ -144,11 +148,11 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
 def basins(o: SnapOscillator, order: Namespace) -> Result:
     """Where a grid of starts ends, and the shares."""
     columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
-    found = snap_basins(o, start_grid(columns, rows), 3000)
-    arrays = dict(vars(found)) | {"label": found.label.reshape(rows, columns), "box": np.array(PAPER_BOX)}
+    basins_found = snap_basins(o, start_grid(columns, rows), 3000)
+    arrays = dict(vars(basins_found)) | {"label": basins_found.label.reshape(rows, columns), "box": np.array(PAPER_BOX)}
     arrays |= {f"orbit_{number + 1}": orbit for number, orbit in enumerate(arrays.pop("orbits"))}
-    row = {"starts": columns * rows, "periods": arrays.pop("periods"), "attractors": len(found.orbits)}
-    return arrays, row | {"aperiodic_share": float(found.shares[-1])}
+    row = {"starts": columns * rows, "periods": arrays.pop("periods"), "attractors": len(basins_found.orbits)}
+    return arrays, row | {"aperiodic_share": float(basins_found.shares[-1])}
 
 
 def orbits(o: SnapOscillator, order: Namespace) -> Result:
@@ -169,15 +173,17 @@ def orbits(o: SnapOscillator, order: Namespace) -> Result:
 
 def grazing(o: SnapOscillator, order: Namespace) -> Result:
     """The forcing below which the taut motion never goes slack; random starts just below and just above it."""
-    found = grazing_force(o)
-    arrays = {"grazing": np.array([found.force, found.time, found.clearance, found.velocity])}
+    grazing_point = grazing_force(o)
+    arrays = {
+        "grazing": np.array([grazing_point.force, grazing_point.time, grazing_point.clearance, grazing_point.velocity])
+    }
     count = _scaled(200, order.effort, 20)
-    if np.isfinite(found.force):
-        near = [found.force * factor for factor in (0.999, 1.001)]
+    if np.isfinite(grazing_point.force):
+        near = [grazing_point.force * factor for factor in (0.999, 1.001)]
         length = {"transient_periods": 2000, "periods": 100, "points": 1}
         slack = snap_diagram(o, "force", near, count=count, **length, seed=SEED).slack_fraction
         arrays["slack_below"], arrays["slack_above"] = slack
-    return arrays, {"grazing_force": found.force, "starts": count, "transient": 2000, "periods": 100}
+    return arrays, {"grazing_force": grazing_point.force, "starts": count, "transient": 2000, "periods": 100}
 
 
 PARTS = {
@@ -212,8 +218,8 @@ def done(order: Namespace) -> tuple[dict[str, float], Summary]:
     write_atomic(out / "scene.toml", (head + "\n".join(numbers) + "\n").encode())
     keys = {part: _key(part, order) for part in PARTS}
     table = Table(out / "table.csv", COLUMNS, list(keys.values()))
-    found = {key: attribute_of(trajectory_path(out, key), "row") for key in keys.values()}
-    table.rows = {key: json.loads(row) | {"run_key": key} for key, row in found.items() if row is not None}
+    rows = {key: attribute_of(trajectory_path(out, key), "row") for key in keys.values()}
+    table.rows = {key: json.loads(row) | {"run_key": key} for key, row in rows.items() if row is not None}
     missing = [part for part, key in keys.items() if key not in table.rows]
     table.write()
     timing = {"compile_s": _compile(oscillator) if missing else 0.0}

@@ -75,31 +75,35 @@ def variants(base: Variant) -> list[Variant]:
     """Every run, each once. base: the large wave in the scene as it is; it leads, its small counterpart follows."""
     small = replace(base, steepness=SMALL)
     fine = replace(base, nodes=max(base.nodes, PUSH_NODES))
-    found = [base, small]
+    variants_found = [base, small]
     # the longest runs first, so that no worker is left with one at the end
-    found += [replace(base, depth_m=depth, nodes=nodes) for nodes in reversed(NODES) for depth in LOOPING_DEPTHS_M]
-    found += [replace(in_plane(one), depth_m=depth) for one in (base, small) for depth in (base.depth_m, *DEPTHS_M)]
-    found += [replace(one, seed_mps=seed) for one in (fine, small) for seed in SEEDS_MPS]
-    found += [replace(one, depth_m=depth) for one in (base, small) for depth in DEPTHS_M]
+    variants_found += [
+        replace(base, depth_m=depth, nodes=nodes) for nodes in reversed(NODES) for depth in LOOPING_DEPTHS_M
+    ]
+    variants_found += [
+        replace(in_plane(case), depth_m=depth) for case in (base, small) for depth in (base.depth_m, *DEPTHS_M)
+    ]
+    variants_found += [replace(case, seed_mps=seed) for case in (fine, small) for seed in SEEDS_MPS]
+    variants_found += [replace(case, depth_m=depth) for case in (base, small) for depth in DEPTHS_M]
     stiffnesses = [replace(base, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
-    found += [replace(one, depth_m=depth) for one in stiffnesses for depth in (base.depth_m, *DEPTHS_M)]
-    found += [replace(small, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
-    found += [replace(one, seed_direction=word) for one in (base, small) for word in ("mirrored", "oblique")]
-    found += [replace(base, seed_direction="along")]
-    found += [replace(small, nodes=nodes) for nodes in NODES]
-    found += [replace(fine, profiles=1)]
-    return list(dict.fromkeys(found))
+    variants_found += [replace(case, depth_m=depth) for case in stiffnesses for depth in (base.depth_m, *DEPTHS_M)]
+    variants_found += [replace(small, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
+    variants_found += [replace(case, seed_direction=word) for case in (base, small) for word in ("mirrored", "oblique")]
+    variants_found += [replace(base, seed_direction="along")]
+    variants_found += [replace(small, nodes=nodes) for nodes in NODES]
+    variants_found += [replace(fine, profiles=1)]
+    return list(dict.fromkeys(variants_found))
 
 
-def in_plane(one: Variant) -> Variant:
+def in_plane(case: Variant) -> Variant:
     """The planar run of the same scene."""
-    return replace(one, dimensions=2, seed_mps=0.0, seed_direction="")
+    return replace(case, dimensions=2, seed_mps=0.0, seed_direction="")
 
 
-def compared(one: Variant, base: Variant) -> bool:
+def compared(case: Variant, base: Variant) -> bool:
     """Whether a variant takes part in the comparison of planar runs with runs in three dimensions."""
-    spatial = replace(base, depth_m=one.depth_m)
-    return one.depth_m in LOOPING_DEPTHS_M and one in (spatial, in_plane(spatial))
+    spatial = replace(base, depth_m=case.depth_m)
+    return case.depth_m in LOOPING_DEPTHS_M and case in (spatial, in_plane(spatial))
 
 
 def options(group) -> None:
@@ -159,9 +163,9 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int, quick: bo
     from campaigns.statements import write_statements
 
     good = {variant(row): row for row in summary.rows if row["status"] == "ok"}
-    spatial = [replace(base, depth_m=depth) for depth in sorted({one.depth_m for one in good})]
-    both = [(good[in_plane(one)], good[one]) for one in spatial if one in good and in_plane(one) in good]
-    looped = [pairs.pair_row(plan.how.out, *pair, transient) for pair in both if pair[0]["loop_releases"]]
+    spatial = [replace(base, depth_m=depth) for depth in sorted({case.depth_m for case in good})]
+    pairs_of_rows = [(good[in_plane(case)], good[case]) for case in spatial if case in good and in_plane(case) in good]
+    looped = [pairs.pair_row(plan.how.out, *pair, transient) for pair in pairs_of_rows if pair[0]["loop_releases"]]
     write_table(plan.how.out / "pairs.csv", pairs.COLUMNS, looped)
     results = Results(plane=read_rows(plan.how.out / "table.csv"), plane_large=base.steepness)
     write_statements(plan.how.out, [claim for claim in claims(quick) if "fig. 20" in claim.place], results)
@@ -175,10 +179,10 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     for steepness in (SMALL, LARGE):
         at = [row for row in rows if row["steepness"] == steepness and row["status"] == "ok"]
         columns = ("buoy_lateral_max_m", "rope_lateral_max_m")
-        found = [known(row, name) for name in columns if (row := greatest(at, name)) is not None]
-        if len(found) == len(columns):
-            said = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
-            yield said.format(steepness, *found)
+        largest = [known(row, name) for name in columns if (row := greatest(at, name)) is not None]
+        if len(largest) == len(columns):
+            sentence = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
+            yield sentence.format(steepness, *largest)
     yield from verdicts(order.how.out, quoted=4)
 
 

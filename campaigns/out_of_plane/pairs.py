@@ -43,10 +43,10 @@ def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str
     off = np.abs(flat.columns["radius_m"][:samples] - space.columns["radius_m"][:samples])
     first = spatial.get("rope_first_burst_period")
     end = samples if first is None else max(int((first - 1.0) * period_s / step_s), 1)
-    apart = np.flatnonzero(off > APART_M)
+    parted = np.flatnonzero(off > APART_M)
     row = {
         "depth_m": planar["depth_m"],
-        "apart_period": float(apart[0]) * step_s / period_s if len(apart) else None,
+        "apart_period": float(parted[0]) * step_s / period_s if len(parted) else None,
         "before_m": float(off[:end].max()),
         "planar_key": planar["run_key"],
         "spatial_key": spatial["run_key"],
@@ -66,13 +66,13 @@ def agreement(planar: dict, spatial: dict, across: float, within: float) -> dict
     ends_off = [abs(planar[end] - spatial[end]) for end in ("radius_min_m", "radius_max_m")]
     range_off = max(ends_off) / (planar["radius_max_m"] - planar["radius_min_m"])
     exponents, errors = ([row.get(name) for row in (planar, spatial)] for name in (EXPONENT, ERROR))
-    told = all(value is not None and math.isfinite(value) for value in exponents)
+    measured = all(value is not None and math.isfinite(value) for value in exponents)
     regimes = [row.get("regime") for row in (planar, spatial)]
-    same = {
+    agreements = {
         "same_range": range_off <= MOST_OFF,
         "same_section": across <= MOST_ACROSS * within if math.isfinite(across) else None,
-        "same_exponent": abs(np.subtract(*exponents)) <= 2.0 * math.hypot(*errors) if told else None,
+        "same_exponent": abs(np.subtract(*exponents)) <= 2.0 * math.hypot(*errors) if measured else None,
         "same_regime": regimes[0] == regimes[1] if all(regimes) else None,
     }
     numbers = {"range_off": range_off, "across": across, "within": within}
-    return numbers | {name: None if passed is None else int(passed) for name, passed in same.items()}
+    return numbers | {name: None if passed is None else int(passed) for name, passed in agreements.items()}

@@ -31,7 +31,7 @@ _BODIES = {"buoy": "y_m", "rope": "offplane_m"}
 def _lateral_columns(body: str) -> tuple[Column, ...]:
     """What is measured of the distance from the plane of the waves of the buoy or of the rope."""
     rate = "growth rate of the {body}'s lateral distance where it grows or decays exponentially{}".format
-    told = (
+    measures = (
         ("motion", "", "motion", "growth, decay, bursts ...: how the lateral distance of the {body} behaves", None),
         ("rate_bits_per_period", "bits/period", "rate", rate("", body=body), 3),
         ("rate_error", "bits/period", "σ rate", "standard error of the growth rate of the {body}", 3),
@@ -54,7 +54,7 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
     )
     return tuple(
         Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits)
-        for name, unit, symbol, meaning, digits in told
+        for name, unit, symbol, meaning, digits in measures
     )
 
 
@@ -95,9 +95,9 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     if measured := after_transient(trajectory, columns, transient_periods):
-        after = round(transient_periods * scene.waves.period_s / scene.sample_step_s())
+        first = round(transient_periods * scene.waves.period_s / scene.sample_step_s())
         row |= measured
-        row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][after:])) for name in ("x_m", "z_m"))
+        row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][first:])) for name in ("x_m", "z_m"))
     if scene.motion.dimensions == 3 and len(columns["time_s"]) > 1:
         for body, name in _BODIES.items():
             row |= {f"{body}_{key}": entry for key, entry in _lateral(columns[name], scene, row).items()}
@@ -117,23 +117,23 @@ def _lateral(values, scene, row) -> dict[str, object]:
     from analysis import growth_or_bursts
 
     step_s, period_s, size = scene.sample_step_s(), scene.waves.period_s, np.abs(values)
-    found = growth_or_bursts(size, step_s, period_s)
-    bits = found.rate.in_bits_per_period(period_s)
+    growth = growth_or_bursts(size, step_s, period_s)
+    bits = growth.rate.in_bits_per_period(period_s)
     push = abs(scene.start.buoy_velocity_mps[1])
-    bursts = found.burst_size
+    bursts = growth.burst_size
     return {
-        "motion": found.kind,
-        "reason": found.reason,
+        "motion": growth.kind,
+        "reason": growth.reason,
         "rate_bits_per_period": bits.value,
         "rate_error": bits.error,
-        "rate_nats_per_period": found.rate.value * period_s,
-        "fit_from_period": found.begin / period_s,
-        "fit_to_period": found.end / period_s,
-        "fit_span_nats": found.span_nats,
-        "bursts": len(bursts) if found.kind == "bursts" else None,
+        "rate_nats_per_period": growth.rate.value * period_s,
+        "fit_from_period": growth.begin / period_s,
+        "fit_to_period": growth.end / period_s,
+        "fit_span_nats": growth.span_nats,
+        "bursts": len(bursts) if growth.kind == "bursts" else None,
         "burst_median_m": float(np.median(bursts)) if len(bursts) else None,
         "burst_max_m": float(bursts.max()) if len(bursts) else None,
-        "first_burst_period": found.burst_time[0] / period_s if len(bursts) else None,
+        "first_burst_period": growth.burst_time[0] / period_s if len(bursts) else None,
         "first_burst_m": bursts[0] if len(bursts) else None,
         "lateral_max_m": float(size.max()),
         "lateral_late_m": float(size[len(size) // 2 :].max()),
@@ -149,8 +149,8 @@ def _rise(values, scene, first_burst: float) -> tuple[float, float]:
     time_s, size = envelope_of(np.abs(values), scene.sample_step_s(), scene.waves.period_s)
     periods = time_s / scene.waves.period_s
     least = int(np.argmin(np.where(periods < first_burst, size, np.inf)))
-    most = least + int(np.argmax(size[least : least + RISE_PERIODS + 1]))
-    return float(np.log(size[most] / size[least])), float(periods[most] - periods[least])
+    highest = least + int(np.argmax(size[least : least + RISE_PERIODS + 1]))
+    return float(np.log(size[highest] / size[least])), float(periods[highest] - periods[least])
 
 
 def bows(profiles) -> tuple[float, float]:
@@ -162,5 +162,5 @@ def bows(profiles) -> tuple[float, float]:
     top_x, top_z, top_y = x[:, -1:], z[:, -1:], y[:, -1:]
     length = np.maximum(np.hypot(top_x, top_z), 1e-9)
     in_plane = np.abs(x * top_z - z * top_x) / length
-    along = np.clip((x * top_x + z * top_z) / length**2, 0.0, 1.0)
-    return float(in_plane.max()), float(np.abs(y - along * top_y).max())
+    share = np.clip((x * top_x + z * top_z) / length**2, 0.0, 1.0)
+    return float(in_plane.max()), float(np.abs(y - share * top_y).max())

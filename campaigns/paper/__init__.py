@@ -45,11 +45,11 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
 
     out = order.how.out
     timing, summary = parts.run(order.own)
-    whole = ended(out) and not summary.computed and results.there(out, order.how.report)
-    if not whole:
+    complete = ended(out) and not summary.computed and results.there(out, order.how.report)
+    if not complete:
         with stage("figures' data and statements"):
             results.write(out)
-    return timing, replace(summary, whole=whole)
+    return timing, replace(summary, whole=complete)
 
 
 def parameters(order: Order) -> dict[str, object]:

@@ -56,13 +56,13 @@ def variants(quick: bool) -> list[tuple]:
     EI, depth_m = scene.tether.bending_stiffness_Nm2, scene.water.depth_m
     usual = scene.waves.above_still_water, scene.buoy.submergence
     depths = QUICK_DEPTHS_M if quick else DEPTHS_M
-    found = [(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
-    found += product(STEEPNESSES, depths, *treatments(), [EI])
+    places = [(kA, depth_m, *usual, EI) for kA in reversed(STEEPNESSES)]
+    places += product(STEEPNESSES, depths, *treatments(), [EI])
     if not quick:
         # In small waves the line never goes slack, and EI changes nothing: one depth shows it.
         at = [(STEEPNESSES[0], depth_m), *((STEEPNESSES[1], H) for H in STIFFNESS_DEPTHS_M)]
-        found += [(*where, *usual, EI) for where, EI in product(at, STIFFNESSES_NM2)]
-    return list(dict.fromkeys(found))
+        places += [(*place, *usual, EI) for place, EI in product(at, STIFFNESSES_NM2)]
+    return list(dict.fromkeys(places))
 
 
 def changes(values: tuple) -> dict[str, object]:
@@ -93,9 +93,9 @@ def measures(order: Order) -> Measures:
 
 def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
     """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `Study.work`."""
-    told = parameters(quick)
-    how = Running(out, jobs, "loky", None, report=False)
-    order = Order(how, SCENE, {}, told["periods"], told["transient"])
+    settings = parameters(quick)
+    running = Running(out, jobs, "loky", None, report=False)
+    order = Order(running, SCENE, {}, settings["periods"], settings["transient"])
     for values in variants(quick):
         order.cases.append(order.case(dict(zip(names(VARIED), values, strict=True)), changes(values)))
     with claimed(out):

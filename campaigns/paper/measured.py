@@ -78,12 +78,12 @@ class Parts:
         path = trajectory_path(part.folder, row["run_key"])
         if path not in self._runs:
             try:
-                found = stored_run(part.folder, row["run_key"])
+                trajectory = stored_run(part.folder, row["run_key"])
             except TrajectoryError as error:
                 reason = str(error).removeprefix(f"{path}: ")  # what is written must not depend on the folder's place
                 raise LeftOut(f"the file of {label}, {path.name}, is no use ({reason})") from None
-            settings, run_s = found.scene.to_toml(), found.statistics["wall_s"]
-            self._runs[path] = found, source(label, self.root, path, path.stem, settings, run_s)
+            settings, run_s = trajectory.scene.to_toml(), trajectory.statistics["wall_s"]
+            self._runs[path] = trajectory, source(label, self.root, path, path.stem, settings, run_s)
         return row, *self._runs[path]
 
     def of_buoy(self, steepness: float) -> tuple[object, Source]:
@@ -125,8 +125,8 @@ class Results:
         if not self.dependence:
             return []
         wanted = self.usual() | treated | {"steepness": steepness, "status": "ok"}
-        found = [row for row in self.dependence if all(row[key] == entry for key, entry in wanted.items())]
-        return sorted(found, key=lambda row: row["depth_m"])
+        rows = [row for row in self.dependence if all(row[key] == entry for key, entry in wanted.items())]
+        return sorted(rows, key=lambda row: row["depth_m"])
 
 
 def read_results(directory: str | Path) -> Results:

@@ -59,32 +59,32 @@ def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, floa
     columns, step_s, period_s = trajectory.columns, trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
     r, wave = columns["radius_m"], 2.0 * np.pi / period_s
     seen = round(sum(WINDOW) * period_s / step_s)
-    found = {
+    measures = {
         "rest_m": r[0],
         "excursion_m": np.abs(r - r[0]).max(),
         "long_tension_min_N": columns["tension_top_low_N"].min(),
         "tension_alike": np.corrcoef(r[:seen], columns["tension_top_N"][:seen])[0, 1],
     }
     radial, pendulum = modes.radial_radps, modes.pendulum_radps
-    for side, series, own, others in (
+    for side, series, own_radps, others_radps in (
         ("radial", r, radial, (pendulum, 2.0 * pendulum)),
         ("angular", columns["angle_rad"], pendulum, (radial,)),
     ):
         lines, late = spectrum(series, step_s, period_s, *WINDOW), series[-round(SETTLED * period_s / step_s) :]
-        nearest = peaks_near(lines, (own,))[0]
-        early, before = free(series, step_s, period_s, own, EARLY)
+        nearest = peaks_near(lines, (own_radps,))[0]
+        early, early_size = free(series, step_s, period_s, own_radps, EARLY)
         # At the frequency that it has early, where it is large: later the wave's frequency less the pendulum's, which
         # lies beside the radial one, may be larger.
-        after = free(series, step_s, period_s, early, LATE, 0.0)[1]
-        found |= {
+        late_size = free(series, step_s, period_s, early, LATE, 0.0)[1]
+        measures |= {
             f"early_{side}_radps": early,
             f"{side}_bins": math.nan if nearest is None else nearest.bins_away,
-            f"{side}_share": share_near(lines, (own, wave)),
-            f"{side}_coupled": share_near(lines, others),
-            f"{side}_kept": after / before,
+            f"{side}_share": share_near(lines, (own_radps, wave)),
+            f"{side}_coupled": share_near(lines, others_radps),
+            f"{side}_kept": late_size / early_size,
             f"{side}_mean": (np.mean(late) - series[0]) / (0.5 * np.ptp(late)),
         }
-    return {name: float(value) for name, value in found.items()}
+    return {name: float(value) for name, value in measures.items()}
 
 
 def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
@@ -98,14 +98,14 @@ def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str
 
     if not in_window(trajectory):
         return {}
-    section, found = strobed(trajectory, transient_periods), {}
-    fewest, most = LINES_POINTS
+    section, measures = strobed(trajectory, transient_periods), {}
+    fewest, largest = LINES_POINTS
     if len(section) >= fewest:
-        found["unexplained"] = float(np.mean(spectral_lines(section[:most]).unexplained))
+        measures["unexplained"] = float(np.mean(spectral_lines(section[:largest]).unexplained))
     if len(section) >= LEAST_POINTS:
         dimension = correlation_dimension(section)
-        found |= {"correlation_dimension": dimension.value, "correlation_dimension_error": dimension.error}
-    return found
+        measures |= {"correlation_dimension": dimension.value, "correlation_dimension_error": dimension.error}
+    return measures
 
 
 def strobed(trajectory: Trajectory, transient_periods: int) -> np.ndarray:
@@ -123,8 +123,8 @@ def strobed(trajectory: Trajectory, transient_periods: int) -> np.ndarray:
 def share_near(lines: Spectrum, frequencies: Iterable[float]) -> float:
     """Share of the variance in a spectrum within NEAR_BINS of any of the frequencies [rad/s]."""
     power = lines.amplitude[1:] ** 2
-    away = np.abs(np.subtract.outer(tuple(frequencies), lines.angular_frequency_radps[1:]))
-    return float(power[(away <= NEAR_BINS * lines.bin_radps).any(axis=0)].sum() / power.sum())
+    distance = np.abs(np.subtract.outer(tuple(frequencies), lines.angular_frequency_radps[1:]))
+    return float(power[(distance <= NEAR_BINS * lines.bin_radps).any(axis=0)].sum() / power.sum())
 
 
 def free(
@@ -146,8 +146,8 @@ def free(
     x = (x - np.average(x, weights=window)) * window
     trial = frequency * np.linspace(1.0 - within, 1.0 + within, 81)
     sizes = np.abs(np.exp(1j * np.outer(trial, step_s * np.arange(len(x)))) @ x)
-    most = int(np.argmax(sizes))
-    return float(trial[most]), float(2.0 * sizes[most] / window.sum())
+    largest = int(np.argmax(sizes))
+    return float(trial[largest]), float(2.0 * sizes[largest] / window.sum())
 
 
 def buckling_waves(profiles: Profiles) -> float | None:
@@ -180,22 +180,22 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
 
     columns, scene = trajectory.columns, trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    after = round(transient_periods * period_s / step_s)
-    tension, rate = columns["tension_top_N"][after:], columns["radius_rate_mps"][after:]
-    found: dict[str, float] = {}
+    begin = round(transient_periods * period_s / step_s)
+    tension, rate = columns["tension_top_N"][begin:], columns["radius_rate_mps"][begin:]
+    measures: dict[str, float] = {}
     if in_window(trajectory):
         for side, name in (("radial", "radius_m"), ("angular", "angle_rad")):
             power = spectrum(columns[name], step_s, period_s, *WINDOW).amplitude[1:] ** 2
-            found[f"{side}_line"] = float(power.max() / power.sum())
-            found[f"{side}_at"] = float(np.argmax(power) + 1) / WINDOW[1]
+            measures[f"{side}_line"] = float(power.max() / power.sum())
+            measures[f"{side}_at"] = float(np.argmax(power) + 1) / WINDOW[1]
     if len(tension) < 2:
-        return found
+        return measures
     static = static_tension_N(scene, columns)
     near, less = tension < NEAR_ZERO * static, tension < 0.0
-    found |= {"near_zero": float(near.mean()), "compressed": float(less.mean())}
+    measures |= {"near_zero": float(near.mean()), "compressed": float(less.mean())}
     begins, ends = (np.flatnonzero(now[1:] & ~now[:-1]) + 1 for now in (near, ~near))
-    found["compressed_inwards"] = _share(rate[less] < 0.0)
-    found["begun_inwards"] = _share(rate[begins] < 0.0)
+    measures["compressed_inwards"] = _share(rate[less] < 0.0)
+    measures["begun_inwards"] = _share(rate[begins] < 0.0)
     turned, lengths = [], []
     for first in ends:
         last = begins[np.searchsorted(begins, first)] if first < begins[-1:].max(initial=0) else 0
@@ -204,14 +204,14 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
             turned.append(rate[first] > 0.0 > rate[last])
             lengths.append(np.count_nonzero(peak > 0.5 * peak.max()) * step_s / period_s)
     if turned:
-        found["turned"] = _share(np.array(turned))
-        found["peak_periods"] = float(np.median(lengths))
-        found["apart_periods"] = len(tension) * step_s / period_s / len(turned)
-    return found
+        measures["turned"] = _share(np.array(turned))
+        measures["peak_periods"] = float(np.median(lengths))
+        measures["apart_periods"] = len(tension) * step_s / period_s / len(turned)
+    return measures
 
 
-def _share(which: np.ndarray) -> float:
-    return float(which.mean()) if len(which) else math.nan
+def _share(chosen: np.ndarray) -> float:
+    return float(chosen.mean()) if len(chosen) else math.nan
 
 
 def scales(scene: Scene, modes: Modes, small: float, large: float) -> dict[str, float]:

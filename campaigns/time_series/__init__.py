@@ -46,16 +46,22 @@ def main(argv: list[str] | None = None) -> int:
 
 def parser() -> argparse.ArgumentParser:
     """The options; their words are taken as they come and judged together."""
-    made = cli.parser(MODULE, __doc__, EXITS)
-    made.add_argument("file", metavar="FILE.csv", nargs="*", help="columns of numbers, their names in the first line")
-    made.add_argument("--column", metavar="NAME", help="the column to judge; may be left out where there is only one")
-    made.add_argument("--time", metavar="COLUMN", help="the column of times in seconds, evenly spaced")
-    made.add_argument("--step", metavar="SECONDS", help="sampling step, in place of a column of times")
-    made.add_argument("--period", metavar="SECONDS", help="period of the forcing (default: none is known)")
+    argument_parser = cli.parser(MODULE, __doc__, EXITS)
+    argument_parser.add_argument(
+        "file", metavar="FILE.csv", nargs="*", help="columns of numbers, their names in the first line"
+    )
+    argument_parser.add_argument(
+        "--column", metavar="NAME", help="the column to judge; may be left out where there is only one"
+    )
+    argument_parser.add_argument("--time", metavar="COLUMN", help="the column of times in seconds, evenly spaced")
+    argument_parser.add_argument("--step", metavar="SECONDS", help="sampling step, in place of a column of times")
+    argument_parser.add_argument("--period", metavar="SECONDS", help="period of the forcing (default: none is known)")
     repeats = "a motion repeats within this share of its range (default 0.001; with noise, eight times its share)"
-    made.add_argument("--tolerance", metavar="SHARE", help=repeats)
-    made.add_argument("--out", metavar="DIR", help="folder for the answer and every curve behind it (default: none)")
-    return made
+    argument_parser.add_argument("--tolerance", metavar="SHARE", help=repeats)
+    argument_parser.add_argument(
+        "--out", metavar="DIR", help="folder for the answer and every curve behind it (default: none)"
+    )
+    return argument_parser
 
 
 def read_order(argv: list[str], faults: list[str]) -> Order:
@@ -72,31 +78,31 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     out = value("--out", folder_name)
     if options.step is not None and options.time is not None:
         faults.append("--time and --step: given both; allowed: one of them")
-    given, *others = options.file or [None]
-    faults.extend(f"{word}: given beside {given}; allowed: one file" for word in others)
-    if out is not None and (fault := fault_of(out, CAMPAIGN) or _written_over(out, given)):
+    file, *further_files = options.file or [None]
+    faults.extend(f"{word}: given beside {file}; allowed: one file" for word in further_files)
+    if out is not None and (fault := fault_of(out, CAMPAIGN) or _written_over(out, file)):
         faults.append(fault)
     record = None
-    if given is None:
+    if file is None:
         faults.append("FILE.csv: missing; allowed: the name of a file of columns")
     else:
         from campaigns.time_series.record import read_record
 
-        record = read_record(given, options.column, options.time, step, faults)
+        record = read_record(file, options.column, options.time, step, faults)
     if record is not None and period is not None and (fault := _no_fit(period, record)):
         faults.append(fault)
     return Order(record, period, tolerance, cli.Running(out, 1, "threading", None, False))
 
 
-def _written_over(out: Path, given: str | None) -> str:
+def _written_over(out: Path, file: str | None) -> str:
     """What in a folder would be lost to this command, as a fault line; "" where nothing would."""
     # A folder with answer.txt alone is that of a command which a full disk stopped: provenance.json comes last.
     mine = (out / "provenance.json").exists() or (out / WRITTEN[0]).exists()
     held = "" if mine else next((name for name in WRITTEN if (out / name).exists()), "")
     if held:
         lost = f"which holds a {held} that is not known to be of this command"
-    elif given is not None and Path(given).resolve() in [(out / name).resolve() for name in WRITTEN]:
-        lost = f"where {given} would be written over"
+    elif file is not None and Path(file).resolve() in [(out / name).resolve() for name in WRITTEN]:
+        lost = f"where {file} would be written over"
     else:
         return ""
     return f"--out: given {str(out)!r}, {lost}; allowed: another folder"
@@ -105,15 +111,15 @@ def _written_over(out: Path, given: str | None) -> str:
 def _no_fit(period: float, record: "Record") -> str:
     """Why a record cannot be seen once per period, as a fault line; "" where it can."""
     length = (len(record.values) - 1) * record.step
-    given = f"--period: given {period:.6g} {record.unit}"
+    fault = f"--period: given {period:.6g} {record.unit}"
     if abs(period - record.step) <= 1e-6 * record.step:
         return ""
     if period < 2.0 * record.step:
         allowed = f"the step itself (the file is a section), or {2 * record.step:.6g} {record.unit} and more"
-        return f"{given}, samples are {record.step:.6g} apart; allowed: {allowed}"
+        return f"{fault}, samples are {record.step:.6g} apart; allowed: {allowed}"
     if period > length / 4.0:
         allowed = "a quarter of it at most (a verdict needs 40 periods, chaos 200)"
-        return f"{given} of a record of {length:.6g} {record.unit}; allowed: {allowed}"
+        return f"{fault} of a record of {length:.6g} {record.unit}; allowed: {allowed}"
     return ""
 
 
@@ -125,11 +131,11 @@ def judge(order: Order, argv: list[str]) -> int:
     record, out = order.record, order.how.out
     try:
         with stage("judging the record"):
-            found = study(record, order.period, order.tolerance)
-        print(page(found))
+            result = study(record, order.period, order.tolerance)
+        print(page(result))
         if out is not None:
-            asked = {"period": order.period, "step": record.step, "tolerance": found.tolerance}
-            write_files(found, out, {"campaign": CAMPAIGN, **asked})
+            settings = {"period": order.period, "step": record.step, "tolerance": result.tolerance}
+            write_files(result, out, {"campaign": CAMPAIGN, **settings})
             print(f"\n{out}: the answer, and its curves as CSV; with figures: python -m reports {out}")
     except KeyboardInterrupt:
         print("\ninterrupted; the folder holds what was written whole", file=sys.stderr)

@@ -61,15 +61,15 @@ DIMENSION = names(COLUMNS)[-4:]
 
 def page(study: Study) -> str:
     """The text, without a last newline."""
-    told = answer(study)
-    head = _rows([("record", told["record"]), ("seen", told["section"]["how"])])
-    measures = [(name, f"{found} {unit}".strip() + f"; {origin}") for name, found, unit, origin in told["measures"]]
-    verdict = [("VERDICT", f"{told['regime']}: {told['meaning']}"), ("because", told["reason"])]
+    answers = answer(study)
+    head = _rows([("record", answers["record"]), ("seen", answers["section"]["how"])])
+    measures = [(name, f"{value} {unit}".strip() + f"; {origin}") for name, value, unit, origin in answers["measures"]]
+    verdict = [("VERDICT", f"{answers['regime']}: {answers['meaning']}"), ("because", answers["reason"])]
     evidence = ["evidence (passed or not, what was found, the value and what it was compared with)"]
-    for one in study.verdict.evidence:
-        numbers = f"{number(one.value)} against {number(one.threshold)}"
-        evidence += _wrapped(f"  {MARK[one.passed]:<4}{one.name}: {one.sentence} [{numbers}]", 6)
-    notes = [line for note in told["notes"] for line in _wrapped(f"note: {note}", 6)]
+    for item in study.verdict.evidence:
+        numbers = f"{number(item.value)} against {number(item.threshold)}"
+        evidence += _wrapped(f"  {MARK[item.passed]:<4}{item.name}: {item.sentence} [{numbers}]", 6)
+    notes = [line for note in answers["notes"] for line in _wrapped(f"note: {note}", 6)]
     title = f"{study.record.path}, column {study.record.column}"
     parts = [[title, *head], _rows(measures), _rows(verdict), evidence, notes]
     return "\n\n".join("\n".join(part) for part in parts if part)
@@ -103,13 +103,15 @@ def _measures(study: Study) -> list[tuple[str, str, str, str]]:
     for peak in study.lines[:3]:
         origin = f"eq. (31) over the later half, amplitude {number(peak.amplitude)}"
         rows.append(("line of the spectrum", number(peak.angular_frequency_radps), f"rad/{per}", origin))
-    for name, one in study.exponents.items():
-        bits = one.in_bits_per_period(study.seen.period)
-        rows.append((f"exponent, {name.capitalize()}", number(one.value, one.error), f"nats/{per}", one.reason))
+    for name, estimate in study.exponents.items():
+        bits = estimate.in_bits_per_period(study.seen.period)
+        rows.append(
+            (f"exponent, {name.capitalize()}", number(estimate.value, estimate.error), f"nats/{per}", estimate.reason)
+        )
         rows.append(("the same", number(bits.value, bits.error), "bits/period", period))
     rows.append(("K of the 0-1 test", number(study.zero_one.value), "", study.zero_one.reason))
-    each = ", ".join(number(one.value, one.error) for one in study.dimensions)
-    delays = study.embedding and f"in {study.embedding.dimension} delays and one and two more: {each}"
+    dimensions = ", ".join(number(estimate.value, estimate.error) for estimate in study.dimensions)
+    delays = study.embedding and f"in {study.embedding.dimension} delays and one and two more: {dimensions}"
     rows.append(("correlation dimension", number(*study.dimension), "", delays or short))
     rows.append(("white noise, at most", number(study.seen.noise), "as the column", "`analysis/embedding.py`"))
     return rows
@@ -125,8 +127,8 @@ def _notes(study: Study) -> list[str]:
         needed = "chaos can be shown with 200 points or more on the section, any regime with 40"
         notes.append(f"{needed}; here are {len(view.points)}")
     if undecided and view.kind != SAMPLES and 1e-4 < noise < 0.05:
-        asked = f"the noise is {noise:.1g} of the range, and repetition was asked within {study.tolerance:.1g} of it"
-        notes.append(f"{asked}: --tolerance {8 * noise:.1g} asks whether the motion repeats within its noise")
+        note = f"the noise is {noise:.1g} of the range, and repetition was asked within {study.tolerance:.1g} of it"
+        notes.append(f"{note}: --tolerance {8 * noise:.1g} asks whether the motion repeats within its noise")
     if view.kind == MAXIMA:
         notes.append("of a motion that is forced with a known period, --period sees more: the section once per period")
     if study.used < len(record.values):
@@ -134,8 +136,8 @@ def _notes(study: Study) -> list[str]:
     return notes
 
 
-def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None:
-    """Write the folder; asked: the campaign and the settings of the command, for provenance.json. Raises OSError.
+def write_files(study: Study, directory: Path, settings: dict[str, object]) -> None:
+    """Write the folder; settings: the campaign and the settings of the command, for provenance.json. Raises OSError.
 
     provenance.json is written last: a folder with it is whole.
     """
@@ -146,12 +148,15 @@ def write_files(study: Study, directory: Path, asked: dict[str, object]) -> None
     for name, text in files.items():
         write_atomic(directory / name, text.encode())
     unit = record.unit
-    told = [replace(one, name=one.name.replace("UNIT", unit), unit=one.unit.replace("UNIT", unit)) for one in COLUMNS]
-    write_atomic(directory / "columns.csv", dictionary(told))
-    told = {**asked, "file": source.name, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()}
-    told |= {"column": record.column, "python": platform.python_version()}
-    told["versions"] = {name: version(name) for name in ("numpy", "scipy", "numba")}
-    write_atomic(directory / "provenance.json", _json(told).encode())
+    columns = [
+        replace(column, name=column.name.replace("UNIT", unit), unit=column.unit.replace("UNIT", unit))
+        for column in COLUMNS
+    ]
+    write_atomic(directory / "columns.csv", dictionary(columns))
+    columns = {**settings, "file": source.name, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()}
+    columns |= {"column": record.column, "python": platform.python_version()}
+    columns["versions"] = {name: version(name) for name in ("numpy", "scipy", "numba")}
+    write_atomic(directory / "provenance.json", _json(columns).encode())
 
 
 def answer(study: Study) -> dict[str, object]:
@@ -159,18 +164,18 @@ def answer(study: Study) -> dict[str, object]:
     record, view, verdict, chosen = study.record, study.seen, study.verdict, study.embedding
     x, unit, count = record.values, record.unit, verdict.period
     exponents = {}
-    for name, one in study.exponents.items():
-        bits = one.in_bits_per_period(view.period)
-        found = {"nats_per_time": one.value, "error": one.error}
-        found |= {"bits_per_cycle": bits.value, "bits_per_cycle_error": bits.error, "reason": one.reason}
-        exponents[name] = found
-    how = f"{len(view.points)} points, one every {view.period:.6g} {unit}, {SEEN[view.kind]}"
+    for name, estimate in study.exponents.items():
+        bits = estimate.in_bits_per_period(view.period)
+        numbers = {"nats_per_time": estimate.value, "error": estimate.error}
+        numbers |= {"bits_per_cycle": bits.value, "bits_per_cycle_error": bits.error, "reason": estimate.reason}
+        exponents[name] = numbers
+    section_text = f"{len(view.points)} points, one every {view.period:.6g} {unit}, {SEEN[view.kind]}"
     return {
         "record": f"{len(x)} samples, one every {record.step:.6g} {unit}, from {x.min():.6g} to {x.max():.6g}",
         "unit_of_time": unit,
         "samples": len(x),
         "step": record.step,
-        "section": {"kind": view.kind, "points": len(view.points), "cycle": view.period, "how": how},
+        "section": {"kind": view.kind, "points": len(view.points), "cycle": view.period, "how": section_text},
         "noise": view.noise,
         "tolerance": study.tolerance,
         "lines": [{"angular_frequency": p.angular_frequency_radps, "amplitude": p.amplitude} for p in study.lines],
@@ -203,9 +208,9 @@ def curves(study: Study) -> dict[str, pandas.DataFrame]:
     divergence = pandas.DataFrame({name: pandas.Series(curve) for name, curve in grown.items()})
     divergence.insert(0, time, record.step * np.arange(len(divergence)))
     dimension = [pandas.DataFrame(columns=DIMENSION)]
-    for j, one in enumerate(study.dimensions):
-        values = (float(study.embedding.dimension + j), one.radius, one.correlation_sum, one.slope)
-        dimension.append(pandas.DataFrame(dict(zip(DIMENSION, values, strict=True)))[one.correlation_sum > 0.0])
+    for j, estimate in enumerate(study.dimensions):
+        values = (float(study.embedding.dimension + j), estimate.radius, estimate.correlation_sum, estimate.slope)
+        dimension.append(pandas.DataFrame(dict(zip(DIMENSION, values, strict=True)))[estimate.correlation_sum > 0.0])
     return {
         "series": pandas.DataFrame({time: record.step * np.arange(len(record.values)), "value": record.values}),
         "spectrum": pandas.DataFrame({frequency: spectrum.angular_frequency_radps, "amplitude": spectrum.amplitude}),

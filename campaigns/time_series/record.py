@@ -56,7 +56,7 @@ def read_record(
     column, time   names of columns; None: not given (a file of one column needs no name)
     step           sampling step [s], or None
     """
-    before = len(faults)
+    faults_before = len(faults)
     try:
         table = read_table(Path(path))
         names = table.names
@@ -66,13 +66,13 @@ def read_record(
             faults.append(f"--column: not given; allowed: {listed}")
         elif column == time:
             faults.append(f"--column and --time: given {column!r} as both; allowed: two columns")
-        asked = {option: name for option, name in (("--column", column), ("--time", time)) if name is not None}
-        for option, name in asked.items():
+        wanted = {option: name for option, name in (("--column", column), ("--time", time)) if name is not None}
+        for option, name in wanted.items():
             if name not in names:
                 faults.append(f"{option}: no column {name!r} in {path}{close_to(name, names)}; allowed: {listed}")
-        if len(faults) > before:
+        if len(faults) > faults_before:
             return None
-        numbers = _numbers(table, {f"{option} {name}": names.index(name) for option, name in asked.items()}, faults)
+        numbers = _numbers(table, {f"{option} {name}": names.index(name) for option, name in wanted.items()}, faults)
     except ValueError as error:
         faults.append(str(error))
         return None
@@ -84,7 +84,7 @@ def read_record(
         step = float((t[-1] - t[0]) / (len(t) - 1))
         if fault := _uneven(t, step):
             faults.append(f"--time {time}: {fault}")
-    if len(faults) > before:
+    if len(faults) > faults_before:
         return None
     return Record(x, 1.0 if step is None else step, unit, column, Path(path))
 
@@ -107,13 +107,13 @@ class Table:
             if len(cells) == len(self.names):
                 yield cells
                 continue
-            given = f"{self.path}: row {begin + k + 1} below the names has {len(cells)} cells, the names are "
-            given += f"{len(self.names)}"
+            fault = f"{self.path}: row {begin + k + 1} below the names has {len(cells)} cells, the names are "
+            fault += f"{len(self.names)}"
             if self.mark == "," and len(cells) == 2 * len(self.names):
-                raise ValueError(f"{given}; allowed: numbers with a dot, not a comma, where commas separate columns")
+                raise ValueError(f"{fault}; allowed: numbers with a dot, not a comma, where commas separate columns")
             shown = ", ".join(self.names)
             shown = shown if len(shown) <= 60 else f"{shown[:57]}..."
-            raise ValueError(f"{given} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
+            raise ValueError(f"{fault} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
 
 
 def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
@@ -126,27 +126,27 @@ def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[st
     begin = 0
     while block := list(islice(table.lines, BLOCK)):
         try:
-            found = np.loadtxt(block, delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
-            sound = found.shape == (len(block), len(table.names)) and np.isfinite(found).all()
+            numbers = np.loadtxt(block, delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
+            sound = numbers.shape == (len(block), len(table.names)) and np.isfinite(numbers).all()
         except ValueError:  # cell by cell, to say what is wrong; other columns may hold words
             sound = False
         rows = len(block) if sound else 0
         if not sound:
-            found = np.full((len(block), len(table.names)), np.nan)
+            numbers = np.full((len(block), len(table.names)), np.nan)
             for rows, cells in enumerate(table.rows(block, begin), 1):
                 for name, place in places.items():
-                    if what := _is_no_number(cells[place]):
-                        wrong[name].setdefault(what, [cells[place]]).append(begin + rows)
+                    if fault := _is_no_number(cells[place]):
+                        wrong[name].setdefault(fault, [cells[place]]).append(begin + rows)
                     else:
-                        found[rows - 1, place] = float(cells[place])
+                        numbers[rows - 1, place] = float(cells[place])
         for name, place in places.items():
-            values[name].append(found[:rows, place].copy())
+            values[name].append(numbers[:rows, place].copy())
         begin += rows
     for name, faulty in wrong.items():
-        for what, (cell, *where) in faulty.items():
-            more = f" (so are {len(where) - 1} more)" if len(where) > 1 else ""
+        for fault, (cell, *where) in faulty.items():
+            further = f" (so are {len(where) - 1} more)" if len(where) > 1 else ""
             allowed = f"finite numbers in every row; {_cure(cell, name, where)}"
-            faults.append(f"{name}: row {where[0]} below the names, {cell!r}, {what}{more}; allowed: {allowed}")
+            faults.append(f"{name}: row {where[0]} below the names, {cell!r}, {fault}{further}; allowed: {allowed}")
     return {name: np.concatenate([[], *blocks]) for name, blocks in values.items() if not wrong[name]}
 
 
@@ -188,18 +188,18 @@ def _uneven(t: np.ndarray, step: float) -> str:
     if np.any(forward <= 0.0):
         k = int(np.argmax(forward <= 0.0))
         return f"{t[k + 1]:.9g} follows {t[k]:.9g} in row {k + 2}; allowed: times in seconds that increase"
-    away = np.abs(t - t[0] - step * np.arange(len(t))).max()
-    if away <= UNEVEN * step:
+    deviation = np.abs(t - t[0] - step * np.arange(len(t))).max()
+    if deviation <= UNEVEN * step:
         return ""
     usual, k = np.median(forward), int(np.argmax(np.abs(forward - np.median(forward))))
-    given = f"steps of {usual:.6g} s, but of {forward[k]:.6g} s after row {k + 1}"
+    fault = f"steps of {usual:.6g} s, but of {forward[k]:.6g} s after row {k + 1}"
     if abs(forward[k] - usual) <= UNEVEN * usual:
-        given = f"steps that creep from {forward[0]:.9g} s to {forward[-1]:.9g} s"
+        fault = f"steps that creep from {forward[0]:.9g} s to {forward[-1]:.9g} s"
     allowed = f"even sampling (to {UNEVEN:.0%} of a step); interpolate onto even times first"
-    if away <= np.ptp(forward) < 0.9 * step:
+    if deviation <= np.ptp(forward) < 0.9 * step:
         # Within one digit of the even grid, as times written with few digits are.
         allowed += f", or, where times are only rounded, give --step {step:.6g} in the place of --time"
-    return f"{given}; allowed: {allowed}"
+    return f"{fault}; allowed: {allowed}"
 
 
 def close_to(name: str, names: Iterable[str]) -> str:
@@ -247,12 +247,12 @@ def _lines(path: Path) -> Iterator[str]:
     try:
         with open(path, "rb") as file:
             begin = file.read(8)
-        if (known := next((told for mark, told in BINARY.items() if begin.startswith(mark)), None)) is None:
+        if (known := next((kind for mark, kind in BINARY.items() if begin.startswith(mark)), None)) is None:
             with open(path, encoding="utf-16" if begin[:2] in UTF16 else "utf-8-sig") as file:
                 for line in file:
                     if "\0" in line:
                         break
-                    if (said := line.lstrip()) and not said.startswith("#"):
+                    if (text := line.lstrip()) and not text.startswith("#"):
                         yield line
                 else:
                     return
@@ -262,9 +262,9 @@ def _lines(path: Path) -> Iterator[str]:
         pass
     except FileNotFoundError:
         folder = path.absolute().parent
-        beside = os.listdir(folder)[:1000] if os.access(folder, os.R_OK) else []
-        where = "" if os.path.isdir(folder) else f", nor a folder {folder}"
-        fault = f"there is no such file{where}{close_to(path.name, beside)}"
+        siblings = os.listdir(folder)[:1000] if os.access(folder, os.R_OK) else []
+        missing_folder = "" if os.path.isdir(folder) else f", nor a folder {folder}"
+        fault = f"there is no such file{missing_folder}{close_to(path.name, siblings)}"
         raise ValueError(f"{path}: {fault}; allowed: {FORMAT}") from None
     except OSError as error:
         raise ValueError(f"{path}: cannot be read: {error.strerror}; allowed: {FORMAT}") from None

@@ -160,8 +160,8 @@ def judged(x: np.ndarray, view: Seen, tolerance: float, seed: int) -> Verdict:
         return _even_times(verdict, view, tolerance)
     if verdict.regime != "chaotic":
         return verdict
-    asked = [memory_evidence(_at_even_times(view), "memory, in time"), _record_null(x, view, seed)]
-    return _with(verdict, asked, "chaotic by its section, but ")
+    tests = [memory_evidence(_at_even_times(view), "memory, in time"), _record_null(x, view, seed)]
+    return _with(verdict, tests, "chaotic by its section, but ")
 
 
 def _at_even_times(view):
@@ -170,10 +170,10 @@ def _at_even_times(view):
     return height[np.searchsorted(time, np.arange(time[0], time[-1], view.period), side="right") - 1]
 
 
-def _with(verdict, asked, but):
+def _with(verdict, tests, but):
     """The verdict with more evidence: "undecided", with the reason, where a test failed."""
-    verdict = replace(verdict, evidence=(*verdict.evidence, *asked))
-    failed = [item.sentence for item in asked if item.passed is False]
+    verdict = replace(verdict, evidence=(*verdict.evidence, *tests))
+    failed = [item.sentence for item in tests if item.passed is False]
     if not failed:
         return verdict
     return replace(verdict, regime="undecided", period=None, reason=but + "; ".join(failed))
@@ -185,14 +185,16 @@ def _even_times(verdict, view, tolerance):
     A sine stays within `tolerance` of its range from its maximum for sqrt(tolerance)/pi of a period on either side.
     """
     time, between = view.time[-MOST_POINTS:], view.period
-    away = 0.0
+    deviation = 0.0
     for first in range(verdict.period):
-        each = time[first :: verdict.period]
-        count = np.arange(len(each))
-        away = max(away, float(np.abs(each - np.polyval(np.polyfit(count, each, 1), count)).max()) / between)
-    most = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
-    sentence = f"maxima that are alike stray from even times by {away:.2g} of the time between maxima"
-    return _with(verdict, [Evidence("even times", away, most, away <= most, sentence)], "no period: ")
+        times = time[first :: verdict.period]
+        count = np.arange(len(times))
+        deviation = max(
+            deviation, float(np.abs(times - np.polyval(np.polyfit(count, times, 1), count)).max()) / between
+        )
+    allowed = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
+    sentence = f"maxima that are alike stray from even times by {deviation:.2g} of the time between maxima"
+    return _with(verdict, [Evidence("even times", deviation, allowed, deviation <= allowed, sentence)], "no period: ")
 
 
 def _record_null(x, view, seed):
@@ -208,7 +210,7 @@ def _record_null(x, view, seed):
     drawn = (phases_at_random(scores, rng) for _ in range(2 * SURROGATES))
     # Back in the record's own values: the instrument is put on again.
     gains = (gain_of(values[np.argsort(np.argsort(surrogate))]) for surrogate in drawn)
-    rank = rank_until_lost(gain, (one for one in gains if np.isfinite(one)), SURROGATES)
+    rank = rank_until_lost(gain, (gain_drawn for gain_drawn in gains if np.isfinite(gain_drawn)), SURROGATES)
     if rank.above is None:
         return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
     sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
@@ -223,8 +225,8 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
     chosen = choose_delay(series)
     noise = noise_level(series, chosen.delay)
     if period is not None and abs(period - step) > 1e-6 * step:
-        found = section_at_phases(series, step, period)
-        return Seen(STROBED, found.points, found.time_s, period, noise, chosen.mean_period)
+        section = section_at_phases(series, step, period)
+        return Seen(STROBED, section.points, section.time_s, period, noise, chosen.mean_period)
     if period is not None or chosen.mean_period < LEAST_SAMPLES_PER_PERIOD:
         time = step * np.arange(len(series))
         return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)
@@ -236,8 +238,8 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
 def maxima_and_minima(series: np.ndarray, prominence: float) -> tuple[np.ndarray, np.ndarray]:
     """Places [samples] (m,) of `successive_maxima`, and (m, 2) their heights with the minimum before each."""
     place, height = successive_maxima(series, prominence)
-    before, depth = successive_maxima(-series, prominence)
-    last = np.searchsorted(before, place) - 1
+    minima, depth = successive_maxima(-series, prominence)
+    last = np.searchsorted(minima, place) - 1
     known = last >= 0
     return place[known], np.column_stack([height[known], -depth[last[known]]])
 
@@ -256,8 +258,8 @@ def successive_maxima(series: np.ndarray, prominence: float) -> tuple[np.ndarray
     top = find_peaks(series, prominence=least)[0]
     top = top[(top >= SPLINE_END) & (top < len(series) - SPLINE_END)]
     spline = CubicSpline(np.arange(len(series)), series)
-    below, here, above = series[top - 1], series[top], series[top + 1]
-    bend = below - 2.0 * here + above
+    below, middle, above = series[top - 1], series[top], series[top + 1]
+    bend = below - 2.0 * middle + above
     place = top + np.where(bend < 0.0, 0.5 * (below - above) / np.where(bend < 0.0, bend, -1.0), 0.0)
     for _ in range(4):
         slope, bend = spline(place, 1), spline(place, 2)

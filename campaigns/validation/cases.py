@@ -67,8 +67,8 @@ class Case:
 
 def all_cases() -> Iterator[Case]:
     """Every case, in the order of the report; a case takes from its group what it does not say itself."""
-    found = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-    for group in found["groups"].values():
+    data = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+    for group in data["groups"].values():
         for name, row in group.pop("cases").items():
             changes = group.get("changes", {}) | row.get("changes", {})
             yield Case(name, **(group | row | {"changes": changes}))
@@ -99,12 +99,12 @@ def peer_jobs(case: Case) -> Iterator[Job]:
     peer, work, setting = peer_of(case), BY_NAME[case.options["work"]], tuple(case.options["setting"])
     yield Job({"run": f"{work.name}, ours"}, work.made({**peer.ours, **case.changes}), duration_s=case.duration_s)
     sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
-    simulate, made = (
+    simulate, scenes = (
         partial(other_code, peer=peer, settings=setting),
         f"{peer.name} {version(peer)} {setting} {sources}",
     )
     scene = scene_of(peer, work.name, setting[0])
-    yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=made)
+    yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=scenes)
 
 
 def missing(case: Case) -> str:
@@ -138,8 +138,8 @@ def shown(value: object) -> str:
 
 def jobs(cases: Iterable[Case]) -> list[Job]:
     """The runs of all cases, each once: several cases may look at the same one. The longest come first."""
-    found = {job.key: job for case in cases for job in case.jobs()}
-    return sorted(found.values(), key=lambda job: -job.size)
+    by_key = {job.key: job for case in cases for job in case.jobs()}
+    return sorted(by_key.values(), key=lambda job: -job.size)
 
 
 def run_row(trajectory) -> dict[str, object]:

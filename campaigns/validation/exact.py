@@ -54,10 +54,10 @@ def catenary(scene) -> Catenary:
     def off(force: np.ndarray) -> np.ndarray:
         return Catenary(np.exp(force[0]), force[1], *fixed).place(np.array([tether.length_m]))[:, 0] - end
 
-    found, _, ok, message = fsolve(off, [np.log(weight), -0.5 * weight], xtol=1e-13, full_output=True)
-    if ok != 1 and np.abs(off(found)).max() > 1e-9 * tether.length_m:
+    solution, _, ok, message = fsolve(off, [np.log(weight), -0.5 * weight], xtol=1e-13, full_output=True)
+    if ok != 1 and np.abs(off(solution)).max() > 1e-9 * tether.length_m:
         raise ValueError(f"no catenary found: {message}")
-    return Catenary(float(np.exp(found[0])), float(found[1]), *fixed)
+    return Catenary(float(np.exp(solution[0])), float(solution[1]), *fixed)
 
 
 def frequencies(line: Catenary, count: int) -> np.ndarray:

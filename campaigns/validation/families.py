@@ -50,8 +50,8 @@ def over_a_period(time_s: np.ndarray, values: np.ndarray, period_s: float, round
     if rounds > last:
         raise ValueError(f"{rounds} periods of {period_s:g} s are asked for, and the record has {last}")
     phase = np.arange(PHASES) / PHASES
-    each = (np.interp((i + phase) * period_s, time_s, values) for i in range(last - rounds, last))
-    return np.mean([*each], axis=0)
+    periods = (np.interp((i + phase) * period_s, time_s, values) for i in range(last - rounds, last))
+    return np.mean([*periods], axis=0)
 
 
 def along(steady: np.ndarray, period_s: float, time_s: np.ndarray) -> np.ndarray:
@@ -75,8 +75,8 @@ def measured_history(case: Case, runs: Sequence[Trajectory]) -> Found:
     """Top tension over a period against a measured one, both averaged over periods; rms as a share of their range."""
     run, period_s = runs[0], period_of(runs[0].scene)
     record = table("lindahl_history.csv")
-    whole = int(record[-1, 0] / period_s)
-    theirs = over_a_period(record[:, 0], record[:, case.options["column"]], period_s, whole)
+    periods = int(record[-1, 0] / period_s)
+    theirs = over_a_period(record[:, 0], record[:, case.options["column"]], period_s, periods)
     steady = over_a_period(run.columns["time_s"], run.columns["tension_top_N"], period_s, case.options["rounds"])
     time_s = np.arange(PHASES) / PHASES * period_s
     ours, shift_s = shifted(steady, period_s, time_s, theirs)
@@ -92,24 +92,24 @@ def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Found:
     theirs = np.array([rows[motion.period_s, motion.radius_m] for motion in motions])
     highs = ((run.columns["time_s"], run.columns["tension_top_high_N"], period_of(run.scene)) for run in runs)
     ours = np.array([mean_maximum(*high, case.options["rounds"]) for high in highs])
-    apart, share = ours - theirs, 100.0 * (ours / theirs - 1.0)
-    said = span(ours, "N"), span(theirs, "N")
+    difference, share = ours - theirs, 100.0 * (ours / theirs - 1.0)
+    ranges = span(ours, "N"), span(theirs, "N")
     numbers = {
-        "maxima, rms": Number(*said, rms(apart)),
-        "maxima, mean size": Number(*said, float(np.abs(share).mean())),
+        "maxima, rms": Number(*ranges, rms(difference)),
+        "maxima, mean size": Number(*ranges, float(np.abs(share).mean())),
     }
     curves = []
     for radius in dict.fromkeys(motion.radius_m for motion in motions):
-        own = np.array([motion.radius_m == radius for motion in motions])
-        period = np.array([motion.period_s for motion in motions])[own]
-        curves.append((f"radius {radius:g} m", period, ours[own], theirs[own]))
+        of_radius = np.array([motion.radius_m == radius for motion in motions])
+        period = np.array([motion.period_s for motion in motions])[of_radius]
+        curves.append((f"radius {radius:g} m", period, ours[of_radius], theirs[of_radius]))
     time_s, *records = table("lindahl_history.csv").T
-    told = []
+    sentences = []
     for period_s, record in zip(HISTORY_PERIODS_S, records, strict=True):
         largest = mean_maximum(time_s, record, period_s, int(time_s[-1] / period_s))
-        told.append(f"{largest:.1f} for {rows[period_s, HISTORY_RADIUS_M]:.1f} N")
-    note = f"ours less theirs: {apart.min():+.1f} to {apart.max():+.1f} N"
-    note += f"; the measured histories themselves have {' and '.join(told)}"
+        sentences.append(f"{largest:.1f} for {rows[period_s, HISTORY_RADIUS_M]:.1f} N")
+    note = f"ours less theirs: {difference.min():+.1f} to {difference.max():+.1f} N"
+    note += f"; the measured histories themselves have {' and '.join(sentences)}"
     return Found(numbers, curves, note)
 
 
@@ -128,21 +128,21 @@ def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
     _, time_s, theirs = (rows := table("lowe_langley.csv"))[rows[:, 0] == case.options["record"]].T
     steady = over_a_period(run.columns["time_s"], 1e-3 * run.columns["tension_top_N"], period_s, 1)
     ours, shift_s = shifted(steady, period_s, time_s, theirs)
-    said = span(ours, "kN"), span(theirs, "kN")
-    numbers = {"tension, rms": Number(*said, rms(ours - theirs))}
+    ranges = span(ours, "kN"), span(theirs, "kN")
+    numbers = {"tension, rms": Number(*ranges, rms(ours - theirs))}
     if since_s := case.options.get("settled_s"):
         later = time_s >= since_s
-        numbers[f"from {since_s:g} s on, rms"] = Number(*said, rms((ours - theirs)[later]), "kN")
+        numbers[f"from {since_s:g} s on, rms"] = Number(*ranges, rms((ours - theirs)[later]), "kN")
     if run.scene.waves is None:  # a motion with a stated start; of waves the phase is not known
         as_is = along(steady, period_s, time_s)
-        numbers["without a shift, rms"] = Number(*said, rms(as_is - theirs), "kN")
+        numbers["without a shift, rms"] = Number(*ranges, rms(as_is - theirs), "kN")
     return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
 
 
 def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Found:
     """Top tension at rest against a printed number, and the shape against the elastic catenary."""
-    found, right = 1e-3 * float(runs[0].columns["tension_top_N"][0]), case.options["tension_kN"]
-    numbers = {"tension at rest": Number(f"{found:.4g} kN", f"{right:.4g} kN", abs(found - right))}
+    tension_kN, right = 1e-3 * float(runs[0].columns["tension_top_N"][0]), case.options["tension_kN"]
+    numbers = {"tension at rest": Number(f"{tension_kN:.4g} kN", f"{right:.4g} kN", abs(tension_kN - right))}
     return Found(numbers, [])
 
 
@@ -172,10 +172,10 @@ def free_motion(case: Case, runs: Sequence[Trajectory]) -> Found:
     power = (np.abs(np.fft.rfft(window * (moved - moved.mean(axis=0)), axis=0)) ** 2).sum(axis=1)
     at = np.fft.rfftfreq(len(moved), step_s)
     right = frequencies(catenary(runs[0].scene), count)
-    found = np.array([peak_near(at, power, one) for one in right])
+    found = np.array([peak_near(at, power, frequency) for frequency in right])
     error = 100.0 * float(np.abs(found / right - 1.0).max())
-    said = (f"{values[0]:.4f} to {values[-1]:.4f} Hz" for values in (found, right))
-    return Found({"frequencies, largest": Number(*said, error)}, [("", np.arange(1.0, count + 1.0), found, right)])
+    ranges = (f"{values[0]:.4f} to {values[-1]:.4f} Hz" for values in (found, right))
+    return Found({"frequencies, largest": Number(*ranges, error)}, [("", np.arange(1.0, count + 1.0), found, right)])
 
 
 def peak_near(at: np.ndarray, power: np.ndarray, frequency: float) -> float:
@@ -194,8 +194,8 @@ def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Found:
     lines, shown = runs[0].profiles, case.options["shown_s"]
     at = int(np.argmin(np.abs(lines.time_s - shown)))
     exact = theory_of(runs[0].scene, float(lines.time_s[-1])).motion.at(lines.s_m, float(lines.time_s[at]))[0]
-    said = (f"{values.min():.4f} to {values.max():.4f}" for values in (lines.strain[at], exact))
-    return Found({"strain, mean": Number(*said, strain_error(runs[0]))}, [("", lines.s_m, lines.strain[at], exact)])
+    ranges = (f"{values.min():.4f} to {values.max():.4f}" for values in (lines.strain[at], exact))
+    return Found({"strain, mean": Number(*ranges, strain_error(runs[0]))}, [("", lines.s_m, lines.strain[at], exact)])
 
 
 def peer(case: Case, runs: Sequence[Trajectory]) -> Found:
@@ -213,9 +213,9 @@ def whoi_mine(case: Case, runs: Sequence[Trajectory]) -> Found:
     pull = POUND_N * rows[:, 5]
     ours = {name: np.interp(s, lines.s_m, getattr(lines, name)[0]) for name in ("x_m", "z_m", "tension_N")}
     off = 1e3 * float(np.hypot(ours["x_m"] - x, ours["z_m"] - z).max())
-    apart = 100.0 * float(np.abs(ours["tension_N"] / pull - 1.0).max())
+    difference = 100.0 * float(np.abs(ours["tension_N"] / pull - 1.0).max())
     numbers = {
         "place, largest": Number(f"{ours['x_m'][-1]:.4f}, {ours['z_m'][-1]:.4f} m", f"{x[-1]:.4f}, {z[-1]:.4f} m", off),
-        "tension, largest": Number(span(ours["tension_N"], "N"), span(pull, "N"), apart),
+        "tension, largest": Number(span(ours["tension_N"], "N"), span(pull, "N"), difference),
     }
     return Found(numbers, [("", s, ours["x_m"], x)])

@@ -35,9 +35,11 @@ def judged(out: Path, cases: Iterable[Case]) -> tuple[list[dict], list[dict]]:
         if early:
             rows += [base | verdict(case, quantity, None) | {"note": early} for quantity in case.bars]
             continue
-        found = getattr(families, case.family)(case, runs)
-        rows += [base | {"note": found.note} | verdict(case, name, number) for name, number in found.numbers.items()]
-        for name, x, ours, theirs in found.curves:
+        outcome = getattr(families, case.family)(case, runs)
+        rows += [
+            base | {"note": outcome.note} | verdict(case, name, number) for name, number in outcome.numbers.items()
+        ]
+        for name, x, ours, theirs in outcome.curves:
             at = {"case": case.name, "curve": name}
             points += [at | {"x": a, "ours": b, "theirs": c} for a, b, c in zip(x, ours, theirs, strict=True)]
     return rows, points

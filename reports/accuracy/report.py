@@ -15,7 +15,7 @@ from .sections import Study, read_study
 def report(directory: str | Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    works = [name for name in study.works if any(one.work == name for one in study.settings)]
+    works = [name for name in study.works if any(setting.work == name for setting in study.settings)]
     items: list[Item] = [
         *section_items("accuracy", "Question"),
         Heading("The answer in numbers"),
@@ -35,25 +35,28 @@ def report(directory: str | Path) -> Report:
 def _short_answer(study: Study, works: list[str]) -> Iterator[str]:
     yield from filter(None, (sections.level_answer(study, name) for name in works))
     for name in works:
-        if (one := sections.shipped(study, name)) is not None:
+        if (setting := sections.shipped(study, name)) is not None:
             factor, unit = sections.per_period(study, name)
             yield (
-                f"The shipped setting (41 nodes, rtol 0.03) on {name}: {number(one.error, 2)} {study.unit(name)} in "
-                f"{number(factor * one.wall_s, 3)} {unit} (worst of {one.rounds} rounds {number(one.worst, 2)})."
+                f"The shipped setting (41 nodes, rtol 0.03) on {name}: "
+                f"{number(setting.error, 2)} {study.unit(name)} in "
+                f"{number(factor * setting.wall_s, 3)} {unit} "
+                f"(worst of {setting.rounds} rounds {number(setting.worst, 2)})."
             )
     good, smooth = sections.smooth_series(study)
     if smooth:
         yield f"Orders: {good} of {smooth} series on smooth works end within 0.15 of theory."
-    bad = sum(bool(one.failed) and not one.peer for one in study.settings)
+    bad = sum(bool(setting.failed) and not setting.peer for setting in study.settings)
     yield f"Settings of ours that ended early in a round and are left out: {bad}."
 
 
 def _protocol(study: Study) -> str:
     machine, found = study.folder.provenance.get("machine"), study.folder.provenance.get("rounds")
-    where = f" on {machine.get('processor')}, {machine.get('cores')} cores" if machine else ""
+    machine_text = f" on {machine.get('processor')}, {machine.get('cores')} cores" if machine else ""
     rounds = count(found, "round") if isinstance(found, int) else "rounds"
     return (
-        f"Timed one run at a time{where}. The settings take turns, {rounds}, each with another tolerance or step (0.9 "
+        f"Timed one run at a time{machine_text}. The settings take turns, {rounds}, "
+        f"each with another tolerance or step (0.9 "
         "to 1.1 times the one named), because near a snap the error of a loose setting is partly luck; medians are "
         "shown. Time is that of stepping alone: no compilation, statics, input or output of files."
     )
@@ -67,10 +70,11 @@ def cost_items(study: Study) -> Iterator[Item]:
     pieces, stepping_ms, python_ms = (costs[name] for name in ("per_iteration_us", "stepping_ms", "python_ms"))
     total = sum(pieces.values())
     rows = [(name, decimals(value, 2), decimals(100 * value / total, 0)) for name, value in pieces.items()]
-    each = [number(costs[name] / costs["periods"], 3) for name in ("newton_iterations", "steps")]
+    costs_per_period = [number(costs[name] / costs["periods"], 3) for name in ("newton_iterations", "steps")]
     caption = (
         f"The shipped setting ({costs['nodes']} nodes, rtol {costs['rtol']:g}, {costs['integrator']}) on the snapping "
-        f"buoy over {costs['periods']} wave periods: {each[0]} Newton iterations and {each[1]} steps a period. "
+        f"buoy over {costs['periods']} wave periods: {costs_per_period[0]} Newton iterations and "
+        f"{costs_per_period[1]} steps a period. "
         "Assembly, waves and elimination are timed by themselves, the rest by difference. From `costs.json`."
     )
     yield Heading("Cost of each piece")
@@ -85,8 +89,8 @@ def cost_items(study: Study) -> Iterator[Item]:
 
 def peer_items(study: Study) -> Iterator[Item]:
     """Other codes: what is left different, what they cost beside ours, what is not installed."""
-    own = [one for one in study.settings if one.peer]
-    if not own:
+    of_peers = [setting for setting in study.settings if setting.peer]
+    if not of_peers:
         return
     notes = study.folder.provenance.get("peer_notes") or {}
     yield Heading("Other codes")
@@ -101,7 +105,9 @@ def peer_items(study: Study) -> Iterator[Item]:
             "`table.csv`."
         )
         yield Table(columns, rows, caption, small=True)
-    if missing := tuple(dict.fromkeys((one.method, one.status, one.message) for one in own if one.failed)):
+    if missing := tuple(
+        dict.fromkeys((setting.method, setting.status, setting.message) for setting in of_peers if setting.failed)
+    ):
         caption = "Settings of other codes without a result. From `table.csv`."
         yield Table(heads("code", "outcome", "why"), missing, caption, small=True)
 
@@ -110,11 +116,13 @@ def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:
     """Rows of other codes on a work, at the two finest levels that each reaches."""
     unit, (factor, _) = study.unit(work), sections.per_period(study, work)
     ours = {level: sections.within(study.timed(work, peer=False), level) for level in sections.LEVELS[unit]}
-    for name in dict.fromkeys(one.method for one in study.timed(work, peer=True)):
-        found = [(level, one, sections.within(study.timed(work, name), level)) for level, one in ours.items() if one]
-        for level, one, other in [both for both in found if both[2]][-2:]:
-            off = f"{number(other.against_ours, 2)} {unit}" if math.isfinite(other.against_ours) else EMPTY
+    for name in dict.fromkeys(best.method for best in study.timed(work, peer=True)):
+        comparisons = [
+            (level, best, sections.within(study.timed(work, name), level)) for level, best in ours.items() if best
+        ]
+        for level, best, theirs in [comparison for comparison in comparisons if comparison[2]][-2:]:
+            off = f"{number(theirs.against_ours, 2)} {unit}" if math.isfinite(theirs.against_ours) else EMPTY
             yield (
-                work, name, f"{level:g} {unit}", decimals(factor * other.wall_s, 2), decimals(factor * one.wall_s, 2),
-                number(other.wall_s / one.wall_s, 3), other.named, f"{one.method}: {one.named}", off,
+                work, name, f"{level:g} {unit}", decimals(factor * theirs.wall_s, 2), decimals(factor * best.wall_s, 2),
+                number(theirs.wall_s / best.wall_s, 3), theirs.named, f"{best.method}: {best.named}", off,
             )  # fmt: skip

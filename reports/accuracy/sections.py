@@ -47,8 +47,8 @@ class Setting:
     @property
     def named(self) -> str:
         """The setting in words: "41 nodes, rtol 0.03"."""
-        where = "segments" if self.peer and not self.method.startswith("scipy") else "nodes"
-        return f"{self.nodes} {where}, {_WORDS[self.control].format(self.value)}"
+        elements = "segments" if self.peer and not self.method.startswith("scipy") else "nodes"
+        return f"{self.nodes} {elements}, {_WORDS[self.control].format(self.value)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +69,12 @@ class Study:
 
     def timed(self, work: str, method: str = "", peer: bool | None = None) -> list[Setting]:
         """Settings of a work that ended as asked in every round, of one method, of ours or of other codes."""
-        found = [one for one in self.settings if one.work == work and one.failed == 0 and math.isfinite(one.error)]
-        return [one for one in found if method in ("", one.method) and peer in (None, one.peer)]
+        settings = [
+            setting
+            for setting in self.settings
+            if setting.work == work and setting.failed == 0 and math.isfinite(setting.error)
+        ]
+        return [setting for setting in settings if method in ("", setting.method) and peer in (None, setting.peer)]
 
 
 def read_study(directory: str | Path) -> Study:
@@ -81,10 +85,10 @@ def read_study(directory: str | Path) -> Study:
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     costs = folder.directory / "costs.json"  # not there without the engine's own runs
-    found = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
+    files = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
     rows, settings = folder.table, tuple(_settings(folder.table))
-    orders, columns = (found[name] for name in wanted)
-    return Study(folder, works, rows, settings, tuple(orders), columns, found.get("costs.json"))
+    orders, columns = (files[name] for name in wanted)
+    return Study(folder, works, rows, settings, tuple(orders), columns, files.get("costs.json"))
 
 
 def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
@@ -94,11 +98,11 @@ def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
     timed = table[table["kind"].isin([OURS, PEER])].replace(math.inf, math.nan)
     for named, group in timed.groupby(["work", "method", "nodes", "control", "setting"], sort=False):
         good, bad = group[group["status"] == "ok"], group[group["status"] != "ok"]
-        told = (bad if len(bad) else group).iloc[0]
+        first = (bad if len(bad) else group).iloc[0]
         middle = good[["error", "error_against_ours", "wall_s"]].median()
         yield Setting(
             *named, middle["error"], good["error"].max(), middle["error_against_ours"], middle["wall_s"], len(group),
-            len(bad), told["kind"] == PEER, told["status"], told["message"],
+            len(bad), first["kind"] == PEER, first["status"], first["message"],
         )  # fmt: skip
 
 
@@ -132,22 +136,26 @@ def per_period(study: Study, work: str) -> tuple[float, str]:
 
 def shipped(study: Study, work: str) -> Setting | None:
     """The shipped setting of the buoy on a work, or None."""
-    named = (one for one in study.timed(work) if (one.method, one.nodes, one.control, one.value) == SHIPPED)
+    named = (
+        setting
+        for setting in study.timed(work)
+        if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED
+    )
     return next(named, None)
 
 
 def within(settings: list[Setting], level: float) -> Setting | None:
     """The cheapest setting whose median error is within the level."""
-    return min((one for one in settings if one.error <= level), key=lambda one: one.wall_s, default=None)
+    return min((setting for setting in settings if setting.error <= level), key=lambda one: one.wall_s, default=None)
 
 
 def level_answer(study: Study, work: str) -> str:
     """One sentence: what is cheapest at each error level on a work, over all our methods; "" for none."""
     (factor, time_unit), unit = per_period(study, work), study.unit(work)
     parts = [
-        f"{level:g} {unit} in {number(factor * one.wall_s, 3)} {time_unit} ({one.method}, {one.named})"
+        f"{level:g} {unit} in {number(factor * setting.wall_s, 3)} {time_unit} ({setting.method}, {setting.named})"
         for level in LEVELS[unit][:3]
-        if (one := within(study.timed(work, peer=False), level))
+        if (setting := within(study.timed(work, peer=False), level))
     ]
     return f"{study.works[work]['title']}: {'; '.join(parts)}." if parts else ""
 
@@ -171,24 +179,24 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
         return
     yield _diagram(study, work)
     yield _levels(study, work)
-    failed = [one for one in study.settings if one.work == work and one.failed]
+    failed = [setting for setting in study.settings if setting.work == work and setting.failed]
     if failed:
-        rows = dict.fromkeys((one.method, one.named, one.status) for one in failed)
+        rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
         yield Table(heads("method", "setting", "outcome"), tuple(rows), caption, small=True)
 
 
 def _diagram(study: Study, work: str) -> Figure:
     (factor, unit), error_unit, timed = per_period(study, work), study.unit(work), study.timed(work)
-    names = list(dict.fromkeys(one.method for one in timed))
-    found = []
+    names = list(dict.fromkeys(setting.method for setting in timed))
+    series = []
     for name in names:
-        own = [one for one in timed if one.method == name and one.error < WORST]
-        time, error = (np.array([getattr(one, column) for one in own]) for column in ("wall_s", "error"))
-        found.append((name, factor * time, np.maximum(error, 1e-12), any(one.peer for one in own)))
+        members = [setting for setting in timed if setting.method == name and setting.error < WORST]
+        time, error = (np.array([getattr(setting, column) for setting in members]) for column in ("wall_s", "error"))
+        series.append((name, factor * time, np.maximum(error, 1e-12), any(setting.peer for setting in members)))
     ring = shipped(study, work)
     marked = (factor * ring.wall_s, ring.error) if ring else None
-    picture = work_precision(found, f"stepping time ({unit})", f"error ({error_unit})", marked)
+    picture = work_precision(series, f"stepping time ({unit})", f"error ({error_unit})", marked)
     best = min(timed, key=lambda one: one.error)
     seen = (
         f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
@@ -207,10 +215,10 @@ def _levels(study: Study, work: str) -> Table:
     (factor, unit), error_unit = per_period(study, work), study.unit(work)
     levels = LEVELS[error_unit]
     rows = []
-    for name in dict.fromkeys(one.method for one in study.timed(work)):
-        found = [within(study.timed(work, name), level) for level in levels]
-        first = next((one for one in found if one is not None), None)
-        cells = [decimals(factor * one.wall_s, 2) if one else EMPTY for one in found]
+    for name in dict.fromkeys(setting.method for setting in study.timed(work)):
+        cheapest_at = [within(study.timed(work, name), level) for level in levels]
+        first = next((setting for setting in cheapest_at if setting is not None), None)
+        cells = [decimals(factor * setting.wall_s, 2) if setting else EMPTY for setting in cheapest_at]
         rows.append((name, *cells, f"{first.named}: {number(first.error, 2)} {error_unit}" if first else EMPTY))
     columns = heads("method", *((f"≤ {level:g} {error_unit}", unit) for level in levels), "at the first level reached")
     caption = (
@@ -260,22 +268,22 @@ def predictability_items(study: Study) -> Iterator[Item]:
     if len(loaded) < 2:
         return
     time_s = loaded[0][1].columns["time_s"]
-    lines, said = [], []
-    for (one, a), (other, b) in pairwise(loaded):
-        names = [f"{number(row['nodes'])} nodes and rtol {row['setting']:g}" for row in (one, other)]
-        apart, named = np.abs(a.columns["radius_m"] - b.columns["radius_m"]), " against ".join(names)
-        lines.append(Curve(time_s, np.maximum(np.maximum.accumulate(apart), 1e-12), named))
-        beyond = time_s[apart > PARTED_M]
-        when = f"apart at t = {beyond[0]:.0f} s" if len(beyond) else f"together to the end, {time_s[-1]:.0f} s"
-        said.append(f"{named}: {when}.")
+    lines, sentences = [], []
+    for (first, a), (second, b) in pairwise(loaded):
+        names = [f"{number(row['nodes'])} nodes and rtol {row['setting']:g}" for row in (first, second)]
+        difference, named = np.abs(a.columns["radius_m"] - b.columns["radius_m"]), " against ".join(names)
+        lines.append(Curve(time_s, np.maximum(np.maximum.accumulate(difference), 1e-12), named))
+        beyond = time_s[difference > PARTED_M]
+        parting = f"apart at t = {beyond[0]:.0f} s" if len(beyond) else f"together to the end, {time_s[-1]:.0f} s"
+        sentences.append(f"{named}: {parting}.")
     yield Heading("Predictability of the violent work")
     yield Text(
         f"Refined runs count as apart where r differs by {number(1e3 * PARTED_M)} mm. Past the time at which the two "
         "finest grids part only statistics of the motion may be compared, not its course."
     )
-    yield Bullets(tuple(said))
+    yield Bullets(tuple(sentences))
     caption = "Largest difference in r so far between runs that differ in one thing, violent work. From `radius_m`."
-    alt = f"Differences between refined runs over time on a log scale. {' '.join(said)}"
+    alt = f"Differences between refined runs over time on a log scale. {' '.join(sentences)}"
     labels = ("time (s)", "largest difference in $r$ so far (m)")
     panel = Panel(lines, *labels, log="y", level=PARTED_M, settings={"ylim": (1e-9, None)})
     yield Figure(curves([[panel]], 2.8, "lower right"), caption, alt)

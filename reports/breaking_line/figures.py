@@ -44,9 +44,11 @@ def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
         x = profiles.x_m[rows] if column == "z_m" else profiles.s_m
         curves = (x, getattr(profiles, column)[rows], profiles.time_s[rows])
         panels.append(LinePanel(line["case"], line["force_N"], *curves))
-    what, said = QUANTITIES[column][0], seen(panels, column)
-    caption = f"The {what} every 10 ms (fig. {figure} of the paper); {SCALED[column]}. Seen: {said}."
-    return Figure(line_panels(panels, column), caption, f"The {what}, a curve every 10 ms, one panel a case: {said}.")
+    quantity, in_words = QUANTITIES[column][0], seen(panels, column)
+    caption = f"The {quantity} every 10 ms (fig. {figure} of the paper); {SCALED[column]}. Seen: {in_words}."
+    return Figure(
+        line_panels(panels, column), caption, f"The {quantity}, a curve every 10 ms, one panel a case: {in_words}."
+    )
 
 
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:

@@ -37,8 +37,8 @@ def report(directory: str | Path) -> Report:
     lines, judged = read_lines(folder), read_statements(folder.directory)
     table = partial(table_of_runs, lines, folder.columns)
     verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
-    asked = sum(line["kind"] == "case" for line in lines)
-    ended = f"{len(of_kind(lines, 'case'))} of {count(asked, 'case')} ended as asked."
+    of_cases = sum(line["kind"] == "case" for line in lines)
+    ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
     items = [
         *section_items("breaking_line", "Question"),
         *_section("The answer in numbers", table("answer"), text=f"{ended} {verdicts}"),
@@ -63,25 +63,25 @@ def report(directory: str | Path) -> Report:
 
 
 def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
-    found = [item for item in items if item is not None]
-    return [Heading(heading), *([Text(text)] if text else []), *found] if found else []
+    present = [item for item in items if item is not None]
+    return [Heading(heading), *([Text(text)] if text else []), *present] if present else []
 
 
 def _warnings(lines: tuple[Line, ...]) -> list[Item]:
-    told = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
-    told += [f"Case {line.name}: {line.fault}; its figures are left out." for line in lines if line.fault]
-    told += [
+    warnings = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
+    warnings += [f"Case {line.name}: {line.fault}; its figures are left out." for line in lines if line.fault]
+    warnings += [
         f"{_run(line)} turns by {decimals(line['max_turn_rad'], 2)} rad within one element: its folds are not "
         "resolved, add nodes."
         for line in lines
         if line.ok and line["max_turn_rad"] > MOST_TURN_RAD
     ]
-    told += [
+    warnings += [
         f"The energy budget of case {line.name} does not close to {percent(CLOSED)}."
         for line in of_kind(lines, "case")
         if line.share("remainder_largest_J") > CLOSED
     ]
-    return [Notice("warning", "What limits these runs", tuple(told))] if told else []
+    return [Notice("warning", "What limits these runs", tuple(warnings))] if warnings else []
 
 
 def _run(line: Line) -> str:
@@ -95,8 +95,8 @@ def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
         return []
     exact = read_exact(folder)
     drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
-    found = (table_of_runs(lines, folder.columns, which) for which in ("speeds", "shocks"))
-    return [*drawn, *found, series_table(lines, folder.columns)]
+    tables = (table_of_runs(lines, folder.columns, kind) for kind in ("speeds", "shocks"))
+    return [*drawn, *tables, series_table(lines, folder.columns)]
 
 
 def _scene(folder: Folder) -> list[Item]:

@@ -119,9 +119,9 @@ def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     return [line for kind in kinds for line in lines if line["kind"] == kind and line.ok]
 
 
-def table_of_runs(lines: tuple[Line, ...], columns: Columns, which: str) -> Table | None:
+def table_of_runs(lines: tuple[Line, ...], columns: Columns, kind: str) -> Table | None:
     """A table of OF_RUNS, its energies in per cent of the stored one; None where no run is to be shown."""
-    names, kinds, needed, caption = OF_RUNS[which]
+    names, kinds, needed, caption = OF_RUNS[kind]
     shown = of_kind(lines, *kinds) if needed else [line for line in lines if line["kind"] in kinds]
     if needed in KINDS:
         varied = {line["case"] for line in of_kind(lines, needed)}
@@ -142,11 +142,11 @@ def table_of_runs(lines: tuple[Line, ...], columns: Columns, which: str) -> Tabl
 
 def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """Convergence to the exact motion, grid by grid."""
-    found = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
-    rows = [line.row | {"case": line.name, "order": math.nan} for line in found]
-    for (before, line), row in zip(pairwise(found), rows[1:], strict=False):
-        if before["case"] == line["case"]:
-            ratio = (line["nodes"] - 1) / (before["nodes"] - 1)
-            row["order"] = math.log(before["strain_error"] / line["strain_error"]) / math.log(ratio)
-    more = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
-    return table_of(more, SERIES, rows, "Convergence on even grids, without gravity.") if rows else None
+    series = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
+    rows = [line.row | {"case": line.name, "order": math.nan} for line in series]
+    for (coarser, line), row in zip(pairwise(series), rows[1:], strict=False):
+        if coarser["case"] == line["case"]:
+            ratio = (line["nodes"] - 1) / (coarser["nodes"] - 1)
+            row["order"] = math.log(coarser["strain_error"] / line["strain_error"]) / math.log(ratio)
+    quantities = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
+    return table_of(quantities, SERIES, rows, "Convergence on even grids, without gravity.") if rows else None

@@ -88,8 +88,8 @@ def _scene(axes, snap: Snap) -> tuple[list, object]:
     radius = 0.5 * snap.diameter_m
     left, right = float(snap.x_m.min()) - radius - _MARGIN_M, float(snap.x_m.max()) + radius + _MARGIN_M
     top = max(float(snap.z_m.max()) + radius, float(snap.water[1].max())) + _MARGIN_M
-    more = max(0.0, 0.5 * (_LEAST_WIDE * top - (right - left)))  # of a panel too narrow for the numbers below it
-    axes.set(xlim=(left - more, right + more), ylim=(min(float(snap.z_m.min()), 0.0) - 0.3, top), aspect="equal")
+    margin = max(0.0, 0.5 * (_LEAST_WIDE * top - (right - left)))  # of a panel too narrow for the numbers below it
+    axes.set(xlim=(left - margin, right + margin), ylim=(min(float(snap.z_m.min()), 0.0) - 0.3, top), aspect="equal")
     axes.set(xlabel="$x$ (m)", ylabel="$z$ (m)")
     (surface,) = axes.plot([], [], color=SKY, linewidth=1.2)
     (rope,) = axes.plot([], [], color=BLUE, linewidth=1.0)

@@ -151,9 +151,9 @@ def curves(
                 axes.set_visible(False)
             for axes, panel in zip(places, panels, strict=False):
                 draw(axes, panel)
-                found = axes.get_legend_handles_labels()
-                handles |= {name: handle for handle, name in zip(*found, strict=True) if name not in handles}
-                if found[1] and legend not in ("", "below", "right"):
+                entries = axes.get_legend_handles_labels()
+                handles |= {name: handle for handle, name in zip(*entries, strict=True) if name not in handles}
+                if entries[1] and legend not in ("", "below", "right"):
                     axes.legend(loc=legend)
         if legend == "below" and handles:
             figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))

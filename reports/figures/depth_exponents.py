@@ -25,7 +25,7 @@ def depth_exponents(panels: list[list[tuple[str, list[Exponents]]]], label: str,
     Its values are evenly spaced, and curves beside each other, so that marks do not hide marks; with `log` both stay
     where they are, on a logarithmic axis.
     """
-    runs = [run for row in panels for _, found in row for _, some in found for run in some]
+    runs = [run for row in panels for _, series in row for _, members in series for run in members]
     values, seen = sorted({run[0] for run in runs}), {kind_of(run[3]) for run in runs}
     ticks = {} if log else {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
     nothing = np.empty(0)
@@ -33,13 +33,13 @@ def depth_exponents(panels: list[list[tuple[str, list[Exponents]]]], label: str,
     rows = []
     for row in panels:
         drawn = []
-        for title, found in row:
+        for title, series in row:
             lines = []
-            for k, (name, some) in enumerate(found):
-                aside = BESIDE * (k - 0.5 * (len(found) - 1))
-                at = [run[0] if log else values.index(run[0]) + aside for run in some]
+            for k, (name, members) in enumerate(series):
+                aside = BESIDE * (k - 0.5 * (len(series) - 1))
+                at = [run[0] if log else values.index(run[0]) + aside for run in members]
                 look = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
-                lines += _drawn(name, np.array(at, dtype=float), some, *look)
+                lines += _drawn(name, np.array(at, dtype=float), members, *look)
             exponent = r"$\sigma$ (bits per $T_i$)" if not drawn else ""
             below = label if row is panels[-1] else ""
             drawn.append(Panel([*lines, *key], below, exponent, title, "x" if log else "", 0.0, ticks))

@@ -70,17 +70,24 @@ def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]
 
     Tensions are shown over the same share of the static one, because figs. 3 and 6 of the paper have identical scales.
     """
-    found = []
+    bounds = []
     for panel in panels:
-        pair = [one for one in panels if column == "z_m" or (one.case[0] in "12") == (panel.case[0] in "12")]
-        least, most = min(float(one.y.min()) for one in pair), max(float(one.y.max()) for one in pair)
-        below, above = (margin * (most - least) for margin in MARGINS[column])
-        low, high = least - below, most + above
+        pair = [
+            other_panel
+            for other_panel in panels
+            if column == "z_m" or (other_panel.case[0] in "12") == (panel.case[0] in "12")
+        ]
+        least, largest = (
+            min(float(other_panel.y.min()) for other_panel in pair),
+            max(float(other_panel.y.max()) for other_panel in pair),
+        )
+        below, above = (margin * (largest - least) for margin in MARGINS[column])
+        low, high = least - below, largest + above
         if column == "tension_N":
-            force_N = max(one.force_N for one in pair)
+            force_N = max(other_panel.force_N for other_panel in pair)
             low, high = min(low, TENSIONS[0] * force_N), max(high, TENSIONS[1] * force_N)
-        found.append((low, high))
-    return found
+        bounds.append((low, high))
+    return bounds
 
 
 def seen(panels: Sequence[LinePanel], column: str) -> str:

@@ -31,27 +31,29 @@ def maps(places: tuple[np.ndarray, np.ndarray], labels: tuple[str, str], shown: 
 
     rows = (len(shown) + 1) // 2
     with sheet(0.4 + 2.4 * rows) as figure:
-        for axes, one in cells(figure, shown, 2, ("", "")):
-            words = one.cells.dtype.kind in "UO"
-            known = one.cells != "" if words else np.isfinite(one.cells)
+        for axes, shown_map in cells(figure, shown, 2, ("", "")):
+            words = shown_map.cells.dtype.kind in "UO"
+            known = shown_map.cells != "" if words else np.isfinite(shown_map.cells)
             if words:
-                named = sorted({str(word) for word in one.cells[known]})
-                left = iter(_OTHERS * (1 + len(named) // len(_OTHERS)))
-                colours = [REGIME_COLOURS.get(word) or next(left) for word in named]
-                numbers = np.array([[named.index(word) if word else -1 for word in row] for row in one.cells])
+                named = sorted({str(word) for word in shown_map.cells[known]})
+                free_colours = iter(_OTHERS * (1 + len(named) // len(_OTHERS)))
+                colours = [REGIME_COLOURS.get(word) or next(free_colours) for word in named]
+                numbers = np.array([[named.index(word) if word else -1 for word in row] for row in shown_map.cells])
                 norm = BoundaryNorm(np.arange(len(named) + 1) - 0.5, max(len(named), 1))
                 look = {"cmap": ListedColormap(colours), "norm": norm}
                 axes.imshow(np.ma.masked_less(numbers, 0), origin="lower", aspect="auto", **look)
                 handles = [Patch(facecolor=colour, label=word) for colour, word in zip(colours, named, strict=True)]
                 axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.0)
             else:
-                image = axes.imshow(np.ma.masked_invalid(one.cells), origin="lower", aspect="auto", cmap="cividis")
-                figure.colorbar(image, ax=axes, label=one.label, shrink=0.9)
+                image = axes.imshow(
+                    np.ma.masked_invalid(shown_map.cells), origin="lower", aspect="auto", cmap="cividis"
+                )
+                figure.colorbar(image, ax=axes, label=shown_map.label, shrink=0.9)
             down, across = np.nonzero(~known)
             axes.plot(across, down, "x", color=VERMILION, markersize=5)
             axes.grid(False)
             for axis, values, label in zip((axes.xaxis, axes.yaxis), places, labels, strict=True):
-                kept = np.unique(np.linspace(0, len(values) - 1, min(len(values), 6)).round().astype(int))
-                axis.set_ticks(kept, [f"{values[k]:.4g}" for k in kept])
+                ticks = np.unique(np.linspace(0, len(values) - 1, min(len(values), 6)).round().astype(int))
+                axis.set_ticks(ticks, [f"{values[k]:.4g}" for k in ticks])
                 axis.set_label_text(label)
         return picture_of(figure)

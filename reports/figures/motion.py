@@ -41,9 +41,9 @@ def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:
     return (max(peak * 1e-4, float(amplitude[amplitude > 0].min()) * 0.5), peak * 3) if peak > 0 else (None, None)
 
 
-def settled(found: Sequence[np.ndarray]) -> tuple[float, float]:
+def settled(series: Sequence[np.ndarray]) -> tuple[float, float]:
     """Limits that show 0 and what the curves (m,) do after their first tenth, in which they jump about."""
-    late = np.concatenate([*(bits[len(bits) // 10 :] for bits in found), np.zeros(1)])
+    late = np.concatenate([*(bits[len(bits) // 10 :] for bits in series), np.zeros(1)])
     margin = 0.15 * max(float(np.ptp(late)), 0.02)
     return float(late.min()) - margin, float(late.max()) + margin
 
@@ -63,9 +63,9 @@ def _kept(*curves: np.ndarray, bins: int = _BINS) -> np.ndarray:
     n = len(curves[0])
     if n <= 2 * bins:
         return np.arange(n)
-    keep: set[int] = set()
+    indices: set[int] = set()
     for first, end in pairwise(np.linspace(0, n, bins + 1).astype(int)):
         for part in (curve[first:end] for curve in curves):
             if np.isfinite(part).any():
-                keep.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
-    return np.array(sorted(keep), dtype=int)
+                indices.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
+    return np.array(sorted(indices), dtype=int)

@@ -32,10 +32,10 @@ def lateral_histories(panels: list[tuple[str, list[History]]], kind: str = "svg"
     for label, runs in panels:
         lines, levels = [], []
         for run, colour, dashes in zip(runs, (BLUE, VERMILION), ("-", (0, (4, 1.5))), strict=False):
-            some, drawn = run.size > 0, run.envelope > 0
+            known, drawn = run.size > 0, run.envelope > 0
             levels.append(run.envelope[drawn])
             lines += [
-                Curve(*envelope(run.periods[some], run.size[some]), colour=colour, width=0.4, alpha=0.35),
+                Curve(*envelope(run.periods[known], run.size[known]), colour=colour, width=0.4, alpha=0.35),
                 Curve(run.envelope_periods[drawn], levels[-1], run.label, dashes, colour=colour, width=1.1),
                 Curve(run.periods[[0, -1]], np.full(2, run.inplane_m), INPLANE, ":", colour=colour, width=1.0),
             ]
@@ -51,12 +51,12 @@ def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np
     """Two columns of panels (title, axis label, curves): each curve is (push, t/T_i, values), darker for less."""
     from matplotlib import colormaps
 
-    pushes = sorted({push for _, _, found in panels for push, _, _ in found})
+    pushes = sorted({push for _, _, series in panels for push, _, _ in series})
     shades = {push: colormaps["cividis"](0.9 * k / max(len(pushes) - 1, 1)) for k, push in enumerate(pushes)}
     drawn = []
-    for title, label, found in panels:
+    for title, label, series in panels:
         lines = []
-        for push, periods, values in found:
+        for push, periods, values in series:
             seen, name = values > 0, f"push {push:.0e} m/s".replace("e-0", "e-")
             lines.append(Curve(periods[seen], values[seen], name, colour=shades[push]))
         drawn.append(Panel(lines, r"$t/T_i$ (wave periods)", label, title, log="y"))
@@ -69,9 +69,9 @@ def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, n
     Filled marks: the motion goes on; open ones: it decays, and the mark is what is left of it.
     """
     drawn = []
-    for title, found in panels:
+    for title, series in panels:
         lines = []
-        for (name, depth, size, decays), colour, mark in zip(found, COLOURS, "os^D", strict=False):
+        for (name, depth, size, decays), colour, mark in zip(series, COLOURS, "os^D", strict=False):
             lines.append(Curve(depth, size, colour=colour, width=0.6, alpha=0.6))
             lines.append(Curve(depth[~decays], size[~decays], name, "", mark, colour, size=4.5))
             lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
@@ -91,9 +91,9 @@ def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]], k
     for title, across, up in (("from the side", "x", "z"), ("along x", "y", "z"), ("from above", "x", "y")):
         lines = []
         for (label, *places), shade in zip(moments, shades, strict=True):
-            one, other = (places["xyz".index(letter)] for letter in (across, up))
-            lines.append(Curve(one, other, label, mark=".", colour=shade, size=2.0, width=0.8))
-            lines.append(Curve(one[-1:], other[-1:], line="", mark="o", colour=shade, size=5.0))
+            horizontal, vertical = (places["xyz".index(letter)] for letter in (across, up))
+            lines.append(Curve(horizontal, vertical, label, mark=".", colour=shade, size=2.0, width=0.8))
+            lines.append(Curve(horizontal[-1:], vertical[-1:], line="", mark="o", colour=shade, size=5.0))
         true = {"aspect": "equal", "adjustable": "datalim"} if title == "from the side" else {}
         panels.append(Panel(lines, f"${across}$ (m)", f"${up}$ (m)", title, settings=true, ticks=4))
     return curves([panels], 3.6, "below", kind=kind)

@@ -69,13 +69,13 @@ def orbit_diagram(
     left on, are drawn again in what is left blank beside them, on a finer scale. orbits: lines and marks over the
     points, in place of that; their names have a row of the legend.
     """
-    judged = [one for one in columns if one.word]
-    at = np.array([one.at for one in columns])
+    judged = [column for column in columns if column.word]
+    at = np.array([column.at for column in columns])
     words = {letter: _words(judged, letter) for letter in motions or [""] if judged}
-    bars = [*words.values(), *(_spans(at, one.holds, one.text) for one in ranges)]
+    bars = [*words.values(), *(_spans(at, column.holds, column.text) for column in ranges)]
     bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if motions else (_BAR_IN, _MAIN_IN)
     main_in = _MAIN_OF_ORBITS_IN if orbits else main_in
-    heights = [*([bar_in] * len(bars)), main_in, *(_LOWER_IN * one.height for one in below)]
+    heights = [*([bar_in] * len(bars)), main_in, *(_LOWER_IN * column.height for column in below)]
     legend = _legend(judged, len(judged) < len(columns), motions, int(width_in / _NAMED))
     legend += [[]] if orbits else []
     top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
@@ -89,7 +89,7 @@ def orbit_diagram(
         top = figure.add_subplot(grid[len(bars)])
         lower = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars) + 1, len(heights))]
         lowest = (top, *lower)[-1]
-        places = np.concatenate([[one.at for one in columns], missing, *(one.x for one in orbits)])
+        places = np.concatenate([[column.at for column in columns], missing, *(column.x for column in orbits)])
         places = places[np.isfinite(places)]
         span, small = float(np.ptp(places)), None if orbits else _small(columns, bool(motions))
         left_in = _NUMBERS_IN if small else _EDGE_IN
@@ -142,19 +142,22 @@ def cell_edges(at: np.ndarray) -> np.ndarray:
 
 def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[tuple[str, float, float]]:
     """(word, low, high) of every run of equal neighbours; a word that is no text stands for `text`, or for nothing."""
-    edges, found, first = cell_edges(at), [], 0
+    edges, spans, first = cell_edges(at), [], 0
     for word, group in groupby(words):
         end = first + len(list(group))
         if word:
-            found.append((text or word, float(edges[first]), float(edges[end])))
+            spans.append((text or word, float(edges[first]), float(edges[end])))
         first = end
-    return found
+    return spans
 
 
 def _words(judged: Sequence[Column], motion: str) -> list[tuple[str, float, float]]:
     """The spans of the words of a motion; none where a value has it not."""
-    at, own = np.unique([one.at for one in judged]), {one.at: one.word for one in judged if one.motion == motion}
-    return _spans(at, [own.get(value, "") for value in at])
+    at, words_at = (
+        np.unique([column.at for column in judged]),
+        {column.at: column.word for column in judged if column.motion == motion},
+    )
+    return _spans(at, [words_at.get(value, "") for value in at])
 
 
 def _kind(word: str) -> str:
@@ -162,19 +165,19 @@ def _kind(word: str) -> str:
     return _PERIOD if word.startswith(_PERIOD) else word
 
 
-def _legend(judged: Sequence[Column], beside: bool, motions: Motions | None, wide: int) -> list[list]:
-    """Rows of what colours mean, and hatches where there are motions, `wide` a row; beside: some are not judged."""
+def _legend(judged: Sequence[Column], outside: bool, motions: Motions | None, wide: int) -> list[list]:
+    """Rows of what colours mean, and hatches where there are motions, `wide` a row; outside: some are not judged."""
     from matplotlib.patches import Patch
 
     if not judged:
         return []
-    named = {kind: kind.replace(_PERIOD, "periodic") for kind in dict.fromkeys(_kind(one.word) for one in judged)}
+    named = {kind: kind.replace(_PERIOD, "periodic") for kind in dict.fromkeys(_kind(column.word) for column in judged)}
     if motions:
-        each = [Patch(color=colour, label=f"{letter}: {said}") for letter, (colour, said) in motions.items()]
-        rows = [each[first : first + wide] for first in range(0, len(each), wide)]
+        patches = [Patch(color=colour, label=f"{letter}: {title}") for letter, (colour, title) in motions.items()]
+        rows = [patches[first : first + wide] for first in range(0, len(patches), wide)]
         return [*rows, [Patch(**_hatched(kind, SOFT), label=name) for kind, name in named.items()]]
     row = [Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in named.items()]
-    return [[*row, *([Patch(color=_NEUTRAL, label=_BETWEEN)] if beside else [])]]
+    return [[*row, *([Patch(color=_NEUTRAL, label=_BETWEEN)] if outside else [])]]
 
 
 def _hatched(kind: str, colour: str) -> dict[str, object]:
@@ -189,11 +192,11 @@ def _told(axes, spans, inch: float, letter: str, colour: str) -> None:
     axes.set_ylim(0.0, 1.0)
     look = {"va": "center", "fontsize": 7.0}
     for word, low, high in spans:
-        kind, said = _kind(word), word.removeprefix(_PERIOD)
+        kind, number_text = _kind(word), word.removeprefix(_PERIOD)
         plain = {"facecolor": colour or REGIME_COLOURS[kind], "edgecolor": "white", "linewidth": 0.7}
         axes.axvspan(low, high, **(_hatched(kind, colour) if colour and kind in _HATCHES else plain))
-        if kind == _PERIOD and (high - low) * inch > _LETTER_IN * len(said):
-            axes.text(0.5 * (low + high), 0.45, said, color="white", ha="center", **look)
+        if kind == _PERIOD and (high - low) * inch > _LETTER_IN * len(number_text):
+            axes.text(0.5 * (low + high), 0.45, number_text, color="white", ha="center", **look)
     if letter:
         axes.text(-0.008, 0.45, letter, transform=axes.transAxes, color=colour, ha="right", weight="bold", **look)
 
@@ -207,7 +210,7 @@ def _range(axes, spans, inch: float) -> None:
         axes.axvspan(low, high, facecolor=SHADES[-1], linewidth=0.0)
     if not spans:
         return
-    text, low, high = max(spans, key=lambda one: one[2] - one[1])
+    text, low, high = max(spans, key=lambda span: span[2] - span[1])
     left, right = axes.get_xlim()
     wide = _LETTER_IN * len(text) / inch
     place, side = (0.5 * (low + high), "center") if high - low > wide else (low, "right")
@@ -218,15 +221,18 @@ def _range(axes, spans, inch: float) -> None:
 
 def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | None) -> None:
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
-    at = np.unique([one.at for one in columns])
+    at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
-    for word, motion in sorted({(one.word, one.motion) for one in columns}):
-        own = [one for one in columns if (one.word, one.motion) == (word, motion)]
-        x, y = np.repeat([one.at for one in own], [len(one.points) for one in own]), [one.points for one in own]
+    for word, motion in sorted({(column.word, column.motion) for column in columns}):
+        members = [column for column in columns if (column.word, column.motion) == (word, motion)]
+        x, y = (
+            np.repeat([column.at for column in members], [len(column.points) for column in members]),
+            [column.points for column in members],
+        )
         wide, thick, alpha = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45, 0.8) if word else (0.9, 0.7, 0.8)
         if motions:
             colour, _ = motions.get(motion, (_NEUTRAL, ""))
-        elif len(own) == len(columns) and not word:
+        elif len(members) == len(columns) and not word:
             colour, thick, alpha = INK, 0.45, 0.5
         else:
             colour = REGIME_COLOURS[_kind(word)] if word else _NEUTRAL
@@ -238,24 +244,31 @@ def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tupl
     """The columns from the left on whose points together take a small part of the range, the ends of their points,
     and where in the panel there is more room for them, 0 below and 1 above; None where there are not many.
     """
-    filled = [one for one in columns if len(one.points)]
-    points = {at: np.concatenate([one.points for one in own]) for at, own in groupby(filled, key=attrgetter("at"))}
-    at, least, most = [*points], [*map(np.min, points.values())], [*map(np.max, points.values())]
-    low, high = np.minimum.accumulate(least), np.maximum.accumulate(most)
-    number = int(np.sum(high - low < _SMALL * (max(most) - min(least)))) - several  # so that no dash is half hidden
+    filled = [column for column in columns if len(column.points)]
+    points = {
+        at: np.concatenate([column.points for column in members])
+        for at, members in groupby(filled, key=attrgetter("at"))
+    }
+    at, least, largest = [*points], [*map(np.min, points.values())], [*map(np.max, points.values())]
+    low, high = np.minimum.accumulate(least), np.maximum.accumulate(largest)
+    number = int(np.sum(high - low < _SMALL * (max(largest) - min(least)))) - several  # so that no dash is half hidden
     if number < 2 or number == len(at) or at[number - 1] - at[0] < _LEAST_WIDE * (at[-1] - at[0]):
         return None
     ends, last = (float(low[number - 1]), float(high[number - 1])), at[number - 1]
-    return [one for one in filled if one.at <= last], ends, float(max(most) - ends[1] > ends[0] - min(least))
+    return (
+        [column for column in filled if column.at <= last],
+        ends,
+        float(max(largest) - ends[1] > ends[0] - min(least)),
+    )
 
 
 def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: float, inch: float, motions) -> None:
     """The columns again, over the same parameter, in what is blank below or above them."""
     (bottom, top), (left, right) = axes.get_ylim(), axes.get_xlim()
-    edges, room = cell_edges(np.unique([one.at for one in columns])), 0.12 * (top - bottom)
+    edges, room = cell_edges(np.unique([column.at for column in columns])), 0.12 * (top - bottom)
     low, high = (ends[1] + room, top - 0.3 * room) if above else (bottom + 0.3 * room, ends[0] - room)
-    where = (0.0, (low - bottom) / (top - bottom), (edges[-1] - left) / (right - left), (high - low) / (top - bottom))
-    inner = axes.inset_axes(where)
+    place = (0.0, (low - bottom) / (top - bottom), (edges[-1] - left) / (right - left), (high - low) / (top - bottom))
+    inner = axes.inset_axes(place)
     _points(inner, columns, inch, motions)
     inner.set_xlim(left, edges[-1])
     inner.tick_params(labelbottom=False, bottom=False, direction="in", length=2, pad=-4, labelsize=6.0)

@@ -15,8 +15,8 @@ _APERIODIC = "#dbe9f4"
 def oscillator_section(states: np.ndarray, boxes: np.ndarray, orbit: np.ndarray | None) -> Picture:
     """The whole section: states (m, 2), the boxes (b, 4) of the zooms, points (p, 2) of a coexisting orbit or None."""
     dots = Curve(*states.T, "", "", ",", INK, alpha=0.6 if len(states) > 20000 else 1.0)
-    found = [] if orbit is None else [Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION)]
-    return curves([[Panel([dots, *_frames(boxes, 1), *found], *STATE)]], 4.9, "upper left", kind="png")
+    attracting = [] if orbit is None else [Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION)]
+    return curves([[Panel([dots, *_frames(boxes, 1), *attracting], *STATE)]], 4.9, "upper left", kind="png")
 
 
 def oscillator_zooms(zooms: list[np.ndarray], boxes: np.ndarray) -> Picture:
@@ -59,19 +59,19 @@ def oscillator_errors(convergence: np.ndarray, of_start: np.ndarray) -> Picture:
     band = (time, mean - 2 * error, mean + 2 * error)
     running = Curve(time, mean, "mean over starts, ± 2 standard errors", colour=BLUE, band=band)
     labels = ("time of each start's average (–)", r"$\lambda_1$ (nats per time)")
-    left = Panel([running], *labels, level=float(mean[-1]))
+    running_panel = Panel([running], *labels, level=float(mean[-1]))
     sizes = np.array([2**i for i in range(20) if len(of_start) // 2**i >= 8] or [1])
     groups = len(of_start) // sizes
     means = [
         of_start[: size * count].reshape(count, size).mean(axis=1) for size, count in zip(sizes, groups, strict=True)
     ]
-    scatter = np.array([one.std(ddof=1) for one in means])
-    found = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
+    scatter = np.array([group_means.std(ddof=1) for group_means in means])
+    observed = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
     ends = sizes[[0, -1]]
     law = Curve(ends, scatter[0] * ends**-0.5, r"$k^{-1/2}$ from $k = 1$", colour=VERMILION)
     log = "xy" if (scatter > 0).all() else "x"  # starts on one periodic orbit may agree to the last bit
-    right = Panel([found, law], r"starts averaged, $k$", "scatter of the mean (nats per time)", log=log)
-    return curves([[left, right]], 2.8, "upper right")
+    right = Panel([observed, law], r"starts averaged, $k$", "scatter of the mean (nats per time)", log=log)
+    return curves([[running_panel, right]], 2.8, "upper right")
 
 
 def oscillator_basins(
@@ -122,5 +122,5 @@ def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, ma
     share = Panel([dots(across, slack, "", BLUE, 1.0)], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)})
     below = [Panel(lines, y_label="exponents\n(nats per time)", level=0.0), share]
     inside = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
-    columns = [Column(at, some[np.isfinite(some)]) for at, some in zip(values, strobed, strict=True)]
+    columns = [Column(at, points[np.isfinite(points)]) for at, points in zip(values, strobed, strict=True)]
     return orbit_diagram(columns, (label, r"strobed $\gamma$ (–)"), below, marks=inside)

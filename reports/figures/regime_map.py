@@ -84,17 +84,17 @@ def regime_maps(
     labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
     and on y with a small triangle at the edge.
     """
-    rows, many = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
-    height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // many) + 0.2
+    rows, entries = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
+    height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // entries) + 0.2
     with sheet(height_in, width_in) as figure:
         figure.set_layout_engine("constrained")
         grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
         for axes in grid.flat[len(shown) :]:
             axes.set_visible(False)
-        for axes, one in zip(grid.flat, shown, strict=False):
-            _drawn(axes, one, marks)
-            if one.scale is not None:
-                _scale(figure, axes, *one.scale)
+        for axes, regime_map in zip(grid.flat, shown, strict=False):
+            _drawn(axes, regime_map, marks)
+            if regime_map.scale is not None:
+                _scale(figure, axes, *regime_map.scale)
         for axes in grid.flat[max(len(shown) - wide, 0) : len(shown)]:
             axes.set_xlabel(labels[0])
             axes.tick_params(labelbottom=True)
@@ -102,47 +102,47 @@ def regime_maps(
             axes.set_ylabel(labels[1])
         if legend:
             handles, side = [_handle(look, text) for look, text in legend], "upper" if width_in == WIDTH_IN else "lower"
-            figure.legend(handles=handles, loc=f"outside {side} left", ncols=many, handlelength=1.4)
+            figure.legend(handles=handles, loc=f"outside {side} left", ncols=entries, handlelength=1.4)
         picture = picture_of(figure, kind)
-        places = tuple(_place(axes, one) for axes, one in zip(grid.flat, shown, strict=False))
+        places = tuple(_place(axes, regime_map) for axes, regime_map in zip(grid.flat, shown, strict=False))
     return picture, places
 
 
-def _place(axes, one: Map) -> MapPlace:
+def _place(axes, regime_map: Map) -> MapPlace:
     left, low, across, high = axes.get_position().bounds
-    return MapPlace((left, 1.0 - low - high, across, high), (*axes.get_xlim(), *axes.get_ylim()), one.page)
+    return MapPlace((left, 1.0 - low - high, across, high), (*axes.get_xlim(), *axes.get_ylim()), regime_map.page)
 
 
-def _drawn(axes, one: Map, marks) -> None:
+def _drawn(axes, regime_map: Map, marks) -> None:
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import to_rgba
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
-    x, y, top = one.cells.laid()
-    shown, known = np.unique(top[top >= 0]), one.colours != ""
-    colours = np.array([to_rgba(colour or "white") for colour in one.colours])
-    filled = (known & ~one.cells.dots)[top] & (top >= 0)
+    x, y, top = regime_map.cells.laid()
+    shown, known = np.unique(top[top >= 0]), regime_map.colours != ""
+    colours = np.array([to_rgba(colour or "white") for colour in regime_map.colours])
+    filled = (known & ~regime_map.cells.dots)[top] & (top >= 0)
     axes.pcolormesh(x, y, np.where(filled[..., None], colours[top], 0.0), rasterized=True)
-    small = shown[(known & one.cells.dots)[shown]]
-    corners = _corners(one.cells.boxes[small], _DOT)
+    small = shown[(known & regime_map.cells.dots)[shown]]
+    corners = _corners(regime_map.cells.boxes[small], _DOT)
     axes.add_collection(PolyCollection(corners, facecolors=colours[small], linewidths=0, rasterized=True))
-    for hatch, which in zip(HATCHES, one.cells.hatched.values() if one.limited else (), strict=False):
-        parts = [Path(part, closed=True) for part in _corners(_runs(x, y, which[top] & (top >= 0)), 1.0)]
+    for hatch, hatched in zip(HATCHES, regime_map.cells.hatched.values() if regime_map.limited else (), strict=False):
+        parts = [Path(part, closed=True) for part in _corners(_runs(x, y, hatched[top] & (top >= 0)), 1.0)]
         if parts:
             look = {"facecolor": "none", "edgecolor": INK, "hatch": hatch, "linewidth": 0.0, "hatch_linewidth": 0.35}
             axes.add_patch(PathPatch(Path.make_compound_path(*parts), **look))
-    kinds = np.where(top >= 0, np.unique(one.cells.kinds, return_inverse=True)[1][top], -1)
+    kinds = np.where(top >= 0, np.unique(regime_map.cells.kinds, return_inverse=True)[1][top], -1)
     axes.plot(*_borders(x, y, kinds), color=INK, linewidth=0.8, solid_capstyle="projecting")
-    lost = shown[one.cells.crosses[shown]]
-    middles = one.cells.boxes[lost].reshape(-1, 2, 2).mean(axis=2)
+    lost = shown[regime_map.cells.crosses[shown]]
+    middles = regime_map.cells.boxes[lost].reshape(-1, 2, 2).mean(axis=2)
     axes.plot(*middles.T, "x", color=VERMILION, markersize=3.5, markeredgewidth=0.9)
-    _written(axes, one, x, y, top)
-    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=one.title)
+    _written(axes, regime_map, x, y, top)
+    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=regime_map.title)
     axes.locator_params(nbins=6)
     axes.grid(False)
     for values, edges, mark in zip(marks, (x, y), "^>", strict=True):
-        for value in (one for one in values if edges[0] <= one <= edges[-1]):
+        for value in (regime_map for regime_map in values if edges[0] <= regime_map <= edges[-1]):
             place = (value, y[0]) if mark == "^" else (x[0], value)
             axes.plot(*place, mark, **_MARK)
 
@@ -151,24 +151,24 @@ _MARK = {"color": "white", "markeredgecolor": INK, "markersize": 5.5, "markeredg
 _STAR = {"marker": "*", "color": "white", "markeredgecolor": INK, "markersize": 10.0, "markeredgewidth": 0.9}
 
 
-def _written(axes, one: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> None:
+def _written(axes, regime_map: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> None:
     """Texts of regions where they have room, and the star."""
     from matplotlib.patheffects import withStroke
     from scipy.ndimage import label
 
     halo = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "weight": "bold"}
-    if one.texts is not None:
+    if regime_map.texts is not None:
         at = [np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2] for edges in (x, y)]
         rows, columns = (np.searchsorted(edges, middle) - 1 for edges, middle in zip((y, x), at[::-1], strict=True))
         even = top[np.ix_(rows, columns)]
-        for text in sorted({text for text in one.texts if text}):
-            regions, many = label((one.texts == text)[even] & (even >= 0))
-            for region in range(1, many + 1):
+        for text in sorted({text for text in regime_map.texts if text}):
+            regions, count = label((regime_map.texts == text)[even] & (even >= 0))
+            for region in range(1, count + 1):
                 place = widest(regions == region, _LEAST)
                 if place is not None:
                     axes.text(at[0][place[1]], at[1][place[0]], text, ha="center", va="center", fontsize=9, **halo)
-    if one.star is not None:
-        axes.plot(*one.cells.boxes[one.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
+    if regime_map.star is not None:
+        axes.plot(*regime_map.cells.boxes[regime_map.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
 
 
 def _scale(figure, axes, colours, norm, ticks) -> None:
@@ -203,9 +203,9 @@ def _corners(boxes: np.ndarray, share: float) -> np.ndarray:
     return middle[:, None, :] + round_once * half[:, None, :]
 
 
-def _runs(x: np.ndarray, y: np.ndarray, which: np.ndarray) -> np.ndarray:
+def _runs(x: np.ndarray, y: np.ndarray, chosen: np.ndarray) -> np.ndarray:
     """Boxes (m, 4) that cover the chosen places of a raster: neighbours of a row are one."""
-    steps = np.diff(np.pad(which, ((0, 0), (1, 1))).astype(int), axis=1)
+    steps = np.diff(np.pad(chosen, ((0, 0), (1, 1))).astype(int), axis=1)
     (row, start), (_, end) = np.nonzero(steps == 1), np.nonzero(steps == -1)
     return np.column_stack([x[start], x[end], y[row], y[row + 1]])
 

@@ -45,13 +45,13 @@ def run_sheet(
     """
     end = periods >= periods[-1] - last
     parts = [f'<svg class="glance" viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label)}">']
-    beside = (_section(section), _spectrum(*spectrum, marks), _exponent(*exponent))
-    for row, ((name, low, high), right) in enumerate(zip(histories, beside, strict=True)):
+    side_panels = (_section(section), _spectrum(*spectrum, marks), _exponent(*exponent))
+    for row, ((name, low, high), right) in enumerate(zip(histories, side_panels, strict=True)):
         limits = {"ylim": wide_limits(np.concatenate([low, high]))}
-        below = f"t/{T_I}" if right is beside[-1] else ""
-        whole = _banded(periods, low, high, bins)
+        below = f"t/{T_I}" if right is side_panels[-1] else ""
+        history = _banded(periods, low, high, bins)
         larger = _banded(periods[end], low[end], high[end], bins // 2)
-        panels = Panel([whole], below, name, name, settings=limits), Panel([larger], below, settings=limits), right
+        panels = Panel([history], below, name, name, settings=limits), Panel([larger], below, settings=limits), right
         for (left, wide), panel in zip(_COLUMNS, panels, strict=True):
             parts.append(_drawn(panel, left, wide, _TOP + row * _PITCH))
     return "".join([*parts, "</svg>"])
@@ -61,9 +61,9 @@ def _banded(x: np.ndarray, low: np.ndarray, high: np.ndarray, bins: int) -> Curv
     """The area between the least and the greatest value of each of `bins` equal spans."""
     edges = np.unique(np.linspace(0, len(x), min(bins, len(x)) + 1).astype(int))[:-1]
     with np.errstate(invalid="ignore"):
-        least, most = np.fmin.reduceat(low, edges), np.fmax.reduceat(high, edges)
-    sound = np.isfinite(least) & np.isfinite(most)
-    return Curve(x[[0, -1]], np.empty(0), band=(x[edges][sound], least[sound], most[sound]))
+        least, largest = np.fmin.reduceat(low, edges), np.fmax.reduceat(high, edges)
+    sound = np.isfinite(least) & np.isfinite(largest)
+    return Curve(x[[0, -1]], np.empty(0), band=(x[edges][sound], least[sound], largest[sound]))
 
 
 def _section(points: np.ndarray) -> Panel:
@@ -113,10 +113,10 @@ def _drawn(panel: Panel, left: int, wide: int, top: int) -> str:
 
     parts = [f'<path class="axes" d="M{left} {top}v{_HEIGHT}h{wide}"/>', _text(left, top - 6, panel.title)]
     parts.append(_text(left + wide // 2, low + 28, panel.x_label, "m"))
-    parts += [_text(across(value), low + 14, said, "m") for value, said in _ticks(x0, x1, 5)]
+    parts += [_text(across(value), low + 14, label, "m") for value, label in _ticks(x0, x1, 5)]
     if panel.y_label:
         parts += [
-            _text(left - 4, low + 4 + round((value - y0) * scale[1]), said, "e") for value, said in _ticks(y0, y1, 3)
+            _text(left - 4, low + 4 + round((value - y0) * scale[1]), label, "e") for value, label in _ticks(y0, y1, 3)
         ]
     for at, name in panel.marks:
         parts.append(f'<path class="mark" d="M{across(at)} {top}v{_HEIGHT}"/>' + _text(across(at) + 3, top + 10, name))
@@ -128,8 +128,8 @@ def _drawn(panel: Panel, left: int, wide: int, top: int) -> str:
         sound = np.isfinite(curve.y)
         parts.append(path("line", _steps(fine(curve.x[sound], curve.y[sound]))))
     elif len(curve.band[0]):
-        at, least, most = curve.band
-        outline = fine(np.concatenate([at, at[::-1]]), np.concatenate([most, least[::-1]]))
+        at, least, largest = curve.band
+        outline = fine(np.concatenate([at, at[::-1]]), np.concatenate([largest, least[::-1]]))
         parts.append(path("band", _steps(outline) + "z"))
     return "".join(parts)
 
@@ -157,9 +157,9 @@ def _steps(points: np.ndarray) -> str:
     return f"M{points[0, 0]} {points[0, 1]}" + "".join(f"l{i}{'' if j < 0 else ' '}{j}" for i, j in moved.tolist())
 
 
-def _ticks(low: float, high: float, most: int) -> list[tuple[float, str]]:
+def _ticks(low: float, high: float, count: int) -> list[tuple[float, str]]:
     """Round numbers within the limits, each with its text."""
     from matplotlib.ticker import MaxNLocator
 
-    values = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+    values = MaxNLocator(count, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
     return [(value, number(float(value), 9)) for value in values if low <= value <= high]

@@ -31,9 +31,9 @@ def record_and_spectrum(
 def return_map(values: np.ndarray) -> Picture:
     """Each point of the section (m,) against the one before it, and against its number."""
     look = {"line": "", "mark": "o", "size": 2.5 if len(values) < 600 else 1.5, "alpha": 0.6}
-    left = Panel([Curve(values[:-1], values[1:], **look)], "point $k$", "point $k + 1$")
+    values_panel = Panel([Curve(values[:-1], values[1:], **look)], "point $k$", "point $k + 1$")
     right = Panel([Curve(np.arange(len(values)), values, **look)], "$k$", "point $k$")
-    return curves([[left, right]], 3.0, kind=kind_for(2 * len(values)))
+    return curves([[values_panel, right]], 3.0, kind=kind_for(2 * len(values)))
 
 
 def growth_and_dimension(divergence: list[tuple[str, np.ndarray, np.ndarray]], slopes: list, unit: str) -> Picture:
@@ -41,12 +41,16 @@ def growth_and_dimension(divergence: list[tuple[str, np.ndarray, np.ndarray]], s
 
     Args: `divergence` (name, time (n,), mean ln(distance) (n,)) each; `slopes` (delays, radius (b,), slope (b,)) each.
     """
-    known = [(one, dash) for one, dash in zip(divergence, ("-", "--"), strict=False) if np.isfinite(one[2]).any()]
-    left = [Curve(time, curve, name, dash) for (name, time, curve), dash in known]
+    known = [
+        (estimate, dash)
+        for estimate, dash in zip(divergence, ("-", "--"), strict=False)
+        if np.isfinite(estimate[2]).any()
+    ]
+    curves_of_growth = [Curve(time, curve, name, dash) for (name, time, curve), dash in known]
     right = [
         Curve(radius, slope, f"{delays} delays", dash, colour=INK)
         for (delays, radius, slope), dash in zip(slopes, ("-", "--", ":"), strict=False)
     ]
     labels = ("radius (standard deviations)", "slope of the correlation sum")
-    growth = Panel(left, f"time ({unit})", "mean ln(distance) (nats)")
+    growth = Panel(curves_of_growth, f"time ({unit})", "mean ln(distance) (nats)")
     return curves([[growth, Panel(right, *labels, log="x")]], 3.0, "best")

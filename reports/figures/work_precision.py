@@ -25,24 +25,24 @@ DASHED = (", shock viscosity", ", stretched grid")
 
 def cheapest(time: np.ndarray, error: np.ndarray) -> np.ndarray:
     """Indices of the settings that no setting as cheap or cheaper beats, by time."""
-    best, kept = np.inf, []
+    best, chosen = np.inf, []
     for i in np.lexsort((error, time)):
         if error[i] < best:
-            kept.append(i)
+            chosen.append(i)
             best = error[i]
-    return np.array(kept, dtype=int)
+    return np.array(chosen, dtype=int)
 
 
 def work_precision(
-    found: list[tuple], time_label: str, error_label: str, marked: tuple[float, float] | None
+    results: list[tuple], time_label: str, error_label: str, marked: tuple[float, float] | None
 ) -> Picture:
     """The diagram.
 
-    found: of each method its name, time (n,) in the unit of the axis, error (n,), and whether it is another code's.
+    results: of each method its name, time (n,) in the unit of the axis, error (n,), and whether it is another code's.
     marked: (time, error) of the shipped setting, ringed; None where it is not among the marks.
     """
     lines = []
-    for name, time, error, peer in found:
+    for name, time, error, peer in results:
         colour, mark = _LOOKS.get(name.partition(",")[0], _OTHER)
         dash = "--" if name.endswith(DASHED) else "-"
         lines.append(Curve(time, error, "", "", mark, colour, size=2.6, alpha=0.45))

@@ -36,15 +36,15 @@ def report(directory: str | Path) -> Report:
         items += [Heading(title), *(missing if arrays is None else section(study, arrays))]
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
-    made = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
+    method = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
-    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *made))
+    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *method))
 
 
 def _answer(study: Study) -> list[Item]:
     """The numbers of the parts that gave some, in one row."""
     rows = (study.rows.get(part, {}) for part in ("grazing", "basins", "exponents"))
-    found = {name: entry for row in rows for name, entry in row.items() if entry}
+    numbers = {name: entry for row in rows for name, entry in row.items() if entry}
     value, error = study.exponent
     word = "chaotic" if study.chaotic else "regular" if value < -2 * error else "neither shown to be"
     text = (
@@ -58,7 +58,7 @@ def _answer(study: Study) -> list[Item]:
         "aperiodic_share",
         "grazing_force",
     )
-    return [Text(text), table_of(study.columns, shown, [found], "The answer in numbers, from `table.csv`.")]
+    return [Text(text), table_of(study.columns, shown, [numbers], "The answer in numbers, from `table.csv`.")]
 
 
 def _section(study: Study, arrays: dict) -> list[Item]:

@@ -68,10 +68,10 @@ def read_study(directory: str | Path) -> Study:
     directory = Path(directory)
     # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
     wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
-    found = read_files(directory, wanted)
+    files = read_files(directory, wanted)
     try:
-        oscillator = {key: float(entry) for key, entry in found["provenance.json"]["oscillator"].items()}
-        rows = {row["part"]: row for row in found["table.csv"]}
+        oscillator = {key: float(entry) for key, entry in files["provenance.json"]["oscillator"].items()}
+        rows = {row["part"]: row for row in files["table.csv"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
         raise FolderError(directory, [fault]) from error
@@ -87,7 +87,7 @@ def read_study(directory: str | Path) -> Study:
             faults[part] = "it has no row in table.csv"
         except FolderError as error:
             faults[part] = rows[part]["message"] or error.faults[0]
-    return Study(directory, found["provenance.json"], found["columns.csv"], rows, arrays, oscillator, faults)
+    return Study(directory, files["provenance.json"], files["columns.csv"], rows, arrays, oscillator, faults)
 
 
 def basin_items(study: Study, arrays: dict) -> list[Item]:
@@ -177,9 +177,9 @@ def method_items(study: Study) -> list[Item]:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():
-        given, usual = study.oscillator[key], getattr(SnapOscillator, key)
-        source = source if given == usual else f"given; the default is {number(usual)}"
-        rows.append((symbol, meaning, number(given, 10), source))
+        chosen, usual = study.oscillator[key], getattr(SnapOscillator, key)
+        source = source if chosen == usual else f"given; the default is {number(usual)}"
+        rows.append((symbol, meaning, number(chosen, 10), source))
     columns = heads("symbol", "what it is", ("value", ""), "source")
     table = Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`.")
     first = section_items("oscillator_solved", "Equation and method")

@@ -44,8 +44,8 @@ class Study:
         """Runs that ended as asked and are as the base but for `wanted`; None for a key that may have any value, in
         rising order of it."""
         keys = {**self.base, **wanted}
-        found = [run for run in self.runs if run.ok and all(entry in (None, run[key]) for key, entry in keys.items())]
-        return sorted(found, key=lambda run: tuple(run[key] for key, entry in keys.items() if entry is None))
+        chosen = [run for run in self.runs if run.ok and all(entry in (None, run[key]) for key, entry in keys.items())]
+        return sorted(chosen, key=lambda run: tuple(run[key] for key, entry in keys.items() if entry is None))
 
     def over(self, **wanted) -> list[Run]:
         """`select` at every steepness, the small wave first."""
@@ -64,13 +64,13 @@ class Study:
 
     def loaded(self, runs: Sequence[Run]) -> list[tuple]:
         """(run, its trajectory) of those whose trajectory is there and can be read."""
-        found = [(run, self.folder.trajectory(run.row)[0]) for run in runs]
-        return [(run, trajectory) for run, trajectory in found if trajectory is not None]
+        loaded_runs = [(run, self.folder.trajectory(run.row)[0]) for run in runs]
+        return [(run, trajectory) for run, trajectory in loaded_runs if trajectory is not None]
 
     def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
         """A table of runs in the words of the dictionary."""
-        own = {name: (lambda row, name=name: number(row[name])) for name in VARIED if name != "seed_direction"}
-        return table_of(self.folder.columns, names, [run.row for run in runs], caption, own)
+        varied = {name: (lambda row, name=name: number(row[name])) for name in VARIED if name != "seed_direction"}
+        return table_of(self.folder.columns, names, [run.row for run in runs], caption, varied)
 
 
 def read_study(directory: str | Path) -> Study:
@@ -85,7 +85,7 @@ def read_study(directory: str | Path) -> Study:
 def of_bodies(*names: Name, bodies: Sequence[str] = BODIES) -> list[Name]:
     """Columns of the buoy, then of the rope."""
     return [
-        f"{body}_{name}" if isinstance(name, str) else tuple(f"{body}_{one}" for one in name)
+        f"{body}_{name}" if isinstance(name, str) else tuple(f"{body}_{part}" for part in name)
         for body in bodies
         for name in names
     ]

@@ -28,8 +28,8 @@ def answer_items(study: Study) -> Iterator[Item]:
     agree = f"Planar runs with loop release agree with the runs in three dimensions in {good} of {len(pairs)} pairs: "
     agree += "range of r, section, exponent and regime of the buoy, as far as the records tell. The planar run is no "
     agree += "substitute for the rope's shape in the loops, nor for the buoy's path once the runs have parted."
-    said = f"The paper's statements on figure 20: {counted(judged)}."
-    yield Bullets((said, *([agree] if pairs else [])))
+    sentence = f"The paper's statements on figure 20: {counted(judged)}."
+    yield Bullets((sentence, *([agree] if pairs else [])))
     yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
     names = of_bodies("motion", _RATE, "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m")
     yield study.table(["steepness", "depth_m", "seed_mps", *names], study.over(), "The two runs of figure 20.")
@@ -73,12 +73,12 @@ def growth_items(study: Study) -> Iterator[Item]:
         "quarters. Otherwise maxima of single periods that stand three nats above the dips on both sides are bursts; "
         "no rate is given for the rise of a burst."
     )
-    told = (
+    sentences = (
         "motion", _RATE, "rate_nats_per_period", "fit_from_period", "fit_to_period", "fit_span_nats", "bursts",
         "burst_median_m", "burst_max_m", "first_burst_period", "lateral_max_m", "share_of_inplane",
     )  # fmt: skip
     for body in BODIES:
-        names = ["steepness", "depth_m", *of_bodies(*told, bodies=[body])]
+        names = ["steepness", "depth_m", *of_bodies(*sentences, bodies=[body])]
         caption = f"Lateral motion of the {body}, with the stiffness, grid and push of figure 20."
         yield study.table(names, study.over(depth_m=None), caption)
     planar = study.over(depth_m=None, dimensions=2, seed_mps=0.0, seed_direction="")
@@ -189,14 +189,15 @@ def shape_items(study: Study) -> Iterator[Item]:
         return
     run, trajectory = loaded[0]
     lines = trajectory.profiles
-    most = int(np.argmax(np.abs(lines.y_m).max(axis=1)))
+    widest = int(np.argmax(np.abs(lines.y_m).max(axis=1)))
     step_s = float(lines.time_s[1] - lines.time_s[0]) if len(lines.time_s) > 1 else 1.0
-    near = dict.fromkeys(most + round(offset / step_s) for offset in _SHAPE_OFFSETS_S)
-    node = int(np.argmax(np.abs(lines.y_m[most])))
+    near = dict.fromkeys(widest + round(offset / step_s) for offset in _SHAPE_OFFSETS_S)
+    node = int(np.argmax(np.abs(lines.y_m[widest])))
     seen = (
-        f"at t = {number(float(lines.time_s[most]), 4)} s the rope is {number(float(abs(lines.y_m[most, node])), 2)} m "
-        f"off the plane, {number(float(lines.s_m[node]), 3)} m of unstretched rope from the anchor, while the buoy is "
-        f"{number(float(abs(lines.y_m[most, -1])), 2)} m off it"
+        f"at t = {number(float(lines.time_s[widest]), 4)} s the rope is "
+        f"{number(float(abs(lines.y_m[widest, node])), 2)} m off the plane, "
+        f"{number(float(lines.s_m[node]), 3)} m of unstretched rope from the anchor, "
+        f"while the buoy is {number(float(abs(lines.y_m[widest, -1])), 2)} m off it"
     )
     caption = (
         f"The rope in a loop at kA = {number(run['steepness'])}, H = {number(run['depth_m'])} m: nodes as dots, the "
@@ -213,8 +214,8 @@ def shape_items(study: Study) -> Iterator[Item]:
 def comparison_items(study: Study) -> Iterator[Item]:
     """Planar runs with loop release and runs in three dimensions: what they are, and in what they agree."""
     yield Heading("Planar with loop release, or three dimensions?")
-    found = read_rows(study.folder.directory / "pairs.csv")
-    if not found:
+    pair_rows = read_rows(study.folder.directory / "pairs.csv")
+    if not pair_rows:
         yield Text("No planar run released loops and ended as asked, as its counterpart did.")
         return
     yield Text(
@@ -224,19 +225,19 @@ def comparison_items(study: Study) -> Iterator[Item]:
         "the tangent exponent, which runs in three dimensions do not have)."
     )
     by_key = {run["run_key"]: run for run in study.runs}
-    pairs = [(by_key[row["planar_key"]], by_key[row["spatial_key"]]) for row in found]
+    pairs = [(by_key[row["planar_key"]], by_key[row["spatial_key"]]) for row in pair_rows]
     names = [
         "depth_m", "dimensions", "loop_releases", "max_turn_rad", "radius_min_m", "radius_max_m", "tension_top_max_N",
         "slack_fraction", ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
         ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "regime", "wall_s",
     ]  # fmt: skip
-    both = [run for pair in pairs for run in pair]
-    yield study.table(names, both, "Planar runs (D = 2) and their counterparts (D = 3).")
+    runs_of_pairs = [run for pair in pairs for run in pair]
+    yield study.table(names, runs_of_pairs, "Planar runs (D = 2) and their counterparts (D = 3).")
     columns = read_columns(study.folder.directory, "pairs.csv")
-    told = [name for name in columns if not name.endswith("_key")]
-    yield table_of(columns, told, found, "What the runs of a pair differ in. From `pairs.csv`.")
+    shown = [name for name in columns if not name.endswith("_key")]
+    yield table_of(columns, shown, pair_rows, "What the runs of a pair differ in. From `pairs.csv`.")
     sections = []
-    for row, pair in zip(found, pairs, strict=True):
+    for row, pair in zip(pair_rows, pairs, strict=True):
         runs = [strobed(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
         sections += [(f"H = {number(value(row, 'depth_m'))} m", *runs)] if len(runs) == 2 else []
     if sections:

@@ -65,16 +65,16 @@ def _gaps(directory: Path, scene: Scene) -> Table:
 
 def written(name: str, **taken: object) -> Table:
     """A table of tables.toml by its name, which no run decides; taken: what stands in braces there."""
-    told = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
-    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in told["rows"])
-    return Table(heads(*told["heads"]), rows, told["caption"], small=True)
+    texts = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
+    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in texts["rows"])
+    return Table(heads(*texts["heads"]), rows, texts["caption"], small=True)
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
-    found = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
-    columns = found["columns.csv"]
+    files = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
+    columns = files["columns.csv"]
     numbers = [name for name, column in columns.items() if column.digits is not None]
-    return [row | {name: value(row, name) for name in numbers} for row in found["table.csv"]], columns
+    return [row | {name: value(row, name) for name in numbers} for row in files["table.csv"]], columns
 
 
 def _values(rows: list[dict], key: str) -> list:
@@ -84,8 +84,8 @@ def _values(rows: list[dict], key: str) -> list:
 def _like(rows: list[dict], **wanted) -> list[dict]:
     """Rows that are as the scene as shipped, which leads the study, but for depth and what is wanted, by depth."""
     keys = {key: rows[0][key] for key in (ABOVE, DROWNED, EI)} | wanted
-    found = [row for row in rows if all(row[key] == entry for key, entry in keys.items())]
-    return sorted(found, key=lambda row: (row[DEPTH], row[EI]))
+    matching = [row for row in rows if all(row[key] == entry for key, entry in keys.items())]
+    return sorted(matching, key=lambda row: (row[DEPTH], row[EI]))
 
 
 def curve(name: str, rows: list[dict], over: str) -> Exponents:
@@ -99,8 +99,8 @@ def _depth_figure(rows: list[dict]) -> Figure:
     for kA in _values(rows, "steepness"):
         panels.append([])
         for under in drowned:
-            found = {word: _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}) for word in waves}
-            curves = [curve(f"waves: {word}", some, DEPTH) for word, some in found.items()]
+            by_word = {word: _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}) for word in waves}
+            curves = [curve(f"waves: {word}", members, DEPTH) for word, members in by_word.items()]
             panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
     treatments = "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in (*waves, *drowned))
     caption = (
@@ -112,13 +112,13 @@ def _depth_figure(rows: list[dict]) -> Figure:
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
 
 
-def _regimes(rows: list[dict], told: dict[str, Quantity], steepness: float) -> Table:
+def _regimes(rows: list[dict], quantities: dict[str, Quantity], steepness: float) -> Table:
     pairs = list(dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows))
     columns = heads(("H", "m"), *(", ".join(pair) for pair in pairs))
-    found = [_like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under}) for word, under in pairs]
-    by_depth = [{row[DEPTH]: row for row in some} for some in found]
-    depths = sorted({depth for some in by_depth for depth in some})
-    cells = tuple((number(H), *(_cell(some.get(H), told) for some in by_depth)) for H in depths)
+    groups = [_like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under}) for word, under in pairs]
+    by_depth = [{row[DEPTH]: row for row in group} for group in groups]
+    depths = sorted({depth for group in by_depth for depth in group})
+    cells = tuple((number(H), *(_cell(group.get(H), quantities) for group in by_depth)) for H in depths)
     caption = (
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
         "waves above still water and of buoyancy."
@@ -141,9 +141,11 @@ def _stiffness(rows: list[dict], columns: dict[str, Quantity]) -> list[Item]:
         return [heading, Text("The stiffness was not varied.")]
     panel, shown = {}, []
     for kA, H in varied:
-        some = sorted((row for row in usual if (row["steepness"], row[DEPTH]) == (kA, H)), key=lambda row: row[EI])
-        panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", some, EI))
-        shown += some
+        by_stiffness = sorted(
+            (row for row in usual if (row["steepness"], row[DEPTH]) == (kA, H)), key=lambda row: row[EI]
+        )
+        panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", by_stiffness, EI))
+        shown += by_stiffness
     caption = (
         "Largest exponent over the bending stiffness of the tether, which the paper does not give. A positive exponent "
         "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."

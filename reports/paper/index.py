@@ -26,13 +26,13 @@ HEADS = {"eq.": ("equation", "what", "code"), "fig.": ("figure", "what", "drawn 
 @cache
 def entries() -> dict[tuple[str, int], tuple[str, tuple[str, ...]]]:
     """("eq." or "fig.", number) -> what it is, and the files that say they hold it; the paper's own form comes last."""
-    found: dict[tuple[str, int], list[tuple[str, str]]] = {}
+    places: dict[tuple[str, int], list[tuple[str, str]]] = {}
     paths = (path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
     files = sorted(paths, key=lambda path: ("paper_box" in path.parts, path.as_posix()))
     for path in files:
-        for kind, number, what in named_in(path.read_text(encoding="utf-8")):
-            found.setdefault((kind, number), []).append((what, path.relative_to(ROOT).as_posix()))
-    return {key: (rows[0][0], tuple(code for _, code in rows)) for key, rows in sorted(found.items())}
+        for kind, number, title in named_in(path.read_text(encoding="utf-8")):
+            places.setdefault((kind, number), []).append((title, path.relative_to(ROOT).as_posix()))
+    return {key: (rows[0][0], tuple(code for _, code in rows)) for key, rows in sorted(places.items())}
 
 
 def named_in(source: str) -> list[tuple[str, int, str]]:
@@ -52,8 +52,8 @@ def named_in(source: str) -> list[tuple[str, int, str]]:
 def rows_of(kind: str) -> list[tuple[str, str, str]]:
     """(as written in the sources, what, files) of all equations or figures."""
     form = {"eq.": "eq. ({})", "fig.": "fig. {}"}[kind]
-    found = ((number, *held) for (own, number), held in entries().items() if own == kind)
-    return [(form.format(number), what, ", ".join(f"`{path}`" for path in files)) for number, what, files in found]
+    rows = ((number, *held) for (own_kind, number), held in entries().items() if own_kind == kind)
+    return [(form.format(number), title, ", ".join(f"`{path}`" for path in files)) for number, title, files in rows]
 
 
 def markdown(kind: str) -> str:

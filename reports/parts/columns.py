@@ -34,7 +34,7 @@ class Quantity:
     @property
     def head(self) -> str:
         """The symbol with its subscripts, or the name in words."""
-        return re.sub(r"_(\w+)", lambda found: sub(found[1]), self.symbol) or self.name.replace("_", " ")
+        return re.sub(r"_(\w+)", lambda match: sub(match[1]), self.symbol) or self.name.replace("_", " ")
 
     @property
     def label(self) -> str:
@@ -83,7 +83,9 @@ def table_of(
         value, error = (name, "") if isinstance(name, str) else name
         cells[value] = (own or {}).get(value) or partial(plus_minus, columns, value=value, error=error)
     chosen = [columns[name] for name in cells]
-    heads = tuple(Column(one.head, one.unit, "left" if one.digits is None else "right") for one in chosen)
+    heads = tuple(
+        Column(quantity.head, quantity.unit, "left" if quantity.digits is None else "right") for quantity in chosen
+    )
     body = tuple(tuple(cell(row) for cell in cells.values()) for row in rows)
     return Table(heads, body, f"{caption} {explained(columns, names)}".strip(), small=True)
 
@@ -91,11 +93,11 @@ def table_of(
 def explained(columns: Mapping[str, Quantity], names: Sequence[Name]) -> str:
     """The heads and what they mean, in one sentence: "kA: wave steepness; r_min: least radius." """
     chosen = (columns[name if isinstance(name, str) else name[0]] for name in names)
-    parts = [f"{one.head}: {one.meaning}" for one in chosen if one.meaning]
+    parts = [f"{quantity.head}: {quantity.meaning}" for quantity in chosen if quantity.meaning]
     return f"{'; '.join(dict.fromkeys(parts))}." if parts else ""
 
 
 def plus_minus(columns: Mapping[str, Quantity], row: Mapping[str, object], value: str, error: str) -> str:
     """ "−0.039 ± 0.003", "−0.039" where `error` is "", or a dash where there is no value."""
-    found = columns[value].cell(row.get(value))
-    return found if found == EMPTY or not error else f"{found}\u00a0±\u00a0{columns[value].cell(row.get(error))}"
+    text = columns[value].cell(row.get(value))
+    return text if text == EMPTY or not error else f"{text}\u00a0±\u00a0{columns[value].cell(row.get(error))}"

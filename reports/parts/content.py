@@ -98,7 +98,7 @@ class Column:
 
 def heads(*titles: str | tuple[str, str]) -> tuple[Column, ...]:
     """Columns of a table: a title alone is one of words, set left; a title with its unit or "" is one of numbers."""
-    return tuple(Column(one, align="left") if isinstance(one, str) else Column(*one) for one in titles)
+    return tuple(Column(title, align="left") if isinstance(title, str) else Column(*title) for title in titles)
 
 
 @dataclass(frozen=True)
@@ -235,7 +235,7 @@ def sub(text: str) -> str:
 
 def with_subscripts(text: str) -> str:
     """The text with its symbols printed: "C_dp" of plain words gets a subscript."""
-    return re.sub(r"\b([A-Za-z]{1,3})_(\w{1,3})\b", lambda found: found[1] + sub(found[2]), text)
+    return re.sub(r"\b([A-Za-z]{1,3})_(\w{1,3})\b", lambda match: match[1] + sub(match[2]), text)
 
 
 def link(text: str, anchor: str) -> str:
@@ -252,11 +252,11 @@ def spans(text: str) -> list[tuple[str, str]]:
     [('', 'from '), ('code', 'time_s'), ('', ' on')]
     """
     pieces, at = [], 0
-    for found in _MARKS.finditer(text):
-        pieces.append(("", text[at : found.start()]))
-        code, below, anchor, said = found.groups()
-        pieces.append(("code", code) if code else ("sub", below) if below is not None else (f"#{anchor}", said))
-        at = found.end()
+    for match in _MARKS.finditer(text):
+        pieces.append(("", text[at : match.start()]))
+        code, below, anchor, text_shown = match.groups()
+        pieces.append(("code", code) if code else ("sub", below) if below is not None else (f"#{anchor}", text_shown))
+        at = match.end()
     pieces.append(("", text[at:]))
     return [(style, piece) for style, piece in pieces if piece]
 

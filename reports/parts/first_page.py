@@ -30,9 +30,9 @@ def how_long(made: Mapping, rows: list[dict[str, str]]) -> str:
         return ""
     periods = sum(value(row, "periods") for row in rows if row.get("periods"))
     over = f" over {periods:,.0f} periods".replace(",", "\u202f") if periods else ""
-    found = f", {count(runs['found'], 'run')} of them from before" if runs.get("found") else ""
+    reused = f", {count(runs['found'], 'run')} of them from before" if runs.get("found") else ""
     jobs, cores = made.get("jobs"), made.get("cpu_count")
-    where = f", {jobs} at a time on {count(cores, 'core')}" if jobs and cores else ""
+    machine = f", {jobs} at a time on {count(cores, 'core')}" if jobs and cores else ""
     took_s = timing["run_s"] + timing.get("compile_s", 0.0)
     took = f"{number(took_s, 2)} s" if took_s < 120.0 else f"{number(took_s / 60.0, 2)} minutes"
-    return f"It took {took}: {count(runs['total'], 'run')}{over}{found}{where}."
+    return f"It took {took}: {count(runs['total'], 'run')}{over}{reused}{machine}."

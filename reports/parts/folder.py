@@ -94,16 +94,16 @@ def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
     Raises FolderError naming every part that is missing or cannot be read.
     """
     directory = Path(directory)
-    found, faults = _found(directory, PARTS, _READERS)
-    columns, table = found.get("columns.csv"), None
-    if columns is not None and "table.csv" in found:
+    parts, faults = _found(directory, PARTS, _READERS)
+    columns, table = parts.get("columns.csv"), None
+    if columns is not None and "table.csv" in parts:
         try:
-            table = _table(found["table.csv"], needed, columns)
+            table = _table(parts["table.csv"], needed, columns)
         except ValueError as error:
             faults.append(f"table.csv cannot be read: {error}")
     if faults:
         raise FolderError(directory, faults)
-    return Folder(directory, found["provenance.json"], table, found["scene.toml"], columns)
+    return Folder(directory, parts["provenance.json"], table, parts["scene.toml"], columns)
 
 
 def part_of(folder: Folder, name: str) -> Folder | None:
@@ -126,10 +126,10 @@ def read_files(
     wanted: name of a file or folder -> what it holds. own: ending of a name -> reader in place of the usual one.
     Raises FolderError naming all that is missing or cannot be read.
     """
-    found, faults = _found(Path(directory), wanted, _READERS | (own or {}))
+    contents, faults = _found(Path(directory), wanted, _READERS | (own or {}))
     if faults:
         raise FolderError(Path(directory), faults)
-    return found
+    return contents
 
 
 def read_columns(directory: str | Path, table: str = "table.csv") -> dict[str, Quantity]:
@@ -160,9 +160,9 @@ def provenance_of(directory: str | Path) -> dict:
 def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tuple[dict[str, object], list[str]]:
     """What can be read of the wanted, by name, and what is wrong with the rest."""
     if not directory.is_dir():
-        there = "it is a file" if directory.exists() else "there is no such folder"
-        return {}, [f"{there}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"]
-    found, faults = {}, []
+        problem = "it is a file" if directory.exists() else "there is no such folder"
+        return {}, [f"{problem}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"]
+    contents, faults = {}, []
     for name, meaning in wanted.items():
         path = directory / name
         reader = next(read for ending, read in readers.items() if name.endswith(ending))
@@ -170,10 +170,10 @@ def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tupl
             faults.append(f"{name} is missing ({meaning}{f'; {_OLD}' if reader is _columns else ''})")
             continue
         try:
-            found[name] = reader(path)
+            contents[name] = reader(path)
         except (OSError, ValueError, KeyError, RecursionError) as error:
             faults.append(f"{name} cannot be read: {error}")
-    return found, faults
+    return contents, faults
 
 
 def _rows(path: Path, head: tuple[str, ...] = ()) -> list[dict[str, str]]:

@@ -75,7 +75,7 @@ def explorer_json(explorer: Explorer) -> str:
         "y_label": explorer.y_label,
         "low": low,
         "high": high if high > low else low + 1.0,
-        "columns": [asdict(replace(one, points=some)) for one, some in zip(explorer.columns, points, strict=True)],
+        "columns": [asdict(replace(one, points=sample)) for one, sample in zip(explorer.columns, points, strict=True)],
         "lower": [
             {"label": label, "values": _numbers(values), "errors": _numbers(errors)}
             for label, values, errors in explorer.lower

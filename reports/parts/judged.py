@@ -24,7 +24,9 @@ def read_statements(directory: Path) -> tuple[Judged, ...]:
 def counted(rows: Iterable[Judged]) -> str:
     """How many hold, and so on: "3 hold, 1 do not hold"."""
     verdicts = [row["verdict"] for row in rows]
-    return ", ".join(f"{verdicts.count(word)} {said}" for word, said in VERDICTS.items() if word in verdicts) or "none"
+    return (
+        ", ".join(f"{verdicts.count(word)} {phrase}" for word, phrase in VERDICTS.items() if word in verdicts) or "none"
+    )
 
 
 def statements_table(rows: Iterable[Judged], caption: str) -> Table:

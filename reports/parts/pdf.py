@@ -81,7 +81,7 @@ def _pieces(value: object) -> object:
     if isinstance(value, str):
         return spans(value)
     if isinstance(value, tuple):
-        return [_pieces(one) for one in value]
+        return [_pieces(entry) for entry in value]
     if is_dataclass(value):
         shown = (field.name for field in fields(value) if not isinstance(getattr(value, field.name), Picture))
         return {name: _pieces(getattr(value, name)) for name in shown}

@@ -9,15 +9,15 @@ from .content import Equation, Heading, Item, Text, with_subscripts
 
 def section_items(name: str, heading: str = "Equations", **taken: str) -> list[Item]:
     """The texts and equations of a section below its heading, "" for none; taken: what stands in braces there."""
-    said = (one.format(**taken) for one in _told()["sections"][name])
-    found = (equation(one) or Text(with_subscripts(one)) for one in said)
+    texts = (text.format(**taken) for text in _told()["sections"][name])
+    found = (equation(text) or Text(with_subscripts(text)) for text in texts)
     return [Heading(heading), *found] if heading else [*found]
 
 
 def equation(name: str) -> Equation | None:
     """The equation of that name, None where there is none."""
-    told = _told()["equations"].get(name)
-    return told and Equation(**told)
+    entry = _told()["equations"].get(name)
+    return entry and Equation(**entry)
 
 
 @cache

@@ -75,10 +75,10 @@ def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[i
     for artist in artists:
         artist.set_animated(True)
     canvas.draw()
-    still, images = canvas.copy_from_bbox(figure.bbox), []
-    every = -(-frames // MOST_FRAMES)
-    for frame in range(0, frames, every):
-        canvas.restore_region(still)
+    background, images = canvas.copy_from_bbox(figure.bbox), []
+    stride = -(-frames // MOST_FRAMES)
+    for frame in range(0, frames, stride):
+        canvas.restore_region(background)
         show(frame)
         for artist in artists:
             artist.draw(canvas.get_renderer())
@@ -88,5 +88,5 @@ def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[i
     palette = Image.fromarray(sample).quantize(MOVING_COLOURS, Image.Quantize.MAXCOVERAGE)
     first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     target = io.BytesIO()
-    first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 * every / per_second), loop=0)
+    first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 * stride / per_second), loop=0)
     return Picture(target.getvalue(), "gif")

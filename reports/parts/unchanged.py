@@ -10,18 +10,21 @@ from hashlib import sha256
 from importlib import metadata
 from pathlib import Path
 
+from machine_code.store import hash_of
+
 FILE = ".report.json"
 _READ = (".csv", ".json", ".toml", ".txt")  # told by what they say
 _SOURCES = ("reports", "analysis", "engine")
+_DRAWING = (".py", ".js", ".css", ".typ", ".toml", ".jinja", ".mplstyle")
 _LIBRARIES = ("numpy", "matplotlib", "jinja2", "typst", "pillow")
 
 
 def is_unchanged(directory: Path) -> bool:
     """Whether every file of the last drawing is there, and what it was drawn from is the same."""
     try:
-        told = json.loads((directory / FILE).read_text(encoding="utf-8"))
-        whole = all((directory / name).stat().st_size == size for name, size in told["files"].items())
-        return whole and told["key"] == key_of(directory, told["files"])
+        kept_record = json.loads((directory / FILE).read_text(encoding="utf-8"))
+        complete = all((directory / name).stat().st_size == size for name, size in kept_record["files"].items())
+        return complete and kept_record["key"] == key_of(directory, kept_record["files"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return False
 
@@ -35,16 +38,13 @@ def record(directory: Path, pages: dict[Path, bytes]) -> bytes:
 def key_of(directory: Path, without: Iterable[str]) -> str:
     """The key; without: names of drawings in the folder."""
     left_out = {FILE, *without}
-    said = sha256(" ".join(f"{name} {metadata.version(name)}" for name in _LIBRARIES).encode())
-    for name in _SOURCES:
-        for path in sorted(Path(__file__).parents[2].joinpath(name).rglob("*")):
-            if path.suffix in (".py", ".js", ".css", ".typ", ".toml", ".jinja", ".mplstyle"):
-                said.update(path.name.encode() + path.read_bytes())
+    digest = sha256(" ".join(f"{name} {metadata.version(name)}" for name in _LIBRARIES).encode())
+    digest.update(hash_of(*(Path(__file__).parents[2] / name for name in _SOURCES), endings=_DRAWING).encode())
     for path in sorted(directory.rglob("*")):
         name = str(path.relative_to(directory))
         if name in left_out or path.name == ".lock" or not path.is_file():
             continue
         state = path.stat()
-        said.update(f"{name} {state.st_size} ".encode())
-        said.update(path.read_bytes() if path.suffix in _READ else str(state.st_mtime_ns).encode())
-    return said.hexdigest()
+        digest.update(f"{name} {state.st_size} ".encode())
+        digest.update(path.read_bytes() if path.suffix in _READ else str(state.st_mtime_ns).encode())
+    return digest.hexdigest()

@@ -73,9 +73,9 @@ def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
     """
     parts = []
     for wanted, group in groupby(zip(values, chosen, strict=True), key=itemgetter(1)):
-        found = [number(value) for value, _ in group]
+        numbers = [number(value) for value, _ in group]
         if wanted:
-            parts += [f"{found[0]} to {found[-1]}"] if len(found) > 2 else found
+            parts += [f"{numbers[0]} to {numbers[-1]}"] if len(numbers) > 2 else numbers
     return listed(parts)
 
 

@@ -44,8 +44,8 @@ def report(directory: str | Path) -> Report:
 
 def _answers(study: Study) -> Iterator[str]:
     counts = Counter(row["verdict"] for row in study.cases)
-    said = listed(f"{counts[word]} {word}" for word in VERDICTS if counts[word])
-    yield f"{count(len(study.cases), 'case')}: {said}."
+    counts_text = listed(f"{counts[word]} {word}" for word in VERDICTS if counts[word])
+    yield f"{count(len(study.cases), 'case')}: {counts_text}."
     if study.random:
         valid, unsound = sum(row["kind"] == "valid" for row in study.random), len(study.unsound())
         slowest = max(value(row, "wall_s") for row in study.random)
@@ -60,10 +60,10 @@ def _answers(study: Study) -> Iterator[str]:
                 f"buoy moves by {number(value(row, 'measured'), 2)} of its range."
             )
     maps = [entry for line in study.maps.values() for entry in line["methods"].values()]
-    if apart := [entry["distance"] for entry in maps if "distance" in entry]:
+    if distances := [entry["distance"] for entry in maps if "distance" in entry]:
         yield (
             "The engine's one-step map has every eigenvalue that the closed form gives for straight lines, within "
-            f"{max(apart):.0e}, for every method."
+            f"{max(distances):.0e}, for every method."
         )
     times = [scene["us_per_newton"] for scene in study.shares["scenes"].values()]
     yield (
@@ -118,8 +118,8 @@ class Study:
 
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
-    found = read_files(directory, FILES)
-    table, columns, random, maps, shares, provenance = (found[name] for name in FILES)
+    files = read_files(directory, FILES)
+    table, columns, random, maps, shares, provenance = (files[name] for name in FILES)
     faults = []
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
         faults.append("table.csv cannot be read: it has no rows, or not those of this campaign")
@@ -140,8 +140,8 @@ def case_items(study: Study) -> list[Item]:
         return lambda row: study.columns[name].cell(row[name]) if "group" in row else row.get(name, "")
 
     caption = "Cases and verdicts, from `table.csv`."
-    own = {name: cell(name) for name in SHOWN}
-    return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, own)]
+    cells = {name: cell(name) for name in SHOWN}
+    return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, cells)]
 
 
 def stiffness_items(study: Study) -> Iterator[Item]:
@@ -157,10 +157,10 @@ def stiffness_items(study: Study) -> Iterator[Item]:
             checks.setdefault(row["how"], []).append(point)
     if not checks:
         return
-    points = {name: np.array(found).T for name, found in checks.items()}
-    worst = max(found[1].max() for found in points.values())
-    most = max(found[2].max() for found in points.values())
-    seen = f"errors up to {number(worst, 2)}, {number(most, 2)} times as many iterations at most"
+    points = {name: np.array(series).T for name, series in checks.items()}
+    worst = max(series[1].max() for series in points.values())
+    largest = max(series[2].max() for series in points.values())
+    seen = f"errors up to {number(worst, 2)}, {number(largest, 2)} times as many iterations at most"
     yield Heading("Tension and cost over stiffness")
     yield Figure(
         stiffness(points),
@@ -172,7 +172,7 @@ def stiffness_items(study: Study) -> Iterator[Item]:
 
 def limit_items(study: Study) -> Iterator[Item]:
     """What ended otherwise than "ok", and what the user is told."""
-    own = {"message": lambda row: row["message"].removeprefix("faulty scene: ")}
+    cells = {"message": lambda row: row["message"].removeprefix("faulty scene: ")}
     sections = (
         (Heading("Known limits"), "known limit", ("limit", "case", "run_status"), "Endings that were expected."),
         (Heading("Refused, and what the user is told", 2), "refused", ("case", "message"), "Scenes not started."),
@@ -180,7 +180,7 @@ def limit_items(study: Study) -> Iterator[Item]:
     for heading, verdict, names, caption in sections:
         rows = sorted(study.judged(verdict), key=lambda row: row["limit"])
         yield heading
-        yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", own) if rows else Text("None.")
+        yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", cells) if rows else Text("None.")
 
 
 def random_items(study: Study) -> Iterator[Item]:
@@ -200,7 +200,7 @@ def random_items(study: Study) -> Iterator[Item]:
         named = row["kind"], row["outcome"], row["status"] or EMPTY, row["meaning"]
         walls.setdefault(named, []).append(value(row, "wall_s"))
     rows = tuple(
-        (*named, str(len(found)), number(median(found), 2), number(max(found), 3)) for named, found in walls.items()
+        (*named, str(len(values)), number(median(values), 2), number(max(values), 3)) for named, values in walls.items()
     )
     columns = heads("scenes", "outcome", "ended", "meaning", ("count", ""), ("median", "s"), ("slowest", "s"))
     yield Table(columns, rows, "Outcomes of random scenes. From `fuzz.csv`.", small=True)

@@ -21,18 +21,18 @@ def read_judged(directory: str | Path) -> dict[str, object]:
 
     names = ("answer.json", "provenance.json", "answer.txt", *(f"{name}.csv" for name in CURVES))
     curves = {".csv": partial(pandas.read_csv, dtype=float)}
-    found = read_files(directory, dict.fromkeys(names, "python -m analysis writes it"), curves)
-    if "measures" not in found["answer.json"]:
+    files = read_files(directory, dict.fromkeys(names, "python -m analysis writes it"), curves)
+    if "measures" not in files["answer.json"]:
         raise FolderError(Path(directory), ["answer.json is of an older version: run the command again"])
-    return found
+    return files
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a folder of `python -m analysis`. Raises FolderError for any other."""
-    found = read_judged(directory)
-    answer, source = found["answer.json"], found["provenance.json"]
-    figures = _figures(found, answer["unit_of_time"], source["column"])
-    items = [*_verdict(answer), *figures, *_evidence(answer), *_origin(source, found["answer.txt"])]
+    judged = read_judged(directory)
+    answer, source = judged["answer.json"], judged["provenance.json"]
+    figures = _figures(judged, answer["unit_of_time"], source["column"])
+    items = [*_verdict(answer), *figures, *_evidence(answer), *_origin(source, judged["answer.txt"])]
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
     return Report(title, under, tuple(items))
 
@@ -47,12 +47,12 @@ def _verdict(answer: dict) -> list[Item]:
     ]
 
 
-def _figures(found: dict, unit: str, column: str) -> list[Item]:
-    curves = {name: found[f"{name}.csv"].to_numpy().T for name in CURVES}
+def _figures(judged: dict, unit: str, column: str) -> list[Item]:
+    curves = {name: judged[f"{name}.csv"].to_numpy().T for name in CURVES}
     time, values = curves["series"]
     steps, rosenstein, kantz = curves["divergence"]
-    by_delays = found["dimension.csv"].groupby("delays")
-    slopes = [(int(m), own["radius"].to_numpy(), own["slope"].to_numpy()) for m, own in by_delays]
+    by_delays = judged["dimension.csv"].groupby("delays")
+    slopes = [(int(m), group["radius"].to_numpy(), group["slope"].to_numpy()) for m, group in by_delays]
     return [
         Heading("What was seen"),
         Figure(
@@ -81,9 +81,9 @@ def _figures(found: dict, unit: str, column: str) -> list[Item]:
 
 def _evidence(answer: dict) -> list[Item]:
     rows = []
-    for one in answer["evidence"]:
-        numbers = ("none" if one[name] is None else f"{one[name]:.4g}" for name in ("value", "threshold"))
-        rows.append((one["name"], PASSED[one["passed"]], *numbers, printed(one["sentence"])))
+    for test in answer["evidence"]:
+        numbers = ("none" if test[name] is None else f"{test[name]:.4g}" for name in ("value", "threshold"))
+        rows.append((test["name"], PASSED[test["passed"]], *numbers, printed(test["sentence"])))
     columns = heads("test", "passed", ("value", ""), ("compared with", ""), "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
     return [Heading("Evidence"), Table(columns, tuple(rows), caption, small=True)]
@@ -92,5 +92,5 @@ def _evidence(answer: dict) -> list[Item]:
 def _origin(source: dict, page: str) -> list[Item]:
     lines = [f"{key}: {value}" for key, value in source.items() if key not in ("campaign", "versions")]
     lines += [f"{name} {version}" for name, version in source["versions"].items()]
-    said = [Heading("The answer as printed"), Listing(page)]
-    return [Heading("Where it comes from"), Listing("\n".join(lines)), *said]
+    items = [Heading("The answer as printed"), Listing(page)]
+    return [Heading("Where it comes from"), Listing("\n".join(lines)), *items]

@@ -34,8 +34,8 @@ class Study:
 
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
-    folder, found = read_folder(directory), read_files(directory, FILES)
-    judged, rows = (found[name] for name in FILES)
+    folder, files = read_folder(directory), read_files(directory, FILES)
+    judged, rows = (files[name] for name in FILES)
     if not judged or not {"case", *NUMBERS} <= set(judged[0]):
         raise FolderError(folder.directory, ["cases.csv cannot be read: it has no rows, or not those of this campaign"])
     cases: dict[str, list[dict[str, str]]] = {}
@@ -45,7 +45,7 @@ def read_study(directory: str | Path) -> Study:
     for row in rows:
         place = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
         place.append([float(row[name]) for name in ("x", "ours", "theirs")])
-    arrays = {case: {name: np.array(at).T for name, at in one.items()} for case, one in points.items()}
+    arrays = {case: {name: np.array(at).T for name, at in panels.items()} for case, panels in points.items()}
     return Study(folder, cases, arrays)
 
 
@@ -61,15 +61,15 @@ def report(directory: str | Path) -> Report:
         table_of(study.folder.columns, RUNS, study.folder.table, "Every run, from `table.csv`."),
         *appendix(*timing_items(study.folder), *provenance_items(study.folder)),
     ]
-    said = count(len(study.cases), "case")
+    cases_text = count(len(study.cases), "case")
     return Report(
-        "Beside measurements and other codes", f"{said}, each with its source, a bar and a verdict", tuple(items)
+        "Beside measurements and other codes", f"{cases_text}, each with its source, a bar and a verdict", tuple(items)
     )
 
 
 def summary(study: Study) -> Table:
     """One row a case and quantity that is judged."""
-    rows = [row for one in study.cases.values() for row in one if row["verdict"] != "told"]
+    rows = [row for rows_of_case in study.cases.values() for row in rows_of_case if row["verdict"] != "told"]
     caption = (
         "Error: difference of ours from theirs, along the curves where rms is said. Bar: the most that it may be, "
         "set before the run. From `cases.csv`."
@@ -92,12 +92,12 @@ def case_items(study: Study, case: str) -> Iterator[Item]:
     rows = study.cases[case]
     first = rows[0]
     yield Heading(first["title"], page=True)
-    told = (
+    verdicts = (
         f"Theirs are {first['source']}.",
         first["assumed"] and f"Assumed: {first['assumed']}.",
         first["note"] and f"{first['note'][0].upper()}{first['note'][1:]}.",
     )
-    yield Text(" ".join(filter(None, told)))
+    yield Text(" ".join(filter(None, verdicts)))
     if first["verdict"] == "not run":
         return
     if case in study.points:

@@ -63,10 +63,10 @@ def _program(deck: str):
     program = Path(cabledyn.__file__).parent / "bin" / "cabledyn"
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "deck.dat").write_text(deck)
-        began = time.perf_counter()
-        done = subprocess.run([program, "deck.dat", "out"], cwd=folder, capture_output=True, text=True, check=False)
-        wall_s = time.perf_counter() - began
-        if done.returncode:
-            said = [line for line in done.stderr.splitlines() if line.strip()]
-            return wall_s, " ".join(said[:1]) or f"exit code {done.returncode}", None
+        start_s = time.perf_counter()
+        process = subprocess.run([program, "deck.dat", "out"], cwd=folder, capture_output=True, text=True, check=False)
+        wall_s = time.perf_counter() - start_s
+        if process.returncode:
+            errors = [line for line in process.stderr.splitlines() if line.strip()]
+            return wall_s, " ".join(errors[:1]) or f"exit code {process.returncode}", None
         return wall_s, "", np.loadtxt(Path(folder, "out.out"), skiprows=2, ndmin=2)

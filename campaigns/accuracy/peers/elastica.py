@@ -25,14 +25,14 @@ def simulate(scene: Scene, duration_s: float, elements: int, step_s: float) -> T
     stepper, dt, t = elastica.PositionVerlet(), np.float64(step_s), np.float64(0.0)
     stepper.step(hanging(scene, elements)[0], t, dt)  # compiles what is not compiled yet
     system, rod = hanging(scene, elements)
-    every, samples = round(SAMPLE_S / step_s), round(duration_s / SAMPLE_S)
+    stride, samples = round(SAMPLE_S / step_s), round(duration_s / SAMPLE_S)
     places = [rod.position_collection[:, -1].copy()]
-    began = time.perf_counter()
+    start_s = time.perf_counter()
     for _ in range(samples):
-        for _ in range(every):
+        for _ in range(stride):
             t = stepper.step(system, t, dt)
         places.append(rod.position_collection[:, -1].copy())
-    return sampled(scene, duration_s, np.array(places), time.perf_counter() - began, every * samples)
+    return sampled(scene, duration_s, np.array(places), time.perf_counter() - start_s, stride * samples)
 
 
 def hanging(scene, elements):

@@ -116,8 +116,8 @@ def stepped(scene, segments, steps_per_period, periods):
     import moordyn
 
     period, density = scene.waves.period_s, scene.water.density_kgpm3
-    step_s, every = period / steps_per_period, round(steps_per_period * SAMPLE_S / period)
-    assert steps_per_period == every * round(period / SAMPLE_S)
+    step_s, stride = period / steps_per_period, round(steps_per_period * SAMPLE_S / period)
+    assert steps_per_period == stride * round(period / SAMPLE_S)
     drag = 0.5 * density * scene.buoy.drag * math.pi / 4 * scene.buoy.diameter_m**2
     inertia = density * volume(scene) + scene.buoy.added_mass_kg
     port = 0.5 * density * PORT_AREA
@@ -129,7 +129,7 @@ def stepped(scene, segments, steps_per_period, periods):
     for i in range(steps_per_period * periods + 1):
         places = np.array(cmoordyn.ext_wave_coords(instance)).reshape(-1, 3)
         velocity = np.array(moordyn.GetPointVel(point))
-        if i % every == 0:
+        if i % stride == 0:
             kept.append((places[buoy, 0], 0.0, places[buoy, 2] - BED))
         ahead = 1.5 * places - 0.5 * places_before
         velocity_ahead = 1.5 * velocity - 0.5 * velocity_before
@@ -141,8 +141,8 @@ def stepped(scene, segments, steps_per_period, periods):
         load = drag * np.linalg.norm(relative) * relative + inertia * rate[buoy]
         U[buoy] = velocity_ahead + load / math.sqrt(port * np.linalg.norm(load))
         cmoordyn.ext_wave_set(instance, U.ravel().tolist(), rate.ravel().tolist(), i * step_s)
-        began = time.perf_counter()
+        start_s = time.perf_counter()
         cmoordyn.step(instance, [], [], i * step_s, step_s)
-        spent += time.perf_counter() - began
+        spent += time.perf_counter() - start_s
     moordyn.Close(instance)
     return np.array(kept), spent

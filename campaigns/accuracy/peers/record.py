@@ -41,10 +41,10 @@ def as_trajectory(scene, status, message, time_s, places_m, statistics, strain=N
     end_s = float(time_s[-1]) if len(time_s) else 0.0
     lines = None
     if scene.output.profiles and strain is not None:
-        every = round((scene.output.profiles_step_s or scene.sample_step_s()) / scene.sample_step_s())
-        kept = np.asarray(strain)[::every]
+        stride = round((scene.output.profiles_step_s or scene.sample_step_s()) / scene.sample_step_s())
+        kept = np.asarray(strain)[::stride]
         unknown = np.full_like(kept, np.nan)
-        lines = Profiles(columns["time_s"][::every], s_m, unknown, unknown, unknown, kept, unknown, unknown)
+        lines = Profiles(columns["time_s"][::stride], s_m, unknown, unknown, unknown, kept, unknown, unknown)
     return Trajectory(scene, status, message, columns, {"end_time_s": end_s, **statistics}, lines)
 
 

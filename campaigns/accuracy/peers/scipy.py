@@ -114,24 +114,28 @@ def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: s
     equations.jac(0.0, C0)
     equations.calls = equations.jacobians = equations.faults = 0
     t = scene.sample_step_s() * np.arange(math.floor(duration_s / scene.sample_step_s() * (1 + 1e-12) + 1e-9) + 1)
-    how = {"method": method, "t_eval": t, "rtol": rtol, "atol": 1e-2 * rtol, "jac": equations.jac}
-    status, message, found = "ok", "", None
-    began = time.perf_counter()
-    equations.ends_s = began + LONGEST_S
+    settings = {"method": method, "t_eval": t, "rtol": rtol, "atol": 1e-2 * rtol, "jac": equations.jac}
+    status, message, solution = "ok", "", None
+    start_s = time.perf_counter()
+    equations.ends_s = start_s + LONGEST_S
     try:
-        found = solve_ivp(equations.f, (0.0, t[-1]), C0, **how)
+        solution = solve_ivp(equations.f, (0.0, t[-1]), C0, **settings)
     except TimeoutError:
         status, message = "too-slow", f"stopped after {LONGEST_S:g} s of run time"
     except (ValueError, np.linalg.LinAlgError) as error:
         status, message = "solver-failed", str(error)
-    statistics = {"wall_s": time.perf_counter() - began, "rhs_calls": equations.calls, "jacobians": equations.jacobians}
-    statistics |= {"newton_failures": equations.faults, "steps": 0 if found is None else found.nlu}
-    if found is None:
+    statistics = {
+        "wall_s": time.perf_counter() - start_s,
+        "rhs_calls": equations.calls,
+        "jacobians": equations.jacobians,
+    }
+    statistics |= {"newton_failures": equations.faults, "steps": 0 if solution is None else solution.nlu}
+    if solution is None:
         return nothing(scene, status, message, **statistics)
-    if not found.success:
-        status, message = "solver-failed", found.message
-    places, strain, s = _lines(found.y.T.reshape(len(found.t), -1, equations.size), equations)
-    return as_trajectory(scene, status, message, found.t, places, statistics, strain, s)
+    if not solution.success:
+        status, message = "solver-failed", solution.message
+    places, strain, s = _lines(solution.y.T.reshape(len(solution.t), -1, equations.size), equations)
+    return as_trajectory(scene, status, message, solution.t, places, statistics, strain, s)
 
 
 def _lines(C, equations):

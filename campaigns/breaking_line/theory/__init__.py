@@ -54,8 +54,8 @@ class Theory:
         """Whether the shock eats the contour of this share of the static tension before the front is at the wall."""
         if not self.shocked or not len(self.motion.shock.time_s):
             return False
-        before = self.motion.shock.time_s <= self.arrival_s
-        return self.strain_at(share) > self.motion.shock.behind[before].min()
+        earlier = self.motion.shock.time_s <= self.arrival_s
+        return self.strain_at(share) > self.motion.shock.behind[earlier].min()
 
     def falling(self, share: float) -> tuple[np.ndarray, np.ndarray]:
         """Times (m,) and places (m,) of the C- that leaves the broken end when its force is `share` of the static one.

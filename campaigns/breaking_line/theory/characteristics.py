@@ -52,13 +52,13 @@ def strain_behind(law, ahead, u_ahead, p, guess):
 
 
 @kernel
-def shock_step(case, before, tn, sn, cn, p, out):
+def shock_step(case, previous, tn, sn, cn, p, out):
     """Fill `out` (a row of starts) with the point where a C- (last known at tn, sn with speed cn) meets the shock that
-    was last at the row `before`. False when they do not meet: the C- is slower."""
+    was last at the row `previous`. False when they do not meet: the C- is slower."""
     law = case.law
     phi0 = riemann(law, case.strain0)
-    t0, s0, sigma0 = before[TIME], before[PLACE], before[SIGMA]
-    sigma, behind = sigma0, before[BEHIND]
+    t0, s0, sigma0 = previous[TIME], previous[PLACE], previous[SIGMA]
+    sigma, behind = sigma0, previous[BEHIND]
     c, t = wave_speed(law, behind), t0
     for _ in range(MOST_ROUNDS):
         cc, ss = 0.5 * (cn + c), 0.5 * (sigma0 + sigma)
@@ -67,7 +67,7 @@ def shock_step(case, before, tn, sn, cn, p, out):
         last = t
         t = (sn - s0 + cc * tn - ss * t0) / (cc - ss)
         s = s0 - ss * (t - t0)
-        ahead, tau = simple_wave_at(case, s, t, before[EMITTED])
+        ahead, tau = simple_wave_at(case, s, t, previous[EMITTED])
         behind = strain_behind(law, ahead, riemann(law, ahead) - phi0, p, behind)
         sigma, c = shock_speed(law, ahead, behind), wave_speed(law, behind)
         out[TIME], out[PLACE], out[AHEAD], out[BEHIND], out[SIGMA] = t, s, ahead, behind, sigma
@@ -106,10 +106,10 @@ def cross(case, net, k, start, t, s, c, lines):
         return lines, FULL
     arrival = t + (case.length - s) / c
     for _ in range(MOST_ROUNDS):
-        before = arrival
+        earlier = arrival
         eps = strain_of_tension(case.law, end_force(case, arrival), eps)
         arrival = t + (case.length - s) / (0.5 * (c + wave_speed(case.law, eps)))
-        if abs(arrival - before) <= 1e-15 * arrival:
+        if abs(arrival - earlier) <= 1e-15 * arrival:
             break
     net.tau[lines], net.born_q[lines] = arrival, net.q[k]
     net.p[lines] = net.q[k] + 2.0 * riemann(case.law, eps)

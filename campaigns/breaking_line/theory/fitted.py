@@ -94,10 +94,10 @@ class FittedBreak:
         from scipy.interpolate import PchipInterpolator
 
         law, length, shock = self.case.law, self.case.length, len(self.shock.time_s)
-        found = np.empty((len(self.net.p) + len(self.net.q), 3)).T
-        count = on_outgoing(law, self.net, self.starts[-1, row.LINE], length, t, found)
-        count = on_echoes(self.net, self.starts, shock, t, found, count)
-        found = found[:, :count].T
+        crossings = np.empty((len(self.net.p) + len(self.net.q), 3)).T
+        count = on_outgoing(law, self.net, self.starts[-1, row.LINE], length, t, crossings)
+        count = on_echoes(self.net, self.starts, shock, t, crossings, count)
+        crossings = crossings[:, :count].T
         if edge > 0.0:
             left = np.interp(t, self.starts[:shock, row.TIME], self.starts[:shock, row.P_BEHIND])
             first = (edge, left, left - 2.0 * riemann(law, float(self.shock.at(t)[2])))
@@ -107,13 +107,13 @@ class FittedBreak:
             first = (0.0, left, -left)
         force = end_force(self.case, t)
         # what leaves the broken end: of the force alone until an echo is back
-        alone = 2.0 * riemann(law, strain_of_tension(law, force, 0.2)) - riemann(law, self.case.strain0)
-        right = alone if t <= self.first_echo_s else float(np.interp(t, self.net.tau, self.net.p))
+        incoming = 2.0 * riemann(law, strain_of_tension(law, force, 0.2)) - riemann(law, self.case.strain0)
+        right = incoming if t <= self.first_echo_s else float(np.interp(t, self.net.tau, self.net.p))
         last = (length, right, right - 2.0 * riemann(law, strain_of_tension(law, force, 0.0)))
-        apart = 1e-9 * length
-        found = found[(found[:, 0] > edge + apart) & (found[:, 0] < length - apart)]
-        rows = np.vstack([first, found[np.argsort(found[:, 0])], last])
-        rows = rows[np.append(True, np.diff(rows[:, 0]) > apart)]
+        closest = 1e-9 * length
+        crossings = crossings[(crossings[:, 0] > edge + closest) & (crossings[:, 0] < length - closest)]
+        rows = np.vstack([first, crossings[np.argsort(crossings[:, 0])], last])
+        rows = rows[np.append(True, np.diff(rows[:, 0]) > closest)]
         p, q = PchipInterpolator(rows[:, 0], rows[:, 1:])(s).T
         return strains_of(law, 0.5 * (p - q)), 0.5 * (p + q)
 
@@ -138,8 +138,8 @@ def strains_of(law, phi):
 
 
 @kernel
-def on_outgoing(law, net, ended, length, t, found):
-    """Fill `found` (3, at least lines) with place [m], p and q [m/s] where each C- is at time t; return how many are.
+def on_outgoing(law, net, ended, length, t, crossings):
+    """Fill `crossings` (3, at least lines) with place [m], p and q [m/s] where each C- is at time t; return how many.
 
     ended    the last C- that has come to the shock or the wall: what lies up to it ends with its last crossing, what
              lies behind goes on straight from there
@@ -160,14 +160,14 @@ def on_outgoing(law, net, ended, length, t, found):
             t0, s0, q0 = net.T[i, k], net.S[i, k], net.q[k]
         if alive:
             c = wave_speed(law, strain_of_riemann(law, 0.5 * (net.p[i] - q0), 0.0))
-            found[0, count], found[1, count], found[2, count] = s0 - c * (t - t0), net.p[i], q0
+            crossings[0, count], crossings[1, count], crossings[2, count] = s0 - c * (t - t0), net.p[i], q0
             count += 1
     return count
 
 
 @kernel
-def on_echoes(net, starts, shock, t, found, count):
-    """Go on filling `found` from `count` with where the C+ of the fixed end are at t, between crossings that are known.
+def on_echoes(net, starts, shock, t, crossings, count):
+    """Go on filling `crossings` from `count` with where the C+ of the fixed end are at t, between known crossings.
 
     Needed where p hardly changes and its lines are few, while an echo passes. The C+ of the shock, its first `shock`
     rows, are left out: q hardly changes from one to the next, and p is less well known along them.
@@ -182,8 +182,8 @@ def on_echoes(net, starts, shock, t, found, count):
                 break
             if net.T[i, k] >= t:
                 share = (t - t0) / (net.T[i, k] - t0) if net.T[i, k] > t0 else 0.0
-                found[0, count] = s0 + share * (net.S[i, k] - s0)
-                found[1, count], found[2, count] = p0 + share * (net.p[i] - p0), net.q[k]
+                crossings[0, count] = s0 + share * (net.S[i, k] - s0)
+                crossings[1, count], crossings[2, count] = p0 + share * (net.p[i] - p0), net.q[k]
                 count += 1
                 break
             t0, s0, p0 = net.T[i, k], net.S[i, k], net.p[i]

@@ -48,8 +48,8 @@ def _planned(case, start, count):
     pull = tension(law, strain_of_riemann(law, 0.5 * (p + phi0), 0.2))
     # of the line that keeps up with the late shock and never meets it
     slowest = 2.0 * decay / np.pi * np.arccos(np.sqrt(pull / case.force))
-    left = CLOSEST * min(decay / case.stop, 1.0)
-    met = slowest - (slowest - start.emission_s) * left ** np.linspace(0.0, 1.0, count + 1)
+    spacing = CLOSEST * min(decay / case.stop, 1.0)
+    met = slowest - (slowest - start.emission_s) * spacing ** np.linspace(0.0, 1.0, count + 1)
     return np.concatenate([met, _spread(case, met[-1], decay, count)[1:], slack])
 
 
@@ -90,23 +90,23 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
         valid = min(valid, front_arrival)
     echoes = net.tau[int(starts[shock - 1, row.LINE]) + 1 if shock else 0 : used]
     echoes = echoes[~np.isin(echoes, planned)]
-    crossings, along = (array[:used, :count] for array in (net.T, net.S)), (array[:used] for array in net[2:5])
-    kept = (*crossings, *along, net.q[:count], net.last[:used])
+    crossings, on_shock = (array[:used, :count] for array in (net.T, net.S)), (array[:used] for array in net[2:5])
+    arrays = (*crossings, *on_shock, net.q[:count], net.last[:used])
     return FittedBreak(
         case=case,
         start=start,
         shock=ShockPath(*(locked(column.copy()) for column in starts[:shock, : row.P_BEHIND].T)),
         valid_until_s=float(valid),
         first_echo_s=float(echoes[0]) if len(echoes) else np.inf,
-        net=Net(*(locked(array.copy()) for array in kept)),
+        net=Net(*(locked(array.copy()) for array in arrays)),
         starts=locked(starts.copy()),
     )
 
 
-def _room(case, planned, more):
-    """The Net with its planned C- in place and room for `more` that echoes start, twice, and empty starts."""
+def _room(case, planned, extra):
+    """The Net with its planned C- in place and room for `extra` that echoes start, twice, and empty starts."""
     count = len(planned)
-    most_lines, most_starts = count + 2 * more, count + more
+    most_lines, most_starts = count + 2 * extra, count + extra
     T = np.full((most_lines, most_starts), np.nan)
     net = Net(T, T.copy(), *np.zeros((3, most_lines)), np.zeros(most_starts), np.zeros((most_lines, 3)))
     eps = _strains_at_end(case, planned)

@@ -23,8 +23,8 @@ MAKERS = ("figures", "measures.py", "measured.py")
 SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/buoy_sweep/rows.py")
 SOURCES = (*SHARED, *(f"campaigns/paper/{name}" for name in MAKERS))
 FIGURES = {  # of the paper -> what plans its data from the `Parts`; 1 and 8 are sketches
-    **{2 + at: partial(breaking, cases=FAST, what=what) for at, what in enumerate(SHOWN)},
-    **{5 + at: partial(breaking, cases=SLOW, what=what) for at, what in enumerate(SHOWN)},
+    **{2 + at: partial(breaking, cases=FAST, quantity=what) for at, what in enumerate(SHOWN)},
+    **{5 + at: partial(breaking, cases=SLOW, quantity=what) for at, what in enumerate(SHOWN)},
     9: partial(history, steepness=SMALL, side="tension"),
     10: partial(history, steepness=SMALL, side="radial"),
     11: partial(history, steepness=SMALL, side="angular"),
@@ -63,7 +63,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
         data, *pictures = files_of(root, number)
         try:
             plan = planned(parts)
-            digests = [(one["label"], one["file"], one["sha256"]) for one in plan.sources]
+            digests = [(source["label"], source["file"], source["sha256"]) for source in plan.sources]
             key = made_by({"figure": number, "title": plan.title, "sources": digests, "code": code})
             if figure_data.attribute_of(data) != key:
                 figure_data.store(data, figure_data.dataset(plan.title, plan.arrays(), plan.sources, key))
@@ -71,7 +71,7 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
             left_out[number] = str(reason)
             for path in (data, *pictures):
                 path.unlink(missing_ok=True)
-    content, told = {str(number): reason for number, reason in left_out.items()}, place_of(root) / LEFT_OUT
-    if read_json(told) != content:
-        write_json(told, content)
+    content, reasons = {str(number): reason for number, reason in left_out.items()}, place_of(root) / LEFT_OUT
+    if read_json(reasons) != content:
+        write_json(reasons, content)
     return left_out

@@ -30,7 +30,7 @@ def running_exponents(parts: Parts) -> Plan:
     for name, (trajectory, _) in runs.items():
         if not carried(trajectory):
             raise LeftOut(f"the run at kA = {WAVES[name]:g} carried no perturbation (`output.tangent_vectors`)")
-    transient, sources = int(parts.part("buoy").provenance["transient"]), tuple(found for _, found in runs.values())
+    transient, sources = int(parts.part("buoy").provenance["transient"]), tuple(origin for _, origin in runs.values())
     return Plan("Running maximum Lyapunov exponents", sources, lambda: _exponents(runs, transient))
 
 
@@ -44,16 +44,16 @@ def _exponents(runs: dict, transient: int) -> dict[str, Array]:
     for name, (trajectory, _) in runs.items():
         scene, kA = trajectory.scene, f"kA = {WAVES[name]:g}"
         period_s, step_s = scene.waves.period_s, scene.sample_step_s()
-        after = round(transient * period_s / step_s)
-        wolf = wolf_lyapunov(trajectory.columns["radius_m"][after:], step_s).in_bits_per_period(period_s)
+        first = round(transient * period_s / step_s)
+        wolf = wolf_lyapunov(trajectory.columns["radius_m"][first:], step_s).in_bits_per_period(period_s)
         if not wolf.found:
             raise LeftOut(f"Wolf's method gives no exponent at {kA}: {wolf.reason}")
-        one = wolf.details["run"]
+        course = wolf.details["run"]
         growth = trajectory.tangent.growth_nats[transient:, 0]
         count = np.arange(len(growth)) + 1.0
         (tangent,) = tangent_lyapunov(trajectory.tangent.growth_nats[:, :1], transient)
         curves = {
-            "wolf": (wolf, one.time_s / period_s, one.convergence * period_s, "Wolf's method"),
+            "wolf": (wolf, course.time_s / period_s, course.convergence * period_s, "Wolf's method"),
             "tangent": (tangent, count, np.cumsum(growth) / count, "the tangent dynamics"),
         }
         for method, (exponent, periods, nats, words) in curves.items():
@@ -75,13 +75,13 @@ def _thinned(periods: np.ndarray) -> np.ndarray:
 
 def sections(parts: Parts) -> Plan:
     """Figure 19."""
-    trajectory, found = parts.of_buoy(LARGE)
+    trajectory, origin = parts.of_buoy(LARGE)
     points = strobed(trajectory, int(parts.part("buoy").provenance["transient"]))
     if len(points) < LEAST_POINTS:
         raise LeftOut(f"the section at kA = {LARGE:g} has {len(points)} points, {LEAST_POINTS} are needed")
-    states, numbers, other = _oscillator(parts)
+    states, numbers, reduced = _oscillator(parts)
     title = "Poincaré sections of the exact model and of eq. (33)"
-    return Plan(title, (found, other), lambda: _sections(trajectory, points, states, numbers))
+    return Plan(title, (origin, reduced), lambda: _sections(trajectory, points, states, numbers))
 
 
 def _oscillator(parts: Parts) -> tuple[np.ndarray, dict[str, float], Source]:

@@ -39,8 +39,8 @@ def claims(quick: bool = False) -> tuple[Claim, ...]:
 
 
 def _not_judged(measure: Callable, results) -> Measured:
-    found = measure(results).told or "nothing is known"
-    return Measured((), f"{found}; not judged, because these runs are too few or too short")
+    reason = measure(results).told or "nothing is known"
+    return Measured((), f"{reason}; not judged, because these runs are too few or too short")
 
 
 @cache

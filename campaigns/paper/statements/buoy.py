@@ -33,7 +33,7 @@ BODIES = ("buoy", "rope")
 
 def always_taut(results: Results) -> Measured:
     """Least top tension [N], of the whole long run and of the short ones after their transients."""
-    short = [(where, value_of(row, "tension_top_min_N")) for where, row in everywhere(results, SMALL)]
+    short = [(place, value_of(row, "tension_top_min_N")) for place, row in everywhere(results, SMALL)]
     return each([(f"kA = {SMALL:g}, {LONG}", results.number("long_tension_min_N")), *short], ".4g")
 
 
@@ -42,8 +42,8 @@ def regular(results: Results) -> Measured:
     rows, long = everywhere(results, SMALL), results.buoy.get(SMALL)
     first = [(LONG, long)] if long else []
     checks = judging.regimes([*first, *rows], lambda regime: regime.startswith("period-"))
-    found = f"{LONG} {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits per period; " if long else ""
-    return Measured(checks, f"{found}shorter runs {judging.by_regime(rows)}" if long or rows else "")
+    sentence = f"{LONG} {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits per period; " if long else ""
+    return Measured(checks, f"{sentence}shorter runs {judging.by_regime(rows)}" if long or rows else "")
 
 
 def uncoupled(results: Results) -> Measured:
@@ -69,18 +69,18 @@ def on_estimates(results: Results) -> Measured:
     wave = results.number("estimate_wave_radps")
     bin_radps, early = wave / WINDOW[1], results.number("early_angular_radps")
     checks, words = [], []
-    for when, coarse in ((EARLIEST, 0.0), ("the window of fig. 12", 0.5 * bin_radps)):
+    for window, coarse in ((EARLIEST, 0.0), ("the window of fig. 12", 0.5 * bin_radps)):
         for name, side, estimate in (("r", "radial", "radial"), ("θ", "angular", "pendulum")):
-            own = results.number(f"estimate_{estimate}_radps")
-            late = own + results.number(f"{side}_bins") * bin_radps
+            estimated = results.number(f"estimate_{estimate}_radps")
+            late = estimated + results.number(f"{side}_bins") * bin_radps
             seen = late if coarse else results.number(f"early_{side}_radps")
             if not math.isfinite(seen):
                 return Measured()
-            checks.append((f"{name} in {when}", abs(seen / own - 1.0) < max(PRINTED_DIGIT, coarse / own)))
-            words.append(f"{name} in {when} {shown(seen, '.3f')} ({shown(seen / own - 1.0, '.2%')} off)")
-    said = f"bins of that window are {shown(bin_radps, '.3f')}; the wave's frequency less the pendulum's"
+            checks.append((f"{name} in {window}", abs(seen / estimated - 1.0) < max(PRINTED_DIGIT, coarse / estimated)))
+            words.append(f"{name} in {window} {shown(seen, '.3f')} ({shown(seen / estimated - 1.0, '.2%')} off)")
+    sentence = f"bins of that window are {shown(bin_radps, '.3f')}; the wave's frequency less the pendulum's"
     return Measured(
-        passed(*checks), f"{', '.join(words)}; {said}, {shown(wave - early, '.2f')}, lies beside the radial one"
+        passed(*checks), f"{', '.join(words)}; {sentence}, {shown(wave - early, '.2f')}, lies beside the radial one"
     )
 
 
@@ -155,67 +155,68 @@ def is_slack(row: Row) -> bool:
 def spans(chosen: list[bool], rows: list[Row]) -> str:
     """The steepnesses of the chosen rows in words, neighbours of one motion joined into "a to b (motion)"."""
     groups: list[tuple[str, list[float]]] = []
-    before = None
+    previous = None
     for wanted, row in zip(chosen, rows, strict=True):
         motion = row.get("motion") or ""
         if wanted:
-            groups = groups if before == motion else [*groups, (motion, [])]
+            groups = groups if previous == motion else [*groups, (motion, [])]
             groups[-1][1].append(row["steepness"])
-        before = motion if wanted else None
+        previous = motion if wanted else None
     return listed(
-        (f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}") + (f" ({motion})" if motion else "")
-        for motion, one in groups
+        (f"{members[0]:.4g} to {members[-1]:.4g}" if len(members) > 1 else f"{members[0]:.4g}")
+        + (f" ({motion})" if motion else "")
+        for motion, members in groups
     )
 
 
 def positive_exponent(results: Results) -> Measured:
     """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    short = [(where, row) for where, row in everywhere(results, LARGE) if exponent(row) != "none"]
-    deciding = {where: row for where, row in short if judging.settled(row)}
-    found = f"shorter runs from rest {', '.join(f'{exponent(row)} at {where}' for where, row in short) or 'none'}"
+    short = [(place, row) for place, row in everywhere(results, LARGE) if exponent(row) != "none"]
+    deciding = {place: row for place, row in short if judging.settled(row)}
+    sentence = f"shorter runs from rest {', '.join(f'{exponent(row)} at {place}' for place, row in short) or 'none'}"
     if exponent(long) != "none":
         deciding[depth] = long
-        found = f"{LONG} at {depth} {exponent(long)}; {found}"
-    checks = passed(*((where, judging.positive(row)) for where, row in sorted(deciding.items())))
-    return Measured(checks, found if short or long else "")
+        sentence = f"{LONG} at {depth} {exponent(long)}; {sentence}"
+    checks = passed(*((place, judging.positive(row)) for place, row in sorted(deciding.items())))
+    return Measured(checks, sentence if short or long else "")
 
 
 def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
     short = everywhere(results, LARGE)
-    found, deciding = f"shorter runs from rest {judging.by_regime(short)}", dict(short)
+    sentence, deciding = f"shorter runs from rest {judging.by_regime(short)}", dict(short)
     if long is not None and long["regime"] not in UNDECIDED:
         deciding[depth] = long
-        tighter = f" (at a tenth of the tolerance: {again})" if (again := long.get("regime_tighter")) else ""
-        found = f"{LONG} at {depth} {long['regime']}{tighter}; {found}"
-    return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), found if short or long else "")
+        tighter = f" (at a tenth of the tolerance: {at_tighter})" if (at_tighter := long.get("regime_tighter")) else ""
+        sentence = f"{LONG} at {depth} {long['regime']}{tighter}; {sentence}"
+    return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), sentence if short or long else "")
 
 
 def never_repeats(results: Results) -> Measured:
     """The strobed period of the short runs; none where the motion does not repeat."""
     rows = [(at(row), value_of(row, "strobed_period")) for row in results.over_depth(LARGE)]
-    return Measured(passed(*((where, math.isnan(period)) for where, period in rows)), told(rows, "g"))
+    return Measured(passed(*((place, math.isnan(period)) for place, period in rows)), told(rows, "g"))
 
 
 def no_dominant_mode(results: Results) -> Measured:
     """Largest share of the variance on one bin of eq. (31), of r and theta."""
     rows, long = everywhere(results, LARGE), results.buoy.get(LARGE)
     if long is not None:
-        rows = [(where, row) for where, row in rows if where != f"H = {results.depth():g} m"] + [(LONG, long)]
-    lines = [(where, value_of(row, "radial_line"), value_of(row, "angular_line"), row) for where, row in rows]
-    lines = [one for one in lines if math.isfinite(one[1])]
+        rows = [(place, row) for place, row in rows if place != f"H = {results.depth():g} m"] + [(LONG, long)]
+    lines = [(place, value_of(row, "radial_line"), value_of(row, "angular_line"), row) for place, row in rows]
+    lines = [line for line in lines if math.isfinite(line[1])]
     if not lines:
         return Measured()
-    where, r, theta, row = lines[-1]
+    place, r, theta, row = lines[-1]
     words = ", ".join(
         f"{name} {shown(share, '.1%')} at {shown(value_of(row, f'{side}_at'), '.3g')} of the waves' frequency"
         for name, side, share in (("r", "radial", r), ("θ", "angular", theta))
     )
-    least, other = min((min(one[1:3]), one[0]) for one in lines)
-    words += f" ({where}); least of {len(lines)} runs {shown(least, '.1%')} ({other})"
-    return Measured([(where, max(r, theta)) for where, r, theta, _ in lines], words)
+    least, elsewhere = min((min(line[1:3]), line[0]) for line in lines)
+    words += f" ({place}); least of {len(lines)} runs {shown(least, '.1%')} ({elsewhere})"
+    return Measured([(place, max(r, theta)) for place, r, theta, _ in lines], words)
 
 
 def strange(results: Results) -> Measured:
@@ -223,10 +224,10 @@ def strange(results: Results) -> Measured:
     growth, growth_error, dimension, error = (results.number(name) for name in STRANGE)
     if not all(map(math.isfinite, (growth, growth_error, dimension, error))):
         return Measured()
-    whole = min(abs(dimension - n) for n in (1, 2))
+    distance = min(abs(dimension - n) for n in (1, 2))
     checks = passed(
         ("exponent positive", growth > NOT_IN_DOUBT * growth_error),
-        ("dimension not whole", whole > NOT_IN_DOUBT * error),
+        ("dimension not whole", distance > NOT_IN_DOUBT * error),
     )
     words = f"λ1 = {shown(growth, '.4f')} ± {shown(growth_error, '.4f')} bits a period; "
     return Measured(checks, f"{words}dimension {shown(dimension, '.3f')} ± {shown(error, '.3f')}")
@@ -251,8 +252,10 @@ def grows(row: Row) -> bool:
 def planar(results: Results) -> Measured:
     """Largest lateral distance of any node of runs that were pushed along the waves."""
     rows = [row for row in results.plane if row["status"] == "ok" and row["seed_direction"] == "along"]
-    most = [row["rope_lateral_max_m"] for row in rows if math.isfinite(row["rope_lateral_max_m"])]
-    return Measured([("push along the waves", max(most))], f"{shown(max(most), '.3g')} m") if most else Measured()
+    largest = [row["rope_lateral_max_m"] for row in rows if math.isfinite(row["rope_lateral_max_m"])]
+    return (
+        Measured([("push along the waves", max(largest))], f"{shown(max(largest), '.3g')} m") if largest else Measured()
+    )
 
 
 def small_decays(results: Results) -> Measured:
@@ -267,7 +270,7 @@ def small_decays(results: Results) -> Measured:
 def large_grows(results: Results) -> Measured:
     """At which depths a run of the large wave grows."""
     rows = pushed(results)
-    checks = {where: any(grows(row) for row in rows if at(row) == where) for where in map(at, rows)}
+    checks = {place: any(grows(row) for row in rows if at(row) == place) for place in map(at, rows)}
     bursts = sum(row["rope_motion"] == "bursts" for row in rows)
     words = f"{sum(map(grows, rows))} of {len(rows)} runs grow exponentially; in {bursts} the rope bursts"
     return Measured(passed(*checks.items()), words if rows else "")
@@ -275,21 +278,21 @@ def large_grows(results: Results) -> Measured:
 
 def comparable(results: Results) -> Measured:
     """Largest lateral distance of buoy and rope over half the range of the buoy in the plane."""
-    most = {}
+    largest = {}
     for body in BODIES:
         known = [row for row in pushed(results) if math.isfinite(row[f"{body}_share_of_inplane"])]
         if not known:
             return Measured()
-        most[body] = max(known, key=lambda row: row[f"{body}_share_of_inplane"])
+        largest[body] = max(known, key=lambda row: row[f"{body}_share_of_inplane"])
     words = ", ".join(
         f"{body} {shown(row[f'{body}_share_of_inplane'], '.3%')} ({shown(row[f'{body}_lateral_max_m'], '.2g')} m)"
-        for body, row in most.items()
+        for body, row in largest.items()
     )
-    return Measured([("buoy", most["buoy"]["buoy_share_of_inplane"])], words)
+    return Measured([("buoy", largest["buoy"]["buoy_share_of_inplane"])], words)
 
 
 def spatial(results: Results) -> Measured:
     """Largest lateral distance of the rope, m, at every depth."""
     rows = [row for row in pushed(results) if math.isfinite(row["rope_lateral_max_m"])]
-    most = {where: max(row["rope_lateral_max_m"] for row in rows if at(row) == where) for where in map(at, rows)}
-    return each(most.items(), ".2g")
+    largest = {place: max(row["rope_lateral_max_m"] for row in rows if at(row) == place) for place in map(at, rows)}
+    return each(largest.items(), ".2g")

@@ -30,12 +30,15 @@ def numbers(
 
     def measure(results: Results) -> Measured:
         checks, words = [], []
-        for where, text in of.items():
-            value, asked = (formula(one)(results.numbers) for one in (text, str(printed[where]) if printed else "1"))
-            if math.isfinite(value) and math.isfinite(asked):
-                judged = formula(judge)(results.numbers) if judge else value / asked - 1.0 if printed else value
-                checks.append((where, judged))
-                words.append(f"{where}: {shown(value, form)}" + (f" ({asked:g})" if printed else ""))
+        for place, text in of.items():
+            value, expected = (
+                formula(formula_text)(results.numbers)
+                for formula_text in (text, str(printed[place]) if printed else "1")
+            )
+            if math.isfinite(value) and math.isfinite(expected):
+                judged = formula(judge)(results.numbers) if judge else value / expected - 1.0 if printed else value
+                checks.append((place, judged))
+                words.append(f"{place}: {shown(value, form)}" + (f" ({expected:g})" if printed else ""))
         return Measured(checks, ", ".join(words))
 
     return measure
@@ -50,24 +53,24 @@ def depths(of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Mea
     def measure(results: Results) -> Measured:
         checks, words = [], []
         for row in (results.numbers | row for row in results.over_depth(LARGE)):
-            found = [formula(one)(row) for one in (of, *also)]
-            if math.isfinite(found[0]):
-                checks.append((at(row), formula(judge)(row) if judge else found[0]))
-                words.append(f"{' and '.join(shown(value, form) for value in found)} at {at(row)}")
+            values = [formula(formula_text)(row) for formula_text in (of, *also)]
+            if math.isfinite(values[0]):
+                checks.append((at(row), formula(judge)(row) if judge else values[0]))
+                words.append(f"{' and '.join(shown(value, form) for value in values)} at {at(row)}")
         return Measured(checks, ", ".join(words))
 
     return measure
 
 
-def each(found: Iterable[Check], form: str) -> Measured:
+def each(checks: Iterable[Check], form: str) -> Measured:
     """A check of every number that there is, with its place."""
-    known = [(where, value) for where, value in found if math.isfinite(value)]
-    return Measured(known, ", ".join(f"{shown(value, form)} at {where}" for where, value in known))
+    known = [(place, value) for place, value in checks if math.isfinite(value)]
+    return Measured(known, ", ".join(f"{shown(value, form)} at {place}" for place, value in known))
 
 
 def passed(*checks: tuple[str, bool]) -> list[Check]:
     """Checks that the measure has decided itself, for the rule `met`."""
-    return [(where, float(holds)) for where, holds in checks]
+    return [(place, float(holds)) for place, holds in checks]
 
 
 def value_of(row: Row | None, column: str) -> float:
@@ -100,20 +103,22 @@ def at(row: Row) -> str:
 def everywhere(results: Results, steepness: float) -> list[Place]:
     """The short runs of a wave by depth: as shipped, then with a buoy that loses buoyancy out of the water."""
     shipped = [(at(row), row) for row in results.over_depth(steepness)]
-    others = dict.fromkeys(row["submergence"] for row in results.dependence)
-    found = [(under, row) for under in [*others][1:] for row in results.over_depth(steepness, submergence=under)]
-    return shipped + [(f"{at(row)} with {under}", row) for under, row in found]
+    submergences = dict.fromkeys(row["submergence"] for row in results.dependence)
+    rows_found = [
+        (under, row) for under in [*submergences][1:] for row in results.over_depth(steepness, submergence=under)
+    ]
+    return shipped + [(f"{at(row)} with {under}", row) for under, row in rows_found]
 
 
 def regimes(rows: Iterable[Place], is_so: Callable[[str], bool]) -> list[Check]:
     """A check of every row that has a verdict: whether its regime is so."""
-    decided = ((where, row["regime"]) for where, row in rows if row["regime"] not in UNDECIDED)
-    return passed(*((where, is_so(regime)) for where, regime in decided))
+    decided = ((place, row["regime"]) for place, row in rows if row["regime"] not in UNDECIDED)
+    return passed(*((place, is_so(regime)) for place, regime in decided))
 
 
 def by_regime(rows: Iterable[Place]) -> str:
     """Regimes of the runs, each with the places that have it."""
     places: dict[str, list[str]] = {}
-    for where, row in rows:
-        places.setdefault(row["regime"] or "no verdict", []).append(where)
-    return "; ".join(f"{regime} at {grouped(some)}" for regime, some in places.items()) or "none"
+    for place, row in rows:
+        places.setdefault(row["regime"] or "no verdict", []).append(place)
+    return "; ".join(f"{regime} at {grouped(places_of)}" for regime, places_of in places.items()) or "none"

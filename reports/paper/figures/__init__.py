@@ -37,13 +37,13 @@ PREFACE = (
 
 def figures_of(root: str | Path, kind: str = "svg") -> dict[int, Figure]:
     """The figures that can be drawn from the files in a campaign's folder, by their number in the paper."""
-    found = {}
+    figures = {}
     for number in NUMBERS:
         try:
-            found[number] = draw(number, _place(root, number, "nc").read_bytes(), kind)
+            figures[number] = draw(number, _place(root, number, "nc").read_bytes(), kind)
         except (OSError, ValueError, AttributeError, KeyError):  # no file, or not the data of this figure
             continue
-    return found
+    return figures
 
 
 def left_out(root: str | Path) -> dict[int, str]:
@@ -60,7 +60,11 @@ def left_out(root: str | Path) -> dict[int, str]:
 def pictures(root: str | Path) -> dict[Path, bytes]:
     """The drawings to keep beside the data."""
     drawn = {kind: figures_of(root, kind) for kind in ("svg", "png")}
-    return {_place(root, n, kind): one.picture.data for kind, found in drawn.items() for n, one in found.items()}
+    return {
+        _place(root, n, kind): drawing.picture.data
+        for kind, drawings in drawn.items()
+        for n, drawing in drawings.items()
+    }
 
 
 def _place(root: str | Path, number: int, kind: str) -> Path:

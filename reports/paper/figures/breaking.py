@@ -29,10 +29,10 @@ def breaking(data: xarray.Dataset, kind: str) -> Figure:
     for case in cases:
         curves = (data[f"case_{case}_{name}"].values for name in drawn)
         panels.append(LinePanel(case, value(data, f"case_{case}_force_N"), *curves))
-    what, fracture = QUANTITIES[column][0], number(1e3 * value(data, f"case_{cases[0]}_fracture_s"))
+    quantity, fracture = QUANTITIES[column][0], number(1e3 * value(data, f"case_{cases[0]}_fracture_s"))
     caption = (
-        f"{what} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {SCALED[column]}. Titles: the static "
-        f"force {F_HS}. Seen: {seen(panels, column)}. {behind(data)}"
+        f"{quantity} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {SCALED[column]}. "
+        f"Titles: the static force {F_HS}. Seen: {seen(panels, column)}. {behind(data)}"
     )
-    alt = f"Four panels, {what}, fracture in {fracture} ms, a curve every 10 ms, from {seen(panels, column)}."
+    alt = f"Four panels, {quantity}, fracture in {fracture} ms, a curve every 10 ms, from {seen(panels, column)}."
     return Figure(line_panels(panels, column, kind), caption, alt)

@@ -68,16 +68,16 @@ def history(data: xarray.Dataset, kind: str) -> Figure:
 def _side(data: xarray.Dataset) -> Side:
     if "tension_N" in data:
         static = value(data, "static_tension_N")
-        what = f"tension at the top end over the static one ({T_S} = {number(static)} N)"
+        label = f"tension at the top end over the static one ({T_S} = {number(static)} N)"
         levels, band = ((1.0, "static"), (0.0, "no tension")), ("tension_low_over_static", "tension_high_over_static")
-        return Side(what, "tension_over_static", r"$T/T_s$ (–)", r"$T$ (kN)", 1e-3 * static, levels, band)
+        return Side(label, "tension_over_static", r"$T/T_s$ (–)", r"$T$ (kN)", 1e-3 * static, levels, band)
     if "radius_m" in data:
         static, length = value(data, "static_radius_m"), value(data, "unstretched_m")
-        what = f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
+        label = f"radius over the static one (r₀ = {L_0} + Δl = {decimals(static, 3)} m)"
         levels = ((1.0, r"static, $r_0$"), (length / static, r"unstretched, $l_0$"))
-        return Side(what, "radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels)
-    what = "angle from the vertical in rad (static value 0)"
-    return Side(what, "angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
+        return Side(label, "radius_over_static", r"$r/r_0$ (–)", r"$r$ (m)", static, levels)
+    label = "angle from the vertical in rad (static value 0)"
+    return Side(label, "angle_rad", r"$\theta$ (rad)", r"$\theta$ (°)", 180.0 / np.pi, ((0.0, "static"),))
 
 
 def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
@@ -95,9 +95,11 @@ def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
         for (level, name), look in zip(side.levels, ((VERMILION, "--"), (GREEN, "-.")), strict=False):
             if y.min() - room <= level <= y.max() + room:
                 lines.append(Curve(x[[0, -1]], np.full(2, level), name, look[1], colour=look[0]))
-        beside = {"right": (side.factor, side.other), **top}
+        right_axis = {"right": (side.factor, side.other), **top}
         settings = {"xlim": (x[0], x[-1])}
-        rows.append([Panel(lines, x_label, side.label, settings=settings, marks=[] if rows else starts, beside=beside)])
+        rows.append(
+            [Panel(lines, x_label, side.label, settings=settings, marks=[] if rows else starts, beside=right_axis)]
+        )
     return rows
 
 

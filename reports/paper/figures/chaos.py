@@ -36,15 +36,15 @@ WAVES, BODIES = ("small", "large"), ("buoy", "rope")
 
 def running_exponents(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
-    labels = dict(zip(_STYLES, (one.label for one in sources_of(data)), strict=True))
+    labels = dict(zip(_STYLES, (source.label for source in sources_of(data)), strict=True))
     ends = []
     for name, label in labels.items():
-        found = [
+        panels = [
             f"{decimals(value(data, f'{name}_{method}_value'), 3)} ± "
             f"{number(value(data, f'{name}_{method}_error'), 2)} ({words})"
             for method, (words, *_) in _METHODS.items()
         ]
-        ends.append(f"{label}: {' and '.join(found)}")
+        ends.append(f"{label}: {' and '.join(panels)}")
     length = float(data["large_tangent_periods"].values[-1])
     caption = (
         f"maximum Lyapunov exponent of eq. (32), in bits per wave period, against the length of the record of r(t), "
@@ -60,19 +60,19 @@ def running_exponents(data: xarray.Dataset, kind: str) -> Figure:
 
 def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     longest, first = float(data["large_tangent_periods"].values[-1]), value(data, "linear_periods")
-    whole = []
+    full_curves = []
     for name, label in labels.items():
         colour, dashes = _STYLES[name]
         for method, (words, width, strength) in _METHODS.items():
-            x, bits = (data[f"{name}_{method}_{what}"].values for what in ("periods", "bits"))
+            x, bits = (data[f"{name}_{method}_{array_name}"].values for array_name in ("periods", "bits"))
             look = {"line": dashes, "colour": colour, "width": width, "alpha": strength}
-            whole.append(Curve(x, bits, f"{label}, {words}", **look))
-    early = [replace(one, x=one.x[one.x <= first], y=one.y[one.x <= first]) for one in whole]
-    limits = {"ylim": settled([one.y for one in early]), "xmargin": 0.01}
-    along, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
-    panels = [Panel(early, along, sigma, level=0.0, settings=limits)]
+            full_curves.append(Curve(x, bits, f"{label}, {words}", **look))
+    early = [replace(curve, x=curve.x[curve.x <= first], y=curve.y[curve.x <= first]) for curve in full_curves]
+    limits = {"ylim": settled([curve.y for curve in early]), "xmargin": 0.01}
+    x_label, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
+    panels = [Panel(early, x_label, sigma, level=0.0, settings=limits)]
     if longest > 1.5 * first:
-        later = Panel(whole, along, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
+        later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
         panels = [replace(panels[0], title=f"first {first:.0f} wave periods"), later]
     return panels
 
@@ -101,25 +101,25 @@ def sections(data: xarray.Dataset, kind: str) -> Figure:
 
 def offplane_histories(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
-    labels = dict(zip(WAVES, (one.label.partition(" with")[0] for one in sources_of(data)), strict=True))
+    labels = dict(zip(WAVES, (source.label.partition(" with")[0] for source in sources_of(data)), strict=True))
     bodies = {f"{name}_{body}_m": f"{body} at {label}" for name, label in labels.items() for body in BODIES}
-    most = "; ".join(f"{words} within {number(float(data[name].max()), 2)} m" for name, words in bodies.items())
+    largest = "; ".join(f"{words} within {number(float(data[name].max()), 2)} m" for name, words in bodies.items())
     push = number(value(data, "push_mps"))
     caption = (
         f"motion of the buoy across the plane of the waves after a push of {push} m/s, solid and dashed as in the "
         f"paper, and below, beyond the paper, of the rope (its farthest node). Thick: the largest value in each wave "
-        f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {most}. {behind(data)}"
+        f"period; thin: every sample; dotted: half the range of the buoy in the plane. Seen: {largest}. {behind(data)}"
     )
-    alt = f"Distance from the plane of the waves on a logarithmic axis over time: {most}."
+    alt = f"Distance from the plane of the waves on a logarithmic axis over time: {largest}."
     period_s, static_m = value(data, "wave_period_s"), value(data, "static_radius_m")
     panels = []
     for body, axis in zip(BODIES, ("buoy, $|y|$ (m)", "rope, largest $|y|$ (m)"), strict=True):
         runs = []
         for name, label in labels.items():
             arrays = (f"{body}_m", "periods", f"{body}_envelope_m")
-            size, envelope_periods, envelope = (data[f"{name}_{what}"].values for what in arrays)
+            size, envelope_periods, envelope = (data[f"{name}_{array_name}"].values for array_name in arrays)
             periods, inplane_m = data[f"{name}_time_s"].values / period_s, value(data, f"{name}_inplane_m")
             runs.append(History(label, periods, size, envelope_periods, envelope, inplane_m))
         panels.append((axis, runs))
-    beside = {"right": (1.0 / static_m, r"$|y|/r_0$ (–)")}
-    return Figure(lateral_histories(panels, kind, beside=beside), caption, alt)
+    right_axis = {"right": (1.0 / static_m, r"$|y|/r_0$ (–)")}
+    return Figure(lateral_histories(panels, kind, beside=right_axis), caption, alt)

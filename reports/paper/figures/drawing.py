@@ -25,8 +25,8 @@ def value(data: xarray.Dataset, name: str) -> float:
 def spans(data: xarray.Dataset, names: dict[str, str], places: int = 2) -> str:
     """ "x from 0.10 to 0.90; y from ..." of arrays by their name in words."""
     ends = ((words, data[name].values) for name, words in names.items())
-    said = (f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}" for words, x in ends)
-    return "; ".join(said)
+    sentences = (f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}" for words, x in ends)
+    return "; ".join(sentences)
 
 
 def sources_of(data: xarray.Dataset) -> list[SimpleNamespace]:
@@ -34,7 +34,7 @@ def sources_of(data: xarray.Dataset) -> list[SimpleNamespace]:
 
     Each has its label there, its file and sha256, the key of its run, its settings (TOML or JSON), and its run_s.
     """
-    return [SimpleNamespace(**one) for one in json.loads(data.attrs["sources"])]
+    return [SimpleNamespace(**source) for source in json.loads(data.attrs["sources"])]
 
 
 def behind(data: xarray.Dataset) -> str:
@@ -42,15 +42,15 @@ def behind(data: xarray.Dataset) -> str:
     sources = sources_of(data)
     seconds = number(float(data.attrs["run_seconds"]), 3)
     runs = "" if len(sources) == 1 else f" ({len(sources)} runs)"
-    settings = "; ".join(dict.fromkeys(words for one in sources if (words := _settings(one))))
+    settings = "; ".join(dict.fromkeys(words for source in sources if (words := _settings(source))))
     return f"{settings}. Run time {seconds} s{runs}."
 
 
-def _settings(one) -> str:
+def _settings(source) -> str:
     from engine.scene import SceneError, scene_from_toml
 
     try:
-        scene = scene_from_toml(one.settings)
+        scene = scene_from_toml(source.settings)
     except SceneError:
         return ""  # eq. (33) has no scene; its numbers are in the figure's own arrays
     tether, solver = scene.tether, scene.solver
