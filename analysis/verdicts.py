@@ -7,9 +7,9 @@
                       and by one in each half; K of the 0-1 test > 0.9; the motion forgets where it was (`memory`); the
                       gain of nonlinear over linear prediction is above 95 % of IAAFT and of noisy-periodic surrogates,
                       and 0.2 nats above their median; and neighbours on the section part. Where the section has bands
-                      that are visited in turn, these are tests of the motion within them. An exponent that is given
-                      takes the place of the map's where it is that of the tangent dynamics, and else stands beside it:
-                      two errors are asked
+                      that are visited in turn, these are tests of the motion within them, and 0.5 nats are asked. An
+                      exponent that is given takes the place of the map's where it is that of the tangent dynamics, and
+                      else stands beside it: two errors are asked
     quasi-periodic    otherwise: neighbours on the section stay neighbours, a spectral line is incommensurate with the
                       forcing, the motion does not forget, no exponent that is given is positive, and that of
                       the section's map is not below -1, which is that of noise about points
