@@ -4,11 +4,12 @@
                       of its steps gives the multiplier of the slowest mode
     transient         otherwise: spread or mean of the section change steadily, or neighbours close in: still on its way
     chaotic           otherwise, of 200 periods or more: the exponent of the section's map is above 0 by three errors,
-                      and by one in each half; K of the 0-1 test > 0.9 (in each band, where the section has bands
-                      visited in turn); the motion forgets where it was (`memory`); the gain of nonlinear over linear
-                      prediction is above 95 % of IAAFT and of noisy-periodic surrogates, and 0.2 nats above their
-                      median; and neighbours on the section part. An exponent that is given takes the place of the
-                      map's where it is that of the tangent dynamics, and else stands beside it: two errors are asked
+                      and by one in each half; K of the 0-1 test > 0.9; the motion forgets where it was (`memory`); the
+                      gain of nonlinear over linear prediction is above 95 % of IAAFT and of noisy-periodic surrogates,
+                      and 0.2 nats above their median; and neighbours on the section part. Where the section has bands
+                      that are visited in turn, these are tests of the motion within them, and 0.5 nats are asked. An
+                      exponent that is given takes the place of the map's where it is that of the tangent dynamics, and
+                      else stands beside it: two errors are asked
     quasi-periodic    otherwise: neighbours on the section stay neighbours, a spectral line is incommensurate with the
                       forcing, the motion does not forget, no exponent that is given is positive, and that of
                       the section's map is not below -1, which is that of noise about points
@@ -37,6 +38,7 @@ from analysis.evidence import (
     wandering_evidence,
 )
 from analysis.exponents import BITS_PER_PERIOD, Exponent
+from analysis.memory import bands_in_turn
 from analysis.periods import detect_period
 from analysis.poincare import poincare_section, section_at_phases
 from analysis.sampling import checked_columns, checked_count, checked_series
@@ -45,7 +47,7 @@ LEAST_POINTS = 40
 LEAST_CHAOTIC = 200
 # Above it, an exponent is not that of a torus [bits per period].
 ABOUT_ZERO = 0.02
-FLAT = -1.0  # below it, the map has no slope: noise about points, not along a curve
+FLAT = -1.0  # bits a round of the bands: below it, the map has no slope: noise about points, not along a curve
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +137,7 @@ def regime(
     else:
         given, own = exponents_evidence(section, tangent, wolf)
         more = wandering_evidence(section, given + own, max_period, surrogates, seed)
-        word, reason = _without_period(points, given, own, *more)
+        word, reason = _without_period(section, given, own, *more)
         evidence += given + own + more
     evidence.append(tighter_evidence(tighter, word))
     word, reason = _contradicted(word, reason, evidence[-1], tangent)
@@ -143,7 +145,7 @@ def regime(
     return Verdict(word, reason, tuple(evidence), period, points, seed)
 
 
-def _without_period(points, given, own, drift, growth, line, irregular, memory, *nulls):
+def _without_period(section, given, own, drift, growth, line, irregular, memory, *nulls):
     """Word and reason for a motion that does not repeat, from its exponents (given; of its section) and its
     `wandering_evidence`."""
     if drift.passed:
@@ -153,12 +155,13 @@ def _without_period(points, given, own, drift, growth, line, irregular, memory, 
     lacking = failed or [item.name for item in needed if item.passed is None]
     if not growth.value > growth.threshold:
         lacking.append("neighbours that part")
-    if points < LEAST_CHAOTIC:
+    if len(section) < LEAST_CHAOTIC:
         lacking.append(f"{LEAST_CHAOTIC} points")
     if not lacking:
         return "chaotic", "exponent, 0-1 test, memory and both nulls agree"
     # The map fitted to a wrinkled torus is too rough for an exponent of 0, but not for that of noise about points.
-    part, flat = any(one.value - 2.0 * one.error > ABOUT_ZERO for one in given), any(one.value < FLAT for one in own)
+    part = any(one.value - 2.0 * one.error > ABOUT_ZERO for one in given)
+    flat = any(bands_in_turn(section) * one.value < FLAT for one in own)
     if growth.passed and line.passed and not (irregular.passed or memory.passed or part or flat):
         reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
         return "quasi-periodic", reason

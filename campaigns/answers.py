@@ -45,6 +45,17 @@ def spans(chosen: Sequence[bool], values: Sequence[float]) -> str:
     return listed(f"{one[0]:.4g} to {one[-1]:.4g}" if len(one) > 1 else f"{one[0]:.4g}" for one in groups)
 
 
+def of_kicks(row: Row) -> str:
+    """ "7 of 8": how many kicks end in the motion of a row; empty where none were drawn."""
+    kicks = known(row, "kicks")
+    return f"{kicks * known(row, 'share'):.0f} of {kicks:.0f}" if math.isfinite(kicks) else ""
+
+
+def between(row: Row) -> str:
+    """ "0.53 to 0.98": the interval of a share."""
+    return f"{known(row, 'share_low'):.2f} to {known(row, 'share_high'):.2f}"
+
+
 def kilonewton(force_N: float) -> str:
     """ "9.45 kN"."""
     return f"{force_N / 1e3:.3g} kN"

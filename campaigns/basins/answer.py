@@ -54,11 +54,7 @@ def _pull(one: Row) -> str:
 
 
 def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
-    ends = listed(
-        f"{100 * known(one, 'share'):.0f} % end in {one['motion']} "
-        f"({100 * known(one, 'share_low'):.0f} to {100 * known(one, 'share_high'):.0f})"
-        for one in motions
-    )
+    ends = listed(f"{sum(row['motion'] == one['motion'] for row in rows)} end in {one['motion']}" for one in motions)
     unsettled = sum(row.get("outcome") == UNSETTLED for row in rows)
     failed = sum(row["status"] != "ok" for row in rows)
     left = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from statistics import median
 
-from campaigns.answers import OPEN_WORDS, Row, greatest, kilonewton, known, regimes, spans
+from campaigns.answers import OPEN_WORDS, Row, between, greatest, kilonewton, known, of_kicks, regimes, spans
 from campaigns.machinery.session import MOST_LINES
 from campaigns.motions.along import from_rest
 from campaigns.statements import listed
@@ -82,11 +82,8 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) 
     said = f"One wave has several motions at {symbol} = {spans([value in several for value in values], values)}"
     if worst is not usual:
         rest = "the one from rest" if from_rest(usual) else f"motion {usual['motion']}"
-        share = (
-            f", and {100 * known(worst, 'share'):.0f} % of the kicks end in it"
-            if math.isfinite(known(worst, "share"))
-            else ""
-        )
+        counted = of_kicks(worst)
+        share = f", and {counted} kicks end in it (95 % interval of the share: {between(worst)})" if counted else ""
         said += (
             f"; at {symbol} = {known(worst, key):.4g} motion {worst['motion']} pulls {kilonewton(known(worst, PEAK))}, "
             f"{rest} {kilonewton(known(usual, PEAK))}{share}"

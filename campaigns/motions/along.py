@@ -2,7 +2,8 @@
 
 1. The run from rest of each value is a motion. 2. Starts on the motions of a massless tether, at each value, find
 others, islands among them. 3. Every motion is carried to all neighbours: their scenes take its state up. 4. Kicks at
-each value: the share of them that ends in a motion is the size of its basin. What they find is carried on too.
+each value, drawn independently and uniformly: the share of them that ends in a motion estimates the size of its basin.
+What they find is carried on too.
 Two motions at neighbouring values are one branch where each, carried to the other, becomes the other.
 """
 
@@ -20,8 +21,9 @@ MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the sa
 MOTIONS = (
     MOTION,
     Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
-    Column("share_low", "", "share ≥", "lower end of the 95 % interval of the share (Wilson)", 2),
-    Column("share_high", "", "share ≤", "upper end of the 95 % interval of the share (Wilson)", 2),
+    Column("share_low", "", "share ≥", "lower end of its 95 % interval (Wilson), for kicks drawn independently", 2),
+    Column("share_high", "", "share ≤", "upper end of its 95 % interval (Wilson), for kicks drawn independently", 2),
+    Column("kicks", "", "kicks", "kicks at this value, of which the share is", 0),
     FOUND_BY,
     Column(
         "confirmed",
@@ -66,10 +68,10 @@ class Lattice:
     """The motions of many scenes, by number of the place: a place has others beside it, whose scenes differ little.
 
     keys: columns that name a place. like: a motion leads without a run to one beside it of its period that is nearer
-    than this (`analysis.distance`). rest_counts: whether the start from rest is one of those that make a share.
+    than this (`analysis.distance`).
     """
 
-    like, rest_counts = 0.0, False
+    like = 0.0
 
     def __init__(self, plan: Plan, keys: tuple[Column, ...]):
         self.plan, self.keys = plan, keys
@@ -93,7 +95,7 @@ class Lattice:
             run = run_of(self.plan.how.out, by_key[job.key]) if job.key in by_key else None
             if run is not None:
                 settled = settled_of(run) or as_it_is(run)
-                self.motions[at].append(Motion(at, settled, run.final_state, FROM_REST, int(self.rest_counts)))
+                self.motions[at].append(Motion(at, settled, run.final_state, FROM_REST))
         return range(before, len(self.scenes))
 
     def find(self, kick_count: int, speed_mps: float, seed: int, places: range | None = None) -> None:
@@ -105,15 +107,9 @@ class Lattice:
             [(at, self.fine(at, one)) for at, some in proposed for one in some],
         )
         self.carry()
-        self.kicked = kick_count + self.rest_counts
+        self.kicked = kick_count
         if kick_count:
-            points = kicks(kick_count * len(places), speed_mps, seed, kick_count * places.start)
-            points = points.reshape(len(places), kick_count, 2)
-            asked = [
-                (at, Start(KICKED, tuple(map(float, kick))))
-                for at, some in zip(places, points, strict=True)
-                for kick in some
-            ]
+            asked = [(at, Start(KICKED, kick)) for at in places for kick in kicks(kick_count, speed_mps, seed, at)]
             ended = self.round("kicks", asked)
             for motion in filter(None, ended):
                 motion.kicks += 1
@@ -261,7 +257,7 @@ class Lattice:
             from analysis import share_of
 
             share = share_of(motion.kicks, self.kicked)
-            found |= {"share": share.share, "share_low": share.low, "share_high": share.high}
+            found |= {"share": share.share, "share_low": share.low, "share_high": share.high, "kicks": self.kicked}
         return found | {"confirmed": motion.branch.confirmed or None}
 
 

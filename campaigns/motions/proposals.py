@@ -18,12 +18,14 @@ from engine.scales import tension_at
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
 
 
-def kicks(count: int, speed_mps: float, seed: int, skipped: int = 0) -> np.ndarray:
-    """(count, 2) velocities (m/s) on the square of half width speed_mps: points of a scrambled Halton sequence."""
-    from scipy.stats import qmc
+def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple[float, float]]:
+    """Velocities (m/s) drawn independently and uniformly from the square of half width speed_mps, for a place.
 
-    points = qmc.Halton(2, seed=seed).random(skipped + count)[skipped:]
-    return speed_mps * (2.0 * points - 1.0)
+    The interval of a share (`analysis.share_of`) needs independent draws. Eight points of a Halton sequence are a
+    lattice of one spacing, which may fall into step with the basins.
+    """
+    drawn = np.random.default_rng([seed, place]).uniform(-speed_mps, speed_mps, (count, 2))
+    return [tuple(kick) for kick in drawn.tolist()]
 
 
 def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[dict]]:
@@ -39,8 +41,11 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     known = kept_json(path)
     missing = [(key, scene) for key, scene in zip(keys, scenes, strict=True) if key not in known]
     if missing:
+        from scipy.stats import qmc
+
         count = len(missing)
-        kicked = np.vstack([kicks(SCREENED, speed_mps, seed), np.zeros(2)])
+        spread = speed_mps * (2.0 * qmc.Halton(2, seed=seed).random(SCREENED) - 1.0)
+        kicked = np.vstack([spread, np.zeros(2)])
         done = 0
         with (
             opened(plan.how.backend, min(plan.how.jobs, count), plan.how.dask_address) as execute,

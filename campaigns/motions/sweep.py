@@ -29,7 +29,7 @@ def add_options(group) -> None:
     cli.add(group, "--starts", "rest|N", usual, allowed)
     speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
     cli.add(group, "--kick-speed", "MPS", "kicks are velocities of up to this along x and z, m/s", speed, SPEED_MPS)
-    cli.add(group, "--seed", "N", "of the kicks, points of a scrambled Halton sequence", cli.whole(0, 2**32 - 1), 1)
+    cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
     file = "run from the final state of this run (a file of trajectories/) instead of from rest"
     cli.add(group, "--start-from", "FILE", file, cli.Kind(str, "a file of a run"))
 

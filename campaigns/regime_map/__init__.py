@@ -38,7 +38,7 @@ def options(group) -> None:
     cli.add(group, "--starts", "N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
     speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
     cli.add(group, "--kick-speed", "MPS", "kicks are up to this along x and z, m/s", speed, motions.SPEED_MPS)
-    cli.add(group, "--seed", "N", "of the kicks, points of a scrambled Halton sequence", cli.whole(0, 2**32 - 1), 1)
+    cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
     cli.add(group, "--refine", "N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
     most = SWEEP.lengths.budget
     cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", cli.whole(1, most), most)

@@ -3,10 +3,10 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
-from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known
+from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known, of_kicks
 from campaigns.buoy_sweep.answer import reasons, use_of
 from campaigns.columns import Column
-from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, SHARE, TENSION
+from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, TENSION
 from campaigns.statements import listed
 
 
@@ -38,8 +38,9 @@ def sentences(
     if len(chaotic) > words[CHAOTIC]:
         yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
     if (peak := greatest(cells, TENSION.name)) is not None:
-        share = known(peak, SHARE.name)
-        ends = "" if share != share else f"; {100 * share:.0f} % of the starts there end in it"
+        there = [one for one in motions if _place(one, keys) == _place(peak, keys)]
+        counted = of_kicks(greatest(there, TENSION.name) or {})
+        ends = f"; {counted} kicks there end in it" if counted else ""
         pulls = f"{kilonewton(known(peak, TENSION.name))}, {known(peak, RATIO.name):.3g} times that at rest"
         yield f"Largest tension {pulls}, at {_at(peak, keys)}{ends}."
         yield from _use([one for one in motions if known(one, TENSION.name) > 0.0], keys, scene)

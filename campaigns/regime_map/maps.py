@@ -67,7 +67,7 @@ def job_at(order: Order, grid: Grid, cell: Cell) -> Job | None:
 class Map(Lattice):
     """The motions of the cells of a map, by number."""
 
-    like, rest_counts = 0.2, True
+    like = 0.2
 
     def __init__(self, plan: Plan, order: Order, grid: Grid, coarse: list[Job]):
         super().__init__(replace(plan, heard=self._hear, then=self._left), grid.columns)

@@ -23,7 +23,7 @@ STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of 
 COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)
-SHARE = Column("share_of_largest", "", "share", "share of the starts that end in the motion of the largest tension", 2)
+SHARE = Column("share_of_largest", "", "share", "share of the kicks that end in the motion of the largest tension", 2)
 SOURCE = Column("source", symbol="source", meaning="computed, failed, or only screened: with a massless tether")
 OF_REST = Column("regime_rest", symbol="regime", meaning="regime of the motion to which rest leads")
 OF_A_CELL = (

@@ -165,9 +165,10 @@ def judged(x: np.ndarray, view: Seen, tolerance: float, seed: int) -> Verdict:
 
 
 def _at_even_times(view):
-    """Height of the last maximum (m, 1), seen once a mean time between maxima."""
+    """Height of the last maximum (m, 1), seen once a mean time between maxima, halfway where these come evenly."""
     time, height = view.time[-MOST_POINTS:], view.points[-MOST_POINTS:]
-    return height[np.searchsorted(time, np.arange(time[0], time[-1], view.period), side="right") - 1]
+    looks = np.arange(time[0] + 0.5 * view.period, time[-1], view.period)
+    return height[np.searchsorted(time, looks, side="right") - 1]
 
 
 def _with(verdict, tests, but):

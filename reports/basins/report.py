@@ -15,7 +15,7 @@ from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.style import BLUE, INK
-from ..parts.wording import count, listed, number
+from ..parts.wording import count, listed, number, of_kicks
 from ..sweep.quantities import colours_of, further
 
 _AXES = {
@@ -29,6 +29,10 @@ _MOTIONS = (
     "motion", "regime", "share", "share_low", "share_high", "radius_min_m", "radius_max_m", "tension_top_max_N",
     ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "found_by",
 )  # fmt: skip
+_JUDGED = (
+    "One judged run a motion. Share: of the starts of the grid. They are no independent draws: the interval is "
+    "too wide where the basins are wider than the steps of the grid."
+)
 _PERIODS = 8  # of a motion without a period, drawn
 _FAILED = "failed"
 
@@ -94,12 +98,8 @@ def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> It
 
 def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
     yield Heading("Motions")
-    yield table_of(
-        part.columns,
-        (*_MOTIONS, *further(part.columns)),
-        motions,
-        "One judged run a motion; shares are of the starts of the grid.",
-    )
+    shown = (*_MOTIONS, *further(part.columns))
+    yield table_of(part.columns, shown, motions, _JUDGED, {"share": of_kicks})
     for row in motions:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")

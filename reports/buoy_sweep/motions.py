@@ -10,7 +10,7 @@ from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
 from ..parts.content import Item, Table, heads
 from ..parts.style import SOFT
-from ..parts.wording import EMPTY, decimals, listed, number, ranges
+from ..parts.wording import EMPTY, decimals, listed, number, of_kicks, ranges
 from ..sweep.motions import ends_of
 from .runs import Run, Sweep
 
@@ -80,9 +80,9 @@ def motions_items(sweep: Sweep) -> list[Item]:
         cells = letter, ranges(sweep.values, [kA in at for kA in sweep.values]), _words(good)
         pulls = number(peak[PEAK] / 1e3, 3), number(peak.steepness)
         rows.append((*cells, *pulls, _span(good), *(_said(good, name) for name in told)))
-    titles = "motion", "kA", "regime", ("largest T", "kN"), ("at kA =", ""), ("share", "%")
+    titles = "motion", "kA", "regime", ("largest T", "kN"), ("at kA =", ""), ("kicks", "")
     columns = heads(*titles, *(name.replace("_", " ") for name in told))
-    caption = "The motions. Share: of the fresh starts at a value."
+    caption = "The motions. Kicks: fewest and most at a value that end in the motion, of all kicks there."
     return [Table(columns, tuple(rows), caption, small=True)] if rows else []
 
 
@@ -101,7 +101,7 @@ def _words(runs: Sequence[Run]) -> str:
 
 
 def _span(runs: Sequence[Run]) -> str:
-    """ "25 to 50": least and greatest share of starts, in percent."""
-    shares = [run["share"] for run in runs if run.known("share")]
-    said = dict.fromkeys(number(100.0 * share, 2) for share in (min(shares), max(shares))) if shares else ()
-    return " to ".join(said) or EMPTY
+    """ "2 of 8 to 4 of 8": fewest and most kicks at a value that end in the motion."""
+    kicked = sorted((run for run in runs if run.known("share")), key=lambda run: run["share"])
+    ends = dict.fromkeys(of_kicks(run.row) for run in (kicked[0], kicked[-1])) if kicked else ()
+    return " to ".join(ends) or EMPTY

@@ -7,7 +7,19 @@ import numpy as np
 from ..parts.columns import Name, plus_minus, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
-from ..parts.wording import EMPTY, OMEGA_I, OMEGA_R, OMEGA_THETA, T_S, decimals, listed, number, percent, ranges
+from ..parts.wording import (
+    EMPTY,
+    OMEGA_I,
+    OMEGA_R,
+    OMEGA_THETA,
+    T_S,
+    decimals,
+    listed,
+    number,
+    of_kicks,
+    percent,
+    ranges,
+)
 from ..sweep.quantities import further, over_key, series
 from .runs import Run, Sweep
 
@@ -44,6 +56,7 @@ def sweep_table(sweep: Sweep, names: tuple[Name, ...], runs: tuple[Run, ...], ca
     rows = [{**run.row, "run": run} for run in runs]
     own = {
         "steepness": lambda row: link(number(row["steepness"]), row["run"].anchor),
+        "share": of_kicks,
         "strobed_period": lambda row: EMPTY if row["run"].period is None else str(row["run"].period or "none"),
     }
     return table_of(columns, names, rows, caption, own)

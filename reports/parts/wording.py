@@ -2,13 +2,19 @@
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from operator import itemgetter
 
 from .content import sub
 
 EMPTY = "–"
+
+
+def of_kicks(row: Mapping[str, object]) -> str:
+    """ "7 of 8": how many kicks end in the motion of a row; its share where their number is not known."""
+    share, kicks = row.get("share", math.nan), row.get("kicks", math.nan)
+    return f"{share * kicks:.0f} of {kicks:.0f}" if math.isfinite(share * kicks) else number(share, 2)
 
 
 def number(value: float | None, digits: int = 4) -> str:

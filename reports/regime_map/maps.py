@@ -194,7 +194,7 @@ def numbers(atlas: Atlas) -> list[list[Map]]:
     told = (
         ("motions", "number of motions", even, BoundaryNorm(np.arange(most + 1) + 0.5, 256), range(1, most + 1)),
         (PULL, "largest tension over static", even, Normalize(least, largest), None),
-        ("share_of_largest", "share of starts that end in that motion", even, Normalize(0.0, 1.0), None),
+        ("share_of_largest", "share of kicks that end in that motion", even, Normalize(0.0, 1.0), None),
         (_EXPONENT, f"largest exponent ({unit or '–'})", signed, CenteredNorm(0.0, growth or 1.0), None),
     )
     return [[_shaded(page, *one) for one in told] for page in atlas.pages]

@@ -59,9 +59,9 @@ _REGIMES = (
     "`cells/table.csv`."
 )
 _OTHERS = (
-    "The same map: number of motions; largest tension of all of them; share of the starts (from rest and kicks) "
-    "that end in the motion of that tension, 0 where only states of neighbours lead to it; largest exponent of all of "
-    "them, white where none is known. Lines: borders between regimes of the motion from rest, as above."
+    "The same map: number of motions; largest tension of all of them; share of the kicks "
+    "that end in the motion of that tension, 0 where only rest or states of neighbours lead to it; largest exponent of "
+    "all of them, white where none is known. Lines: borders between regimes of the motion from rest, as above."
 )
 
 

@@ -14,7 +14,7 @@ _OUTCOMES = "settled", "joined", "unsettled"  # of a start
 _TOLD = (
     "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "
     "ends when it has settled, or when it has joined a motion that is known at that value; unsettled ones belong to no "
-    "motion. A share is that of the fresh starts, not of those carried over."
+    "motion. A share is that of the kicks, not of the other starts."
 )
 _ENDS = (
     "Ends of the ranges of motions, found by bisection: the last value with the motion, the first one without it, and "

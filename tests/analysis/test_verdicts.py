@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from analysis import evidence_text, read_evidence, regime
 from analysis.exponents import Exponent
@@ -13,6 +14,7 @@ from tests.analysis.systems import circle, circle_map, henon, logistic, nonchaot
 
 K = np.arange(300)
 POSITIVE = (0.6, 0.02)
+FOOLED = (0.5, 0.02)  # by noise: a positive exponent, 25 errors away from 0, for every record
 TORUS = circle_map(0.5, 0.6180339, 200)
 quick = partial(regime, surrogates=19)  # half of those by default, and the least
 
@@ -142,8 +144,33 @@ def test_chaos_in_two_bands_is_seen_in_each_band():
     assert found.passed and "2 bands" in found.sentence
 
 
-# An estimator fooled by noise: a positive exponent, 25 errors away from 0, for every record.
-FOOLED = (0.5, 0.02)
+@pytest.mark.parametrize(("rate", "bands"), [(3.65, 2), (3.585, 4), pytest.param(3.574, 8, marks=pytest.mark.slow)])
+def test_chaos_in_bands_is_chaotic(rate, bands):
+    """Bands of the logistic map merge at the rates 3.5748, 3.5926 and 3.6786: to 4, 2 and 1."""
+    verdict = quick(strobed=logistic(rate, 120 * bands), scale=0.5)
+    assert verdict.regime == "chaotic", verdict.reason
+    assert f"{bands} bands" in verdict.named("0-1 test").sentence
+
+
+BANDS = np.arange(1200) % 4  # visited in turn
+BETWEEN = np.array([0.0, 3.0, 1.0, 5.0])[BANDS]
+DRAWN = np.random.default_rng(5).normal(size=1200)
+NOT_CHAOTIC = {
+    "period 4 in noise": BETWEEN + 0.1 * DRAWN,
+    "period 8 in noise": logistic(3.55, 1200) + 0.003 * DRAWN,
+    "coloured noise on a period 4": BETWEEN + 0.3 * lfilter([1.0], [1.0, -0.5], DRAWN),
+    "torus on four curves": BETWEEN[:, None] + 0.3 * circle(0.1234567 * np.arange(1200)),
+    "the same in noise": BETWEEN[:, None] + 0.3 * circle(0.1234567 * np.arange(1200)) + 0.03 * DRAWN[:, None],
+    "strange nonchaotic on two curves": np.repeat(nonchaotic_map(1.5, 600), 2)[:, None] + 20.0 * (BANDS[:, None] % 2),
+}
+
+
+@pytest.mark.parametrize("name", NOT_CHAOTIC)
+def test_bands_alone_are_not_chaos(name):
+    """In their bands noise has no map, and a torus and what is forced at two rhythms do not forget."""
+    verdict = quick(strobed=NOT_CHAOTIC[name], wolf_exponent=FOOLED)
+    assert verdict.regime in ("undecided", "quasi-periodic"), verdict.reason
+    assert "bands" in verdict.named("0-1 test").sentence and "(1 bands)" not in verdict.named("0-1 test").sentence
 
 
 def test_no_false_alarm():

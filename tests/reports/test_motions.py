@@ -21,7 +21,12 @@ from tests.reports.conftest import points_of, rows_in, write
 from tests.reports.test_words_apart import crowded
 
 WORD, NUMBER = COLUMNS[2], STEEPNESS
-MORE = (replace(WORD, name="motion"), replace(NUMBER, name="share"), replace(WORD, name="found_by"))
+MORE = (
+    replace(WORD, name="motion"),
+    replace(NUMBER, name="share"),
+    replace(NUMBER, name="kicks"),
+    replace(WORD, name="found_by"),
+)
 ENDS = tuple(replace(WORD, name=name) for name in ("motion", "end", "leads_to", "status")) + tuple(
     replace(NUMBER, name=f"steepness_{name}") for name in ("with", "without")
 )
@@ -38,6 +43,7 @@ def several(folder, tmp_path):
         kA = float(row["steepness"])
         row |= {"motion": "" if row["status"] != "ok" else "B" if kA > 0.11 else "A", "found_by": "rest"}
         row["share"] = 0.5 if kA in LARGE else 1.0 if row["motion"] else ""
+        row["kicks"] = 8 if row["motion"] else ""
     large = next(row for row in rows if row["motion"] == "B")
     rows += [{**large, "steepness": kA, "share": share, "found_by": "kick"} for kA, share in LARGE.items()]
     for peak_N, row in zip(range(1000, 9000, 10), sorted(rows, key=lambda row: row["motion"]), strict=False):
@@ -109,7 +115,7 @@ def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     (explorer,) = (item for item in items if isinstance(item, Explorer))
     assert {one.colour for one in explorer.columns} == set(read_sweep(several).colours.values())
     first = next(item for item in items if isinstance(item, Table))
-    assert [row[0] for row in first.rows] == ["A", "B"] and first.rows[1][5:7] == ("25 to 100", "kick and rest")
+    assert [row[0] for row in first.rows] == ["A", "B"] and first.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
     starts = next(item for item in items if isinstance(item, Table) and "Starts at" in item.caption)
     assert starts.rows == (("0.03", "4", "0", "3", "1", "A 2, B 1"),)
 

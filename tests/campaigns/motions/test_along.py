@@ -10,11 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from analysis.motions import Settled, joins
+from analysis.motions import Settled, joins, share_of
 from campaigns.columns import Column
 from campaigns.motions import along as module
 from campaigns.motions import ends
 from campaigns.motions.along import Along
+from campaigns.motions.proposals import kicks
 from campaigns.motions.starts import Ended, Start
 
 FOLD = 2.0 / (3.0 * math.sqrt(3.0))
@@ -98,9 +99,28 @@ def test_both_branches_are_found_wherever_they_are_and_keep_their_letter(found):
         assert all((x < 0) == (letter == "A") for x, letter in states)
 
 
+def test_kicks_are_independent_and_uniform_whatever_the_place():
+    """A count has the variance of independent draws for every pattern of basins, stripes of any step among them."""
+    count, seeds = 8, 400
+    drawn = np.array([kicks(count, 6.0, seed, place) for seed in range(seeds // 4) for place in range(4)])
+    assert np.abs(drawn).max() <= 6.0 and len(np.unique(drawn)) == drawn.size
+    for step in (0.75, 1.5, 3.0, 4.0, 12.0):
+        for axis in (0, 1):
+            counts = np.sum(drawn[:, :, axis] % step < 0.5 * step, axis=1)
+            assert counts.mean() == pytest.approx(4.0, abs=4.0 * np.sqrt(2.0 / seeds))
+            assert counts.var() == pytest.approx(2.0, rel=4.0 * np.sqrt(2.0 / seeds))
+
+
+def test_the_interval_of_a_share_holds_the_size_of_the_basin_in_95_of_100():
+    counts = [sum(x > 0.27 * 12.0 - 6.0 for x, _ in kicks(8, 6.0, seed, 0)) for seed in range(400)]
+    found = [share_of(count, 8) for count in counts]
+    assert np.mean([one.low <= 0.73 <= one.high for one in found]) == pytest.approx(0.95, abs=0.04)
+
+
 def test_shares_count_every_kick(found):
     for motions in found.motions:
         assert sum(found.labels(one)["share"] for one in motions) == pytest.approx(1.0)
+        assert {found.labels(one)["kicks"] for one in motions} == {4}
 
 
 def test_ranges_end_at_the_folds(found):
