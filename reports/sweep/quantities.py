@@ -16,8 +16,8 @@ _CALM = BLUE, GREEN, ORANGE, PURPLE, SKY  # of all motions but that of the large
 # numbers of a run for which the reports on buoys have chosen a place, or none
 PLACED = frozenset(
     """
-    steepness dimensions share share_low share_high periods transient_periods strobed_period radius_min_m radius_max_m
-    angle_min_rad angle_max_rad tension_top_min_N tension_top_max_N tension_top_max_error_N slack_fraction
+    steepness dimensions kicks share share_low share_high periods transient_periods strobed_period radius_min_m
+    radius_max_m angle_min_rad angle_max_rad tension_top_min_N tension_top_max_N tension_top_max_error_N slack_fraction
     compression_fraction lyapunov_wolf_bits_per_period lyapunov_wolf_error lyapunov_tangent_bits_per_period
     lyapunov_tangent_error multiplier_modulus multiplier_angle_rad multiplier_error offplane_growth_bits_per_period
     offplane_growth_error max_buoy_height_above_water_m max_turn_rad min_strain unresolved_ringing_N loop_releases
