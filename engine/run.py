@@ -8,13 +8,14 @@ import numpy as np
 from . import parameters
 from . import record as col
 from .arrays import Motion, Output
+from .excursions import height_at_rest, message_of
 from .final_state import FinalState
 from .going_on import taken_over
 from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
-from .scales import TRANSIT_STEPS, begins_with_a_blow, height_at_rest, ringing_period, tension_at, wave_beyond
+from .scales import TRANSIT_STEPS, begins_with_a_blow, ringing_period, tension_at, wave_beyond
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
@@ -22,7 +23,17 @@ from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
+from .time.status import (
+    ADVICE,
+    IN_THE_AIR,
+    OK,
+    OUT_AT_REST,
+    STATICS_FAILED,
+    TURN_UNRESOLVED,
+    UNRESOLVED,
+    WAVES_ON_ELEMENT,
+    WORDS,
+)
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
@@ -37,7 +48,7 @@ class Run:
     """
 
     def __init__(self, scene: Scene, duration_s: float, start: FinalState | None = None) -> None:
-        self.scene, self.began = scene, ""
+        self.scene, self.began, self.at_rest = scene, "", ""
         if start is not None:
             start, self.began = taken_over(start, scene)
         self.started = start
@@ -81,6 +92,8 @@ class Run:
         place = np.array([target["xyz".index(axis)] for axis in axes])
         state["status"], Y[:] = rest_of(record, scene, self.tables, place)
         self.why_no_rest = why_no_rest
+        if state["status"] == OK:
+            self._judge_rest()
         if state["status"] == OK and any(scene.start.buoy_displacement_m):
             state["status"], Y[:] = held_away(scene, Y, self.s)
             self.why_no_rest = why_not_held
@@ -100,6 +113,16 @@ class Run:
         if blow:  # in far shorter steps than a wave takes through an element its force would be that of the steps
             first_s = max(first_s, record["release_step"] * TRANSIT_STEPS / (4 * (record["nodes"] - 1)))
         state["dt"] = first_s if record["adaptive"] or starter else record["fixed_step"]
+
+    def _judge_rest(self) -> None:
+        """No run starts from a sphere that stands in the air with its whole buoyancy; of one half out it says so."""
+        height_m = height_at_rest(self.scene, np.trapezoid(lift.stretch_vectors(self.motion.Y)[:, -1], self.s))
+        lowest_m = height_m - 0.5 * float(self.record["D_buoy"])
+        if height_m > 0.0:
+            self.at_rest = OUT_AT_REST.format(height=height_m)
+        if lowest_m >= 0.0:
+            self.state["status"] = STATICS_FAILED
+            self.why_no_rest = lambda *_: IN_THE_AIR.format(height=lowest_m)
 
     def _watch(self) -> None:
         """Least strain and largest turn so far, those of the first state; no ringing was missed yet."""
@@ -183,11 +206,12 @@ class Run:
             if self.record["adaptive"]:
                 key = "solver.shortest_period_s or solver.max_step_s"
             message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
-        elif status == OK:
-            message = self._waves_on_element() or self._out_at_rest()
+        if status == OK:
+            message = "; ".join(filter(None, (message, self._waves_on_element(), self.at_rest)))
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
+        message = message_of(message, scene, columns, status != OK)
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
@@ -204,14 +228,6 @@ class Run:
         if force_N <= HEARD * tension_at(1.0 / record["per_strain"], self.scene.tether.tension):
             return ""
         return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
-
-    def _out_at_rest(self) -> str:
-        """Says that a buoy without a cap stands more than half out of still water, or nothing."""
-        record, scene = self.record, self.scene
-        if scene.buoy is None or not record["wet"] or record["spherical_cap"] or scene.current is not None:
-            return ""
-        height_m = height_at_rest(record, scene) - scene.water.depth_m
-        return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
     def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:
@@ -257,7 +273,7 @@ def sample_count(duration_s: float, step_s: float) -> int:
 
 
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
-    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 13) with the columns of `engine.record`.
+    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 14) with the columns of `engine.record`.
 
     The angle from the vertical is taken in the plane of waves that travel along `heading` (rad); `along` is the place,
     `rate` the velocity in the direction of these waves.
@@ -270,6 +286,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     angle = np.unwrap(np.arctan2(along, z))
-    others = (samples[:, at] for at in (col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES))
+    measured = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.LOWEST
+    others = (samples[:, at] for at in measured)
     found = t, x, y, z, r, radius_rate, angle, angle_rate, *others
     return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

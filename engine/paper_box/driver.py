@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ..excursions import height_at_rest, message_of
 from ..physics.sea import direction_of
 from ..record import SAMPLE_WIDTH, STATE
 from ..run import columns_of, heading_of, sample_count, statistics_of
@@ -69,6 +70,10 @@ def run(
     tolerance = scene.solver.newton_tolerance or TOLERANCE
     began = time.perf_counter()
     status, Y = at_rest(scene, line)
+    lowest_m = -math.inf
+    if status == codes.OK:
+        lowest_m = height_at_rest(scene, positions(line, Y)[TO_ENGINE][2, -1]) - 0.5 * float(line.record["D_buoy"])
+        status = codes.STATICS_FAILED if lowest_m >= 0.0 else status
     if status == codes.OK:
         level = level_of(line, 0.0, Y)
         flat = FLAT * float(line.tension(Y[EPS])[1].max())
@@ -88,7 +93,8 @@ def run(
     statistics = statistics_of(state, time.perf_counter() - began) | own
     message = ""
     if status == codes.STATICS_FAILED:
-        message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED] + why_no_rest(line.record, scene)
+        message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED]
+        message += why_no_rest(line.record, scene) if lowest_m < 0.0 else codes.IN_THE_AIR.format(height=lowest_m)
     elif status != codes.OK:
         turn, end = state["max_turn"], (state["steps"] + state["failures"]) * dt
         said = SAID[status].format(turn=turn, gap=record.closure)
@@ -96,6 +102,7 @@ def run(
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
         message = f"paper-box: {said} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
     columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), heading_of(scene))
+    message = message_of(message, scene, columns, status != codes.OK)
     return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
 
 
@@ -132,7 +139,7 @@ class Record:
             low, high = min(state["low"], top[7]), max(state["high"], top[7])
             offplane = np.abs(self.across @ at[:3]).max()
             self.rows.append(
-                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0]
+                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min()]
             )  # as `engine.record` has them
             state["low"] = state["high"] = top[7]
         for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):

@@ -241,14 +241,16 @@ class Waves(Section):
     ramp_s: NonNegative = described("time in which the waves grow, as sin^2; 0: full from t = 0", 0.0)
     phase_rad: Number = described("phase, added to k x - omega t", 0.0)
     direction_rad: Number = described("direction of travel, from +x to +y", 0.0, symbol="a", paper="figure 8")
-    above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
-        "meaning of the linear kinematics above the still water level", "extrapolate"
-    )
     components: WaveComponents | None = described(
         "an irregular sea as a list of waves, each a table of the four keys below", None
     )
     jonswap: Jonswap | None = described(
         "an irregular sea drawn from the JONSWAP spectrum, with its peak at period_s", None
+    )
+    # extrapolated or stretched, the short waves of a sea lift a sphere ever further out of the water
+    above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
+        "meaning of the linear kinematics above still water; by default extrapolate, in an irregular sea zero",
+        default_factory=lambda known: "zero" if known.get("components") or known.get("jonswap") else "extrapolate",
     )
 
     @property

@@ -21,6 +21,10 @@ WAVES_ON_ELEMENT = (
     "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
     "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )
+IN_THE_AIR = (
+    "all of the sphere is loaded as in water, and at rest its lowest point would stand {height:.2g} m above it; raise "
+    "water.depth_m, or let it float: buoy.submergence = 'spherical-cap'"
+)
 OUT_AT_REST = (
     "at rest the centre of the buoy is {height:.2g} m above the water, and all of the sphere is loaded as in water: "
     "buoy.submergence = 'spherical-cap' loads what is below the wave"
