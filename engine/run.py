@@ -8,7 +8,7 @@ import numpy as np
 from . import parameters
 from . import record as col
 from .arrays import Motion, Output
-from .excursions import height_at_rest, message_of
+from .excursions import message_of
 from .final_state import FinalState
 from .going_on import taken_over
 from .perturbations.exponents import Followed
@@ -23,17 +23,7 @@ from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import (
-    ADVICE,
-    IN_THE_AIR,
-    OK,
-    OUT_AT_REST,
-    STATICS_FAILED,
-    TURN_UNRESOLVED,
-    UNRESOLVED,
-    WAVES_ON_ELEMENT,
-    WORDS,
-)
+from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
@@ -48,7 +38,7 @@ class Run:
     """
 
     def __init__(self, scene: Scene, duration_s: float, start: FinalState | None = None) -> None:
-        self.scene, self.began, self.at_rest = scene, "", ""
+        self.scene, self.began = scene, ""
         if start is not None:
             start, self.began = taken_over(start, scene)
         self.started = start
@@ -92,8 +82,6 @@ class Run:
         place = np.array([target["xyz".index(axis)] for axis in axes])
         state["status"], Y[:] = rest_of(record, scene, self.tables, place)
         self.why_no_rest = why_no_rest
-        if state["status"] == OK:
-            self._judge_rest()
         if state["status"] == OK and any(scene.start.buoy_displacement_m):
             state["status"], Y[:] = held_away(scene, Y, self.s)
             self.why_no_rest = why_not_held
@@ -113,16 +101,6 @@ class Run:
         if blow:  # in far shorter steps than a wave takes through an element its force would be that of the steps
             first_s = max(first_s, record["release_step"] * TRANSIT_STEPS / (4 * (record["nodes"] - 1)))
         state["dt"] = first_s if record["adaptive"] or starter else record["fixed_step"]
-
-    def _judge_rest(self) -> None:
-        """No run starts from a sphere that stands in the air with its whole buoyancy; of one half out it says so."""
-        height_m = height_at_rest(self.scene, np.trapezoid(lift.stretch_vectors(self.motion.Y)[:, -1], self.s))
-        lowest_m = height_m - 0.5 * float(self.record["D_buoy"])
-        if height_m > 0.0:
-            self.at_rest = OUT_AT_REST.format(height=height_m)
-        if lowest_m >= 0.0:
-            self.state["status"] = STATICS_FAILED
-            self.why_no_rest = lambda *_: IN_THE_AIR.format(height=lowest_m)
 
     def _watch(self) -> None:
         """Least strain and largest turn so far, those of the first state; no ringing was missed yet."""
@@ -207,11 +185,11 @@ class Run:
                 key = "solver.shortest_period_s or solver.max_step_s"
             message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
         if status == OK:
-            message = "; ".join(filter(None, (message, self._waves_on_element(), self.at_rest)))
+            message = "; ".join(filter(None, (message, self._waves_on_element(), self._out_at_rest())))
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
-        message = message_of(message, scene, columns, status != OK)
+        message = message_of(message, scene, columns, WORDS[status])
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
@@ -228,6 +206,15 @@ class Run:
         if force_N <= HEARD * tension_at(1.0 / record["per_strain"], self.scene.tether.tension):
             return ""
         return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
+
+    def _out_at_rest(self) -> str:
+        """Says that a buoy without a cap began at rest more than half out of still water, or nothing."""
+        record, scene = self.record, self.scene
+        moved = self.started is not None or any(scene.start.buoy_displacement_m)
+        if scene.buoy is None or not record["wet"] or record["spherical_cap"] or moved:
+            return ""
+        height_m = scene.anchor.position_m[2] + self.output.samples[0, col.AT_Z] - scene.water.depth_m
+        return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
     def _budget(self) -> EnergyBudget | None:
         if not self.scene.output.energy:

@@ -14,6 +14,7 @@ import numpy as np
 
 from engine import netcdf, views
 from engine.atomic import write_atomic
+from engine.excursions import message_of, own_words
 from engine.final_state import FinalState, state_of_file
 from engine.scene.load import Scene, SceneError, scene_from_toml
 from engine.trajectory_parts import EnergyBudget, Profiles, TangentGrowth, along_waves, heading_of
@@ -55,7 +56,8 @@ class Trajectory:
     """One run of one scene.
 
     status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
-    message: what its user has to know of it, in words; often empty. columns: every name of COLUMNS -> (n,) array, evenly sampled.
+    message: what its user has to know of it, in words; often empty. columns: every name of COLUMNS -> (n,) array,
+    evenly sampled.
     statistics: counts and times of the work done. profiles, tangent, energy: where the scene asks for them.
     final_state: what `simulate(..., start=)` goes on from; None where the run ended early, or keeps energies.
     began: what was changed where it went on from another run, as "went on at t = 300 s; changed:
@@ -79,8 +81,6 @@ class Trajectory:
         Perturbations that only the later one carried have growth nan before. Raises ValueError where `later` does not
         begin where this run ends, or one of them has profiles and the other not.
         """
-        from engine.excursions import message_of, own_words
-
         if not len(later.columns["time_s"]) or later.columns["time_s"][0] != self.columns["time_s"][-1]:
             raise ValueError("later: a run that begins with the last sample of this one is needed")
         if (self.profiles is None) != (later.profiles is None):
@@ -100,10 +100,10 @@ class Trajectory:
             profiles = replace(profiles, **both)
         tangent = _joined(self.tangent, later.tangent, float(later.columns["time_s"][0]))
         began = "; ".join(filter(None, (self.began, later.began)))
-        own = own_words(later.message, later.scene, later.columns)
-        own = own or own_words(self.message, self.scene, self.columns)
-        more = {"began": began, "message": message_of(own, later.scene, columns, later.status != "ok")}
-        return replace(later, columns=columns, statistics=statistics, profiles=profiles, tangent=tangent, **more)
+        own = own_words(later.message) or self.message
+        message = message_of(own, later.scene, columns, later.status)
+        more = {"tangent": tangent, "began": began, "message": message}
+        return replace(later, columns=columns, statistics=statistics, profiles=profiles, **more)
 
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..excursions import height_at_rest, message_of
+from ..excursions import message_of
 from ..physics.sea import direction_of
 from ..record import SAMPLE_WIDTH, STATE
 from ..run import columns_of, heading_of, sample_count, statistics_of
@@ -70,10 +70,6 @@ def run(
     tolerance = scene.solver.newton_tolerance or TOLERANCE
     began = time.perf_counter()
     status, Y = at_rest(scene, line)
-    lowest_m = -math.inf
-    if status == codes.OK:
-        lowest_m = height_at_rest(scene, positions(line, Y)[TO_ENGINE][2, -1]) - 0.5 * float(line.record["D_buoy"])
-        status = codes.STATICS_FAILED if lowest_m >= 0.0 else status
     if status == codes.OK:
         level = level_of(line, 0.0, Y)
         flat = FLAT * float(line.tension(Y[EPS])[1].max())
@@ -92,9 +88,9 @@ def run(
     own = {"closure_m": record.closure, "euler_norm_error": record.norm_error}
     statistics = statistics_of(state, time.perf_counter() - began) | own
     message = ""
-    if status == codes.STATICS_FAILED:
-        message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED]
-        message += why_no_rest(line.record, scene) if lowest_m < 0.0 else codes.IN_THE_AIR.format(height=lowest_m)
+    if status in (codes.STATICS_FAILED, codes.IN_THE_AIR):
+        message = f"paper-box: {codes.ADVICE[status]}"
+        message += why_no_rest(line.record, scene) if status == codes.STATICS_FAILED else ""
     elif status != codes.OK:
         turn, end = state["max_turn"], (state["steps"] + state["failures"]) * dt
         said = SAID[status].format(turn=turn, gap=record.closure)
@@ -102,7 +98,7 @@ def run(
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
         message = f"paper-box: {said} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
     columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), heading_of(scene))
-    message = message_of(message, scene, columns, status != codes.OK)
+    message = message_of(message, scene, columns, codes.WORDS[status])
     return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
 
 

@@ -222,6 +222,14 @@ class Jonswap(Section):
     seed: CountOrZero = described("seed of frequencies and phases: the same seed gives the same sea", 0)
 
 
+def above_by_default(waves: dict[str, object]) -> str:
+    """waves.above_still_water where it is not given, by the other keys of `waves`.
+
+    Extrapolated or stretched, the short waves of an irregular sea lift a sphere ever further out of the water.
+    """
+    return "zero" if waves.get("components") or waves.get("jonswap") else "extrapolate"
+
+
 class Waves(Section):
     """Linear (Airy) waves: one regular wave with its steepness [kA] or amplitude [A], or an irregular sea.
 
@@ -247,10 +255,9 @@ class Waves(Section):
     jonswap: Jonswap | None = described(
         "an irregular sea drawn from the JONSWAP spectrum, with its peak at period_s", None
     )
-    # extrapolated or stretched, the short waves of a sea lift a sphere ever further out of the water
     above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
         "meaning of the linear kinematics above still water; by default extrapolate, in an irregular sea zero",
-        default_factory=lambda known: "zero" if known.get("components") or known.get("jonswap") else "extrapolate",
+        default_factory=above_by_default,
     )
 
     @property

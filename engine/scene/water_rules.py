@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from engine.scene.rules import Sound
 
 Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
+_DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
 HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"
@@ -98,14 +99,15 @@ def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
 def held_under(sound: "Sound") -> Iterator[str]:
     """A line so long that its buoy, the whole sphere loaded as in water, would stand in the air above the sea.
 
-    A current leaves it no lower than with the drag of its fastest water on the whole line and the sphere, all of it
-    across and all of it down. What this bound lets pass is judged by the rest itself (`engine.run`).
+    A uniform current leaves it no lower than its drag on the sphere and on the whole line would, all of it across and
+    all of it down. What this bound lets pass, and other currents, the rest itself decides (`engine.time.statics`).
     """
     water, line = "depth_m density_kgpm3", "length_m area_m2 density_kgpm3"
     keys = [f"water.{key}" for key in water.split()] + [f"tether.{key}" for key in line.split()]
     keys += ["buoy.diameter_m", "buoy.mass_kg", "gravity_mps2", "anchor.position_m"]
     values, law = [sound[key] for key in keys], sound["tether.tension"]
-    if sound["buoy.submergence"] != "full" or not (law and all(values)):
+    known = sound["current"] is None or sound["current.law"] == "uniform"
+    if sound["buoy.submergence"] != "full" or not (known and law and all(values)):
         return
     if isinstance(law, dict):
         module = LAWS[NAMES.index(law["law"])]
@@ -114,12 +116,11 @@ def held_under(sound: "Sound") -> Iterator[str]:
         law = module.Model.model_validate(law)
     depth, rho, length, area, density, D, mass, g, anchor = values
     lift, weight = (rho * math.pi * D**3 / 6 - mass) * g, (density - rho) * area * length * g
-    speed = math.sqrt(3) * max(_largest(sound[f"current.velocity_{part}mps"]) for part in ("", "x_", "y_", "z_"))
-    drag = 0.5 * rho * speed**2 * math.pi * D**2 / 4 * (sound["buoy.drag"] or 0)
-    if speed > 0 and min(lift, lift - weight) > 0:
-        across = (sound["tether.drag_normal"] or 0) + math.pi * (sound["tether.drag_tangential"] or 0)
-        d = sound["tether.diameter_m"] or math.sqrt(4 * area / math.pi)
-        drag += 0.5 * rho * speed**2 * across * d * length * (1 + strain_at(max(lift, lift - weight), law))
+    d = sound["tether.diameter_m"] or math.sqrt(4 * area / math.pi)
+    across, along, of_sphere = (sound[key] or 0 for key in _DRAGS)
+    stretched = length * (1 + strain_at(max(lift, lift - weight), law))
+    dragged = of_sphere * math.pi * D**2 / 4 + (across + math.pi * along) * d * stretched
+    drag = 0.5 * rho * dragged * math.hypot(*sound["current.velocity_mps"] or ()) ** 2
     pull = min(lift, lift - weight) - drag
     if pull <= 0:  # not taut from end to end
         return
@@ -130,13 +131,6 @@ def held_under(sound: "Sound") -> Iterator[str]:
             f"above {lowest:.6g}, where a line of {length:g} m lets the sphere touch the water; or buoy.submergence = "
         )
         yield fault("water.depth_m", depth, rule + "'spherical-cap', with which it floats")
-
-
-def _largest(numbers: object) -> float:
-    """The largest size in nested lists of numbers; 0 without any."""
-    if isinstance(numbers, (list, tuple)):
-        return max(map(_largest, numbers), default=0.0)
-    return abs(numbers or 0.0)
 
 
 def cap(sound: "Sound") -> Facts:
