@@ -16,7 +16,9 @@ AIR = (
     "to {most:.2g} m above the water, and kept its whole buoyancy there (buoy.submergence = 'full'): "
 )
 CAP = "'spherical-cap' loads what is below the wave"
-NO_CAP = "loads of an irregular sea hold where it stays in the water; waves.above_still_water = 'zero' lifts it least"
+NO_CAP = (
+    "loads of an irregular sea hold where it stays in the water; waves.above_still_water = 'zero' adds none up there"
+)
 BED = (
     "the line was up to {most:.2g} m below the bed (first at t = {first:.5g} s), because the scene has no floor: "
     "floor.stiffness_Npm3 = 1e5 adds one"

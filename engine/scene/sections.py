@@ -225,7 +225,7 @@ class Jonswap(Section):
 def above_by_default(waves: dict[str, object]) -> str:
     """waves.above_still_water where it is not given, by the other keys of `waves`.
 
-    Extrapolated or stretched, the short waves of an irregular sea lift a sphere ever further out of the water.
+    Extrapolated or stretched, the short waves of an irregular sea can throw a sphere so far that its run fails.
     """
     return "zero" if waves.get("components") or waves.get("jonswap") else "extrapolate"
 
