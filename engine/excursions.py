@@ -37,7 +37,7 @@ def message_of(own: str, scene: Scene, columns: Mapping[str, np.ndarray], status
         return own
     height = above_the_wave(scene, columns)
     if status != "ok" and height[-1] > 0.0:
-        event = own.partition(": ")[0]
+        event = re.sub(": [^:]*$", "", own)
         return f"{event}: {'; '.join(_excursions(scene, columns, height))}"
     return "; ".join(filter(None, (own, *_excursions(scene, columns, height))))
 

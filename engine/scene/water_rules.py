@@ -116,16 +116,17 @@ def held_under(sound: "Sound") -> Iterator[str]:
         law = module.Model.model_validate(law)
     depth, rho, length, area, density, D, mass, g, anchor = values
     lift, weight = (rho * math.pi * D**3 / 6 - mass) * g, (density - rho) * area * length * g
+    pull = min(lift, lift - weight)
+    if pull <= 0:  # not taut from end to end
+        return
     d = sound["tether.diameter_m"] or math.sqrt(4 * area / math.pi)
     across, along, of_sphere = (sound[key] or 0 for key in _DRAGS)
     stretched = length * (1 + strain_at(max(lift, lift - weight), law))
     dragged = of_sphere * math.pi * D**2 / 4 + (across + math.pi * along) * d * stretched
     drag = 0.5 * rho * dragged * math.hypot(*sound["current.velocity_mps"] or ()) ** 2
-    pull = min(lift, lift - weight) - drag
-    if pull <= 0:  # not taut from end to end
-        return
-    strain = strain_at(lift - weight / 2 - drag, law)
-    lowest = anchor[2] + length * (1 + strain) * (pull / math.hypot(pull, drag)) - D / 2
+    strain = strain_at(max(lift - weight / 2 - drag, 0), law)
+    upright = max(pull - drag, 0) / math.hypot(pull - drag, drag)
+    lowest = anchor[2] + length * (1 + strain) * upright - D / 2
     if lowest >= depth and strain < 10:  # beyond, statics says that the law does not carry the load
         rule = (
             f"above {lowest:.6g}, where a line of {length:g} m lets the sphere touch the water; or buoy.submergence = "
