@@ -30,7 +30,7 @@ class Column:
 STATUS = Column("status", symbol="status", meaning="ok, or why the run ended early or has no result")
 RUN_KEY = Column("run_key", symbol="key", meaning="content key of the run, whose file is trajectories/<run_key>.nc")
 MESSAGE = Column(
-    "message", symbol="message", meaning="what went wrong, or what was changed where a run went on, in words"
+    "message", symbol="message", meaning="what to know of a run before its numbers are used, and what it went on from"
 )
 PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0)
 DEPTH = Column("depth_m", "m", "H", "depth of the water", 1)
@@ -62,7 +62,8 @@ def names(columns: Iterable[Column]) -> tuple[str, ...]:
 def counted(trajectory, columns: Iterable[Column] = STATISTICS) -> dict[str, object]:
     """How a run ended, and what the engine counted in it; a number that is unknown or not finite is None."""
     counts = {name: number(trajectory.statistics.get(name)) for name in names(columns)}
-    return {"status": trajectory.status, "message": trajectory.message or trajectory.began, **counts}
+    message = "; ".join(filter(None, (trajectory.message, trajectory.began)))
+    return {"status": trajectory.status, "message": message, **counts}
 
 
 def number(entry: object) -> object:

@@ -27,7 +27,7 @@ class FinalState:
     numbers (f,)             fields of STATE, in its order
     Y, Y_before              unknowns (n, 6 or 13) of the accepted state and of the one before
     C, K                     its conserved variables and their rates (n, 4 or 6)
-    samples (m, 13)          rows of the output from the last sample of the run on
+    samples (m, 14)          rows of the output from the last sample of the run on
     profiles (m', n, 6)      the same of the profiles
     vectors (2, k, n, 4)     perturbations and their rates
     lateral (2, n, 2)        the perturbation across the plane and its rates

@@ -8,13 +8,14 @@ import numpy as np
 from . import parameters
 from . import record as col
 from .arrays import Motion, Output
+from .excursions import message_of
 from .final_state import FinalState
 from .going_on import taken_over
 from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
-from .scales import TRANSIT_STEPS, begins_with_a_blow, height_at_rest, ringing_period, tension_at, wave_beyond
+from .scales import TRANSIT_STEPS, begins_with_a_blow, ringing_period, tension_at, wave_beyond
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
@@ -183,11 +184,12 @@ class Run:
             if self.record["adaptive"]:
                 key = "solver.shortest_period_s or solver.max_step_s"
             message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
-        elif status == OK:
-            message = self._waves_on_element() or self._out_at_rest()
+        if status == OK:
+            message = "; ".join(filter(None, (message, self._waves_on_element(), self._out_at_rest())))
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
+        message = message_of(message, scene, columns, WORDS[status])
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
@@ -206,11 +208,12 @@ class Run:
         return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
 
     def _out_at_rest(self) -> str:
-        """Says that a buoy without a cap stands more than half out of still water, or nothing."""
+        """Says that a buoy without a cap began at rest more than half out of still water, or nothing."""
         record, scene = self.record, self.scene
-        if scene.buoy is None or not record["wet"] or record["spherical_cap"] or scene.current is not None:
+        moved = self.started is not None or any(scene.start.buoy_displacement_m)
+        if scene.buoy is None or not record["wet"] or record["spherical_cap"] or moved:
             return ""
-        height_m = height_at_rest(record, scene) - scene.water.depth_m
+        height_m = scene.anchor.position_m[2] + self.output.samples[0, col.AT_Z] - scene.water.depth_m
         return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
     def _budget(self) -> EnergyBudget | None:
@@ -257,7 +260,7 @@ def sample_count(duration_s: float, step_s: float) -> int:
 
 
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
-    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 13) with the columns of `engine.record`.
+    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 14) with the columns of `engine.record`.
 
     The angle from the vertical is taken in the plane of waves that travel along `heading` (rad); `along` is the place,
     `rate` the velocity in the direction of these waves.
@@ -270,6 +273,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     angle = np.unwrap(np.arctan2(along, z))
-    others = (samples[:, at] for at in (col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES))
+    measured = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.LOWEST
+    others = (samples[:, at] for at in measured)
     found = t, x, y, z, r, radius_rate, angle, angle_rate, *others
     return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

@@ -83,15 +83,6 @@ def wave_beyond(record: np.void, length: float, top_m: float) -> float:
     return (drag + float(record["Rw"] + record["ma"]) * omega * speed) * (length / 2 - 1 / k)
 
 
-def height_at_rest(record: np.void, scene: Scene) -> float:
-    """Height (m) of the upper end above the bed: of a line that a buoy, all of it in still water, pulls upright."""
-    length = scene.tether.length_m
-    load = float(record["lift"]) - float(record["w0"]) * length / 2
-    if min(load, float(record["lift"]) - float(record["w0"]) * length) <= 0.0:
-        return 0.0  # not taut from end to end
-    return scene.anchor.position_m[2] + length * (1.0 + strain_at(load, scene.tether.tension))
-
-
 def begins_with_a_blow(end: End) -> bool:
     """Does the velocity of a held end jump at t = 0? A harmonic motion without a ramp begins at its full speed."""
     motion = end.motion

@@ -14,6 +14,7 @@ import numpy as np
 
 from engine import netcdf, views
 from engine.atomic import write_atomic
+from engine.excursions import message_of, own_words
 from engine.final_state import FinalState, state_of_file
 from engine.scene.load import Scene, SceneError, scene_from_toml
 from engine.trajectory_parts import EnergyBudget, Profiles, TangentGrowth, along_waves, heading_of
@@ -40,6 +41,7 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "tension_top_low_N": ("N", "least tension at the upper end over all steps since the previous sample"),
     "tension_top_high_N": ("N", "largest tension at the upper end over all steps since the previous sample"),
     "loop_releases": ("1", "loops of slack tether released since t = 0"),
+    "line_lowest_m": ("m", "height of the lowest node of the tether above the anchor"),
 }
 TEXTS = ("title", "scene", "status", "message", "statistics")  # attributes of a file that are part of the run
 BEGAN = "began"  # one that only some files have
@@ -54,7 +56,8 @@ class Trajectory:
     """One run of one scene.
 
     status: "ok", or the word for how the run ended early; then the samples up to its end are kept (possibly none).
-    message: a sentence about it, empty for "ok". columns: every name of COLUMNS -> (n,) array, evenly sampled.
+    message: what its user has to know of it, in words; often empty. columns: every name of COLUMNS -> (n,) array,
+    evenly sampled.
     statistics: counts and times of the work done. profiles, tangent, energy: where the scene asks for them.
     final_state: what `simulate(..., start=)` goes on from; None where the run ended early, or keeps energies.
     began: what was changed where it went on from another run, as "went on at t = 300 s; changed:
@@ -97,7 +100,10 @@ class Trajectory:
             profiles = replace(profiles, **both)
         tangent = _joined(self.tangent, later.tangent, float(later.columns["time_s"][0]))
         began = "; ".join(filter(None, (self.began, later.began)))
-        return replace(later, columns=columns, statistics=statistics, profiles=profiles, tangent=tangent, began=began)
+        own = own_words(later.message) or self.message
+        message = message_of(own, later.scene, columns, later.status)
+        more = {"tangent": tangent, "began": began, "message": message}
+        return replace(later, columns=columns, statistics=statistics, profiles=profiles, **more)
 
     def table(self) -> "pandas.DataFrame":
         """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
@@ -260,7 +266,7 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajector
     if scene.output.energy:
         energy = EnergyBudget(*(arrays.get(name, none) for name, *_ in _abouts(EnergyBudget, "energy_").values()))
     tangent = _growth(scene, arrays)
-    unknown = {"loop_releases": np.zeros(len(arrays["time_s"]))}  # of files that know only how many there were
+    unknown = dict.fromkeys(("loop_releases", "line_lowest_m"), np.zeros(len(arrays["time_s"])))  # of older files
     columns = {name: (unknown | arrays)[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     more = profiles, tangent, energy, state_of_file(scene, arrays), texts.get(BEGAN, "")

@@ -133,7 +133,7 @@ def look_after(periods: int) -> int:
 
 
 def facts(run: "Trajectory") -> dict[str, str]:
-    """What a run did, in words: the name of a fact -> its text; extremes are those after its first third."""
+    """What a run did, in words: the name of a fact -> its text; extremes of all of it, and after its beginning."""
     waves, end_s = run.scene.waves, float(run.columns["time_s"][-1]) if len(run.columns["time_s"]) else 0.0
     length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.4g} s"
     told = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
@@ -142,19 +142,31 @@ def facts(run: "Trajectory") -> dict[str, str]:
     if run.began:
         told["began"] = run.began
     if len(run.columns["time_s"]) > 3:
-        late = {name: values[len(values) // 3 :] for name, values in run.columns.items()}
-        radius_m = late["radius_m"]
-        told["radius"] = f"{radius_m.min():.2f} to {radius_m.max():.2f} m"
-        low, high = late["tension_top_low_N"].min(), late["tension_top_high_N"].max()
-        told["tension"] = (
-            " to ".join(f"{at:.0f}" if abs(at) > 100.0 else f"{at:.3g}" for at in (low, high)) + " N at the top"
-        )
+        told["radius"] = _extremes(run, "radius_m", "radius_m", "m")
+        told["tension"] = _extremes(run, "tension_top_low_N", "tension_top_high_N", "N at the top")
     if loops := run.statistics.get("loop_releases"):
         told["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
     if run.status == "ok" and in_regular_waves(run.scene):
-        told |= {"exponent": str(exponent(run, None))} if carried(run) else {}
+        if carried(run):
+            told["exponent"] = f"{exponent(run, None)}, after wave period {_transient(run, None)}"
         told["verdict"] = str(verdict(run))
     return told
+
+
+def _extremes(run: "Trajectory", low: str, high: str, unit: str) -> str:
+    """Least and largest value of two columns with their times: of the whole run, and without its beginning.
+
+    The beginning is the first third under what drives a run with one period, and a ramp of the waves.
+    """
+    time_s, waves, texts = run.columns["time_s"], run.scene.waves, []
+    ramped = 0 if waves is None else int((time_s < waves.ramp_s).sum())
+    begun = ramped if _forced(run.scene) is None else max(ramped, len(time_s) // 3)
+    for first in sorted({0, min(begun, len(time_s) - 1)}):
+        least, largest = first + run.columns[low][first:].argmin(), first + run.columns[high][first:].argmax()
+        ends = f"{run.columns[low][least]:.2f} (t = {time_s[least]:.5g} s)", f"{run.columns[high][largest]:.2f} {unit}"
+        after = f"after t = {time_s[first]:.5g} s" if first else "whole run"
+        texts.append(f"{after}: {' to '.join(ends)} (t = {time_s[largest]:.5g} s)")
+    return "; ".join(texts)
 
 
 def html(run: "Trajectory") -> str:
@@ -199,11 +211,12 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     if forced:
         points, lines = run.section().points, run.spectrum()
         axes["section"].plot(*points.T, ".", markersize=3)
-        axes["section"].set(xlabel="r (m)", ylabel="dr/dt (m/s)", title="once per period")
+        title = f"once per period, after period {_transient(run, None)}"
+        axes["section"].set(xlabel="r (m)", ylabel="dr/dt (m/s)", title=title)
         ratio = lines.angular_frequency_radps * period_s / (2.0 * np.pi)
         shown = (ratio > 0.0) & (ratio <= 2.5)
         axes["spectrum"].semilogy(ratio[shown], lines.amplitude[shown], linewidth=0.8)
-        axes["spectrum"].set(xlabel="frequency/forcing frequency", title="spectrum of r (m)")
+        axes["spectrum"].set(xlabel="frequency/forcing frequency", title=f"spectrum of r (m), last {lines.periods} T")
     else:
         axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
         axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")

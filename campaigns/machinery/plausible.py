@@ -122,7 +122,15 @@ def _waves(scene) -> Iterator[Odd]:
     if abs(waves.direction_rad) > 2.0 * math.pi:
         allowed = f"-2 pi to 2 pi rad (radians, not degrees: {math.radians(waves.direction_rad):.4g}?)"
         yield "waves.direction_rad", waves.direction_rad, allowed
-    if waves.steepness is not None and waves.steepness > (limit := breaking_steepness(scene)):
-        percent = " (a share, not per cent?)" if waves.steepness > 1.0 else ""
-        breaks = f"at most {limit:.3f}, where a wave of {waves.period_s:g} s breaks in this depth{percent}"
-        yield "waves.steepness", waves.steepness, breaks
+    from engine.physics.waves import wave_number
+
+    k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+    for key, given, steepness in (
+        ("steepness", waves.steepness, 1.0),
+        ("amplitude_m", waves.amplitude_m, k),
+        ("jonswap.significant_height_m", getattr(waves.jonswap, "significant_height_m", None), k / 2.0),
+    ):
+        if given is not None and given * steepness > (limit := breaking_steepness(scene)):
+            percent = " (a share, not per cent?)" if key == "steepness" and given > 1.0 else ""
+            most = f"at most {limit / steepness:.3f}"
+            yield f"waves.{key}", given, f"{most}, where a wave of {waves.period_s:g} s breaks in this depth{percent}"

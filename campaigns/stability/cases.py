@@ -21,6 +21,7 @@ from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.fuzz import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
+from engine.excursions import own_words
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -149,7 +150,8 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
     measured, how, *tensions = getattr(checks, case.check)(run, case)
-    right = measured <= case.bar and (run.message or all(tension <= case.bar_tension for tension in tensions))
+    warned = own_words(run.message)
+    right = measured <= case.bar and (warned or all(tension <= case.bar_tension for tension in tensions))
     verdict = OK if right else LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
     found = {"measured": measured, "stiffness_N": getattr(scene.tether.tension, "stiffness_N", None)}
     found["measured_tension"] = tensions[0] if tensions else None

@@ -7,7 +7,7 @@
 Protocol: the same scene, start and length for every value of the keys; the transient is left out of all that is
 measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with regime and exponents where the run is
 long enough, and over one key how far each largest tension holds; any other line gets extremes, tension and the solver's
-counts. Nothing is random.
+counts. Of an irregular sea only the ramp is left out, and of a run without waves nothing. Nothing is random.
 """
 
 import contextlib
@@ -181,19 +181,23 @@ def measures(order: Order) -> Measures:
     from campaigns.buoy_sweep import rows
 
     labels = tuple(one.column for one in order.own.vary)
-    measured = (rows.DIMENSIONS, STATUS, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
+    measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
     if any(in_regular_waves(case.scene) for case in order.cases):
         others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     sources, settings = (*ROW_SOURCES, "campaigns/sweep/__init__.py"), settings_of(order)
+    settings["asked"] = order.own.transient
     return Measures(columns, partial(sweep_row, **settings), sources, settings)
 
 
-def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int | None = None) -> dict[str, object]:
+def sweep_row(
+    trajectory, transient_periods: int | None, checks=None, full: int | None = None, asked: int | None = None
+) -> dict[str, object]:
     """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
 
-    The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out.
+    The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
+    of an irregular sea its ramp, and what is `asked` for by --transient.
     """
     from campaigns.buoy_sweep.rows import HEIGHT, buoy_row, height_m, settled, sound_part
 
@@ -202,7 +206,11 @@ def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int 
         return buoy_row(trajectory, transient_periods, checks, full)
     row, columns = counted(trajectory), sound_part(trajectory.columns)
     row[HEIGHT.name] = height_m(scene, columns)
-    transient_s = transient_periods * scene.waves.period_s if scene.waves is not None else 0.0
+    transient_s = 0.0
+    if scene.waves is not None:
+        left_out = asked if scene.waves.irregular else transient_periods
+        transient_s = max(scene.waves.ramp_s, (left_out or 0) * scene.waves.period_s)
+        row["transient_periods"] = transient_s / scene.waves.period_s
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
         row |= settled(scene, columns, transient_s)
     return row

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ..excursions import message_of
 from ..physics.sea import direction_of
 from ..record import SAMPLE_WIDTH, STATE
 from ..run import columns_of, heading_of, sample_count, statistics_of
@@ -87,8 +88,9 @@ def run(
     own = {"closure_m": record.closure, "euler_norm_error": record.norm_error}
     statistics = statistics_of(state, time.perf_counter() - began) | own
     message = ""
-    if status == codes.STATICS_FAILED:
-        message = "paper-box: " + codes.ADVICE[codes.STATICS_FAILED] + why_no_rest(line.record, scene)
+    if status in (codes.STATICS_FAILED, codes.IN_THE_AIR):
+        message = f"paper-box: {codes.ADVICE[status]}"
+        message += why_no_rest(line.record, scene) if status == codes.STATICS_FAILED else ""
     elif status != codes.OK:
         turn, end = state["max_turn"], (state["steps"] + state["failures"]) * dt
         said = SAID[status].format(turn=turn, gap=record.closure)
@@ -96,6 +98,7 @@ def run(
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
         message = f"paper-box: {said} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
     columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), heading_of(scene))
+    message = message_of(message, scene, columns, codes.WORDS[status])
     return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
 
 
@@ -132,7 +135,7 @@ class Record:
             low, high = min(state["low"], top[7]), max(state["high"], top[7])
             offplane = np.abs(self.across @ at[:3]).max()
             self.rows.append(
-                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0]
+                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min()]
             )  # as `engine.record` has them
             state["low"] = state["high"] = top[7]
         for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):

@@ -29,7 +29,7 @@ def at_rest(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     """The state at t = 0 with its velocities: (code, Y (13, n) or None)."""
     code, guess = planar_guess(scene, line)
     if code != OK:
-        return STATICS_FAILED, None
+        return code, None
     target, force = None, end_force(line)
     if line.record["end"] == HELD:
         target = np.array(scene.end.position_m)[TO_PAPER]

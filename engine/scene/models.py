@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from engine.scene.faults import TOO_DEEP, SceneError, field_faults, too_deep
 from engine.scene.rules import cross_faults
-from engine.scene.sections import Anchor, Buoy, Current, End, Floor, Tether, Water, Waves
+from engine.scene.sections import Anchor, Buoy, Current, End, Floor, Tether, Water, Waves, above_by_default
 from engine.scene.values import (
     Count,
     CountOrZero,
@@ -154,10 +154,14 @@ class Scene(Section):
         return plain
 
     def to_toml(self) -> str:
-        """The scene as TOML text with every default written out; `scene_from_toml` and `load_scene` give back an equal
-        scene.
+        """The scene as TOML text with every default written out that does not follow from other values;
+        `scene_from_toml` and `load_scene` give back an equal scene.
         """
-        return tomli_w.dumps(self.as_dict())
+        plain = self.as_dict()
+        waves = plain.get("waves", {})
+        if waves and waves["above_still_water"] == above_by_default(waves):
+            del waves["above_still_water"]
+        return tomli_w.dumps(plain)
 
     def key(self) -> str:
         """SHA-256 (hex) of the canonical JSON of every value: equal scenes, equal keys, on any machine."""

@@ -222,6 +222,14 @@ class Jonswap(Section):
     seed: CountOrZero = described("seed of frequencies and phases: the same seed gives the same sea", 0)
 
 
+def above_by_default(waves: dict[str, object]) -> str:
+    """waves.above_still_water where it is not given, by the other keys of `waves`.
+
+    Extrapolated or stretched, the short waves of an irregular sea can throw a sphere so far that its run fails.
+    """
+    return "zero" if waves.get("components") or waves.get("jonswap") else "extrapolate"
+
+
 class Waves(Section):
     """Linear (Airy) waves: one regular wave with its steepness [kA] or amplitude [A], or an irregular sea.
 
@@ -241,14 +249,15 @@ class Waves(Section):
     ramp_s: NonNegative = described("time in which the waves grow, as sin^2; 0: full from t = 0", 0.0)
     phase_rad: Number = described("phase, added to k x - omega t", 0.0)
     direction_rad: Number = described("direction of travel, from +x to +y", 0.0, symbol="a", paper="figure 8")
-    above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
-        "meaning of the linear kinematics above the still water level", "extrapolate"
-    )
     components: WaveComponents | None = described(
         "an irregular sea as a list of waves, each a table of the four keys below", None
     )
     jonswap: Jonswap | None = described(
         "an irregular sea drawn from the JONSWAP spectrum, with its peak at period_s", None
+    )
+    above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
+        "meaning of the linear kinematics above still water; by default extrapolate, in an irregular sea zero",
+        default_factory=above_by_default,
     )
 
     @property

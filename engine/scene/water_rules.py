@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from engine.scene.rules import Sound
 
 Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
+_DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
 HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"
@@ -96,12 +97,17 @@ def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
 
 
 def held_under(sound: "Sound") -> Iterator[str]:
-    """A line so long that its buoy, the whole sphere loaded as in water, would stand in the air above the sea."""
+    """A line so long that its buoy, the whole sphere loaded as in water, would stand in the air above the sea.
+
+    A uniform current leaves it no lower than its drag on the sphere and on the whole line would, all of it across and
+    all of it down. What this bound lets pass, and other currents, the rest itself decides (`engine.time.statics`).
+    """
     water, line = "depth_m density_kgpm3", "length_m area_m2 density_kgpm3"
     keys = [f"water.{key}" for key in water.split()] + [f"tether.{key}" for key in line.split()]
     keys += ["buoy.diameter_m", "buoy.mass_kg", "gravity_mps2", "anchor.position_m"]
     values, law = [sound[key] for key in keys], sound["tether.tension"]
-    if sound["buoy.submergence"] != "full" or sound["current"] is not None or not (law and all(values)):
+    known = sound["current"] is None or sound["current.law"] == "uniform"
+    if sound["buoy.submergence"] != "full" or not (known and law and all(values)):
         return
     if isinstance(law, dict):
         module = LAWS[NAMES.index(law["law"])]
@@ -110,10 +116,17 @@ def held_under(sound: "Sound") -> Iterator[str]:
         law = module.Model.model_validate(law)
     depth, rho, length, area, density, D, mass, g, anchor = values
     lift, weight = (rho * math.pi * D**3 / 6 - mass) * g, (density - rho) * area * length * g
-    if min(lift, lift - weight) <= 0:  # not taut from end to end
+    pull = min(lift, lift - weight)
+    if pull <= 0:  # not taut from end to end
         return
-    strain = strain_at(lift - weight / 2, law)
-    lowest = anchor[2] + length * (1 + strain) - D / 2
+    d = sound["tether.diameter_m"] or math.sqrt(4 * area / math.pi)
+    across, along, of_sphere = (sound[key] or 0 for key in _DRAGS)
+    stretched = length * (1 + strain_at(max(lift, lift - weight), law))
+    dragged = of_sphere * math.pi * D**2 / 4 + (across + math.pi * along) * d * stretched
+    drag = 0.5 * rho * dragged * math.hypot(*sound["current.velocity_mps"] or ()) ** 2
+    strain = strain_at(max(lift - weight / 2 - drag, 0), law)
+    upright = max(pull - drag, 0) / math.hypot(pull - drag, drag)
+    lowest = anchor[2] + length * (1 + strain) * upright - D / 2
     if lowest >= depth and strain < 10:  # beyond, statics says that the law does not carry the load
         rule = (
             f"above {lowest:.6g}, where a line of {length:g} m lets the sphere touch the water; or buoy.submergence = "

@@ -21,7 +21,7 @@ from ..spatial import columns as spatial_col
 from ..spatial import lift
 from ..spatial import state as spatial
 from .newton import newton
-from .status import OK, STATICS_FAILED
+from .status import IN_THE_AIR, OK, STATICS_FAILED
 
 SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
@@ -44,8 +44,18 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     that buckles, or tips over about a pinned anchor where the line is too stiff to buckle, and Newton's method meets it
     as easily as the slack one. Then other guesses are tried, at last a straight line that leans. Of rests that press
     the line by more than its weight the one that does so least counts, if its bending can bear that. On a bed a folded
-    line may be such a rest: there other beds to begin with are tried.
+    line may be such a rest: there other beds to begin with are tried. A sphere that would stand in the air at rest with
+    the buoyancy of one in the water has no rest.
     """
+    code, Y = _rest_of(record, scene, tables, target_m)
+    if code == OK and record["end"] == BUOY and record["wet"] and not record["spherical_cap"]:
+        s = np.append(0.0, np.cumsum(lengths_of(record, tables)))
+        top_m = scene.anchor.position_m[2] + np.trapezoid(lift.stretch_vectors(Y)[:, -1], s)
+        code = IN_THE_AIR if top_m - record["D_buoy"] / 2 >= record["depth"] else OK
+    return code, Y
+
+
+def _rest_of(record, scene, tables, target_m):
     h, best = lengths_of(record, tables), None
     weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
     capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])

@@ -5,12 +5,12 @@ A step returns a code, it never raises; the run ends with the first code that sm
 
 (
     OK, NEWTON_FAILED, STEP_UNDERFLOW, TURN_UNRESOLVED, STRAIN_BELOW_MINUS_ONE, NOT_FINITE, STATICS_FAILED, STEP_LIMIT,
-    TENSION_FLAT, SHAPE_LOST,
-) = range(10)  # fmt: skip
+    TENSION_FLAT, SHAPE_LOST, IN_THE_AIR,
+) = range(11)  # fmt: skip
 WORDS = dict(
     enumerate(
         "ok newton-failed step-underflow turn-unresolved strain-below-minus-one not-finite statics-failed step-limit "
-        "tension-flat shape-lost".split()
+        "tension-flat shape-lost statics-failed".split()
     )
 )
 
@@ -38,6 +38,8 @@ ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     NOT_FINITE: "a value that is not a finite number appeared at t = {t:.6g} s; waves extrapolated far above still "
     'water grow without bound: compare waves.above_still_water = "zero"',
     STATICS_FAILED: "no static equilibrium was found from which to start: ",  # goes on: engine.time.statics.why_no_rest
+    IN_THE_AIR: "at rest the whole sphere would stand in the air, loaded as in water: raise water.depth_m, shorten "
+    "the line, or let it float, buoy.submergence = 'spherical-cap'",
     STEP_LIMIT: "the run stands still at t = {t:.6g} s: 20 000 steps of {dt:.2g} s were tried within the "
     "time of one usual step, or Newton's method failed at a sixth of all that were tried; raise solver.rtol, or look "
     "for what the grid cannot resolve (compression without bending, for one)",

@@ -184,15 +184,16 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
         if hermite and Ys is not None:
             near_stages(p, tables, Ys, row)
         add_damping(p, weights, share, begin, end, row)
-        least = row[0, col.TENSION]
+        least, lowest = row[0, col.TENSION], row[0, col.PLACE + 2]
         for k in range(1, n):
             least = min(least, row[k, col.TENSION])
+            lowest = min(lowest, row[k, col.PLACE + 2])
         for i in range(3):
             out[col.AT_X + i] = row[n - 1, col.PLACE + i]
         top = row[n - 1, col.TENSION]
         out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
-        out[col.RELEASES] = state.releases
+        out[col.RELEASES], out[col.LOWEST] = state.releases, lowest
         state.low, state.high = top, top
         state.samples += 1
     while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:

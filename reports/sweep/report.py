@@ -20,6 +20,10 @@ _NOTHING = Text("Every number of the table is the same in all runs, so there is 
 _SOUND = "Every run reached its full length, and no axial ringing is left; the answer says what else was checked."
 _EXTREMES = "Least and greatest value of every column that is not the same in all runs."
 _SCENE = "The scene as run, from `scene.toml`, with the first value of what is varied."
+_EXCURSIONS = {  # words of a message (`engine.excursions`) -> what they say
+    "in the air": "the sphere was in the air with its whole buoyancy",
+    "below the bed": "the line lay below the bed",
+}
 _COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
 
 
@@ -103,10 +107,13 @@ def _failed(keys: Sequence[Quantity], rows) -> Notice:
         if row not in failed
         and (float(row.get("unresolved_ringing_N") or 0.0) > 0.0 or "largest tension" in str(row["message"]))
     ]
-    if not failed and not less:
+    lines = [": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less]
+    for place, words in _EXCURSIONS.items():
+        if count := sum(place in str(row["message"]) for row in rows):
+            lines.append(f"In {count} of {len(rows)} runs {words} (column `message`).")
+    if not lines:
         return Notice("note", "Nothing to warn of", (_SOUND,))
-    lines = (": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less)
-    return Notice("warning", "Runs that failed" if failed else "Tensions that hold less", tuple(lines))
+    return Notice("warning", "Runs that failed" if failed else "Runs that hold less", tuple(lines))
 
 
 def _tables(columns: Mapping[str, Quantity], keys: Sequence[Quantity], rows) -> list[Table]:

@@ -8,6 +8,7 @@ import json
 import subprocess
 import sys
 import tomllib
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from campaigns.buoy_sweep import STEEPNESS, STUDY
 from campaigns.machinery.cli import fault_of
 from campaigns.machinery.plausible import breaking_steepness, doubts
 from engine import load_scene
+from engine.physics.waves import wave_number
 from tests.campaigns.conftest import ROOT
 
 HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis", "typst"}
@@ -212,5 +214,8 @@ def test_an_old_python_is_named_with_what_is_needed(package):
 def test_waves_up_to_the_limit_are_run():
     limit = breaking_steepness(load_scene("tethered_buoy"))
     assert limit == pytest.approx(0.446, abs=2e-3)  # deep water: 0.142 pi
-    for share, count in ((0.999, 0), (1.001, 1)):
-        assert len(list(doubts(load_scene("tethered_buoy", {"waves.steepness": share * limit})))) == count
+    highest = limit / wave_number(5.0, 21.0)  # amplitude; the significant height of a sea is twice as high
+    heights = {"steepness": limit, "amplitude_m": highest, "jonswap.significant_height_m": 2.0 * highest}
+    for (key, most), (share, count) in product(heights.items(), ((0.999, 0), (1.001, 1))):
+        lines = [*doubts(load_scene("tethered_buoy", {f"waves.{key}": share * most}))]
+        assert len(lines) == count and all(line.startswith(f"waves.{key}") for line in lines)

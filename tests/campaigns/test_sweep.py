@@ -55,6 +55,14 @@ def test_two_keys_are_every_pair_of_their_values(tmp_path):
     assert (columns["waves.steepness"]["digits"], columns["status"]["digits"]) == ("2", "")
 
 
+@pytest.mark.parametrize(("words", "left_out"), [((), 2.0), (("--transient", 3), 3.0)])
+def test_of_an_irregular_sea_the_ramp_is_left_out_or_what_is_asked_for(words, left_out, tmp_path):
+    sea = ("--set", "waves.jonswap.significant_height_m=1", "waves.ramp_s=10", "--periods", 120)
+    rows = run(tmp_path, "--vary", "water.depth_m", 22, 23, 2, *sea, *words)
+    assert [float(row["transient_periods"]) for row in rows] == [left_out] * 2
+    assert all(row["tension_top_max_N"] for row in rows)
+
+
 def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):
     rows = run(tmp_path, "--vary", "waves.steepness", 0.02, 0.1, 3, "--periods", 6, "--transient", 2)
     _, own, _ = sweep("--steepness-range", 0.02, 0.1, 3)

@@ -1,5 +1,7 @@
 """What a run says of itself, on motions made of known lines: period 2, a torus, a failed run, one without waves."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray
@@ -8,6 +10,7 @@ from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
 from engine.at_rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
+from engine.views import facts
 
 PERIODS, STEPS = 310, 100
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -76,6 +79,23 @@ def test_a_notebook_shows_what_the_run_did():
     failed = moved(0.5, status="newton-failed", message="at t < 3 s")._repr_html_()
     assert "newton-failed" in failed and "t &lt; 3 s" in failed and "period-2" not in failed
     assert len(repr(moved(0.5))) < 100
+
+
+def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
+    """The largest tension is at t = 5 s, within every beginning; the largest after t = 40 s is at t = 900 s."""
+    sea = {"waves.jonswap.significant_height_m": 1.0}
+    whole, kept = "7000.00 N at the top (t = 5 s)", "5000.00 N at the top (t = 900 s)"
+    for changes, later in (
+        ({}, f"after t = 516.65 s: 0.00 (t = 516.65 s) to {kept}"),
+        ({"waves.ramp_s": 600.0}, f"after t = 600 s: 0.00 (t = 600 s) to {kept}"),
+        (sea, ""),
+        ({**sea, "waves.ramp_s": 40.0}, f"after t = 40 s: 0.00 (t = 40 s) to {kept}"),
+    ):
+        run = replace(moved(0.5, -0.2), scene=load_scene("tethered_buoy", changes))
+        time_s = run.columns["time_s"]
+        run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
+        said = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {whole}", later)))
+        assert facts(run)["tension"] == said
 
 
 def test_what_has_no_period_or_no_end_is_refused_in_words():

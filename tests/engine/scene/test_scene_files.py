@@ -77,6 +77,21 @@ def test_what_says_how_high_the_waves_are_takes_the_place_of_what_was_inherited(
     assert back.key() == load_scene("tethered_buoy", {"waves.steepness": 0.2}).key()
 
 
+@pytest.mark.parametrize("name", ["components", "jonswap.significant_height_m"])
+def test_no_waves_are_above_still_water_in_an_irregular_sea_unless_the_scene_says_so(name):
+    sea, key = {f"waves.{name}": HEIGHTS[name]}, "waves.above_still_water"
+    treated = [
+        load_scene("tethered_buoy", changes).waves.above_still_water for changes in ({}, sea, {**sea, key: "wheeler"})
+    ]
+    assert treated == ["extrapolate", "zero", "wheeler"]
+    saved = load_scene("tethered_buoy").to_toml()
+    assert scene_from_toml(saved, sea).waves.above_still_water == "zero"
+    assert (
+        scene_from_toml(load_scene("tethered_buoy", {key: "wheeler"}).to_toml(), sea).waves.above_still_water
+        == "wheeler"
+    )
+
+
 def test_none_removes_and_a_scalar_creates_its_section():
     still = load_scene("tethered_buoy", {"waves": None})
     assert still.waves is None

@@ -39,8 +39,9 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
         5.0,
         {"newton-failed", "strain-below-minus-one", "step-limit"},  # ill-posed: how it breaks is not the point
     ),
-    "short waves continued to 400 m above the water": (
-        {"tether.tension.stiffness_N": 100.0, "waves.period_s": 1.0},
+    "a buoy at rest 400 m above the water": ({"tether.tension.stiffness_N": 100.0}, 5.0, {"statics-failed"}),
+    "short waves continued to 190 m above the water": (
+        {"start.buoy_displacement_m": [0.0, 0.0, 190.0], "waves.period_s": 1.0},
         5.0,
         {"not-finite"},
     ),
