@@ -11,13 +11,14 @@ would do; where a snap halves them, it has half of it. T_max - T_b: what is left
 where the motion does not repeat, because another record as long has another largest tension. T_ringing:
 `unresolved_ringing_N`.
 
-    E_slack = 2 |chi' - chi| + 2 s
+    E_slack = 4/3 |chi' - chi| + 3 s
 
-chi, of the row after its transient, and chi', of the companion: mean slack fractions of stretches of BLOCK wave periods,
-of a motion that repeats as long as for T_b; s: standard error of chi, without the companion, by its stretches.
+chi, of the row after its transient, and chi', of the companion: mean slack fractions of stretches of BLOCK wave
+periods, of a motion that repeats as long as for T_b; s: standard error of chi, from its stretches. 4/3: of stiff lines
+the companion had less than a quarter of the error, where chance does not decide. 3: the stretches are few.
 
-Both are of the motion of the row. Where its companion leaves that, where E is above COARSE of T_max, and where E_slack is
-above SLACK_COARSE, `message` says so.
+Both are of the motion of the row. Where its companion leaves that, where E is above COARSE of T_max, and where E_slack
+is above SLACK_COARSE, `message` says so.
 Rows whose scenes do not go in lanes stay empty.
 """
 
@@ -130,7 +131,7 @@ def slack_error(shares: np.ndarray, companion: dict) -> tuple[float, list[str]]:
     if companion["status"] != "ok" or not len(shares):
         return math.nan, []
     chance = shares.std(ddof=1) / math.sqrt(len(shares)) if len(shares) > 1 else 0.0
-    error = float(2.0 * abs(known(companion, SLACK.name) - shares.mean()) + 2.0 * chance)
+    error = float(abs(known(companion, SLACK.name) - shares.mean()) * 4.0 / 3.0 + 3.0 * chance)
     return error, [f"the slack fraction holds to {error:.2f} only"] if error > SLACK_COARSE else []
 
 

@@ -58,3 +58,10 @@ def test_folds_after_the_largest_tension_and_those_of_a_buoys_line_are_not_told(
     line, buoy = (simulate(load_scene("tethered_buoy", keys), duration_s=15.0) for keys in (scene, {}))
     for run in (line, buoy):
         assert run.status == "ok" and run.statistics["max_turn_rad"] > FOLD and "folds" not in run.message
+
+
+def test_a_line_that_hangs_still_is_not_warned_of_its_bend():
+    """Ends that almost meet: the lowest element turns by more than FOLD, and statics has its tension right."""
+    scene = STILL | held(0.02, 0.0) | {"tether.bending_stiffness_Nm2": 0.01}
+    run = simulate(load_scene("tethered_buoy", scene), duration_s=2.0)
+    assert run.status == "ok" and run.statistics["max_turn_rad"] > FOLD and run.message == ""
