@@ -17,8 +17,8 @@ chi, of the row after its transient, and chi', of the companion: mean slack frac
 periods, of a motion that repeats as long as for T_b; s: standard error of chi, from its stretches. 4/3: of stiff lines
 the companion had less than a quarter of the error, where chance does not decide. 3: the stretches are few.
 
-Both are of the motion of the row. Where its companion leaves that, where E is above COARSE of T_max, and where E_slack
-is above SLACK_COARSE, `message` says so.
+Both are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
+where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter.
 Rows whose scenes do not go in lanes stay empty.
 """
 
@@ -95,7 +95,8 @@ def companion_row(trajectory, checks=None, period: int | None = None, motion=Non
     row["periods"] = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
     if trajectory.status == "ok":
         row[USUAL.name] = usual_max_N(trajectory, LEFT_OUT * row["periods"], period)
-        row[SLACK.name] = float(slack_shares(trajectory, LEFT_OUT * row["periods"], period).mean())
+        shares = slack_shares(trajectory, LEFT_OUT * row["periods"], period)
+        row[SLACK.name] = float(shares.mean()) if len(shares) else None
         if motion is not None:
             strobed, measures, _ = section_of(trajectory)
             row[OUTCOME.name] = UNSETTLED if joins(strobed, measures, [motion]) is None else JOINED
@@ -113,26 +114,23 @@ def usual_max_N(trajectory, transient_periods: float, period: int | None) -> flo
 
 
 def slack_shares(trajectory, transient_periods: float, period: int | None) -> np.ndarray:
-    """Slack fraction of each whole stretch at the end of a record, of which the head of this file tells the length."""
-    from analysis import slack_fraction
-
-    scene, columns = trajectory.scene, trajectory.columns
-    step_s, threshold_N = scene.sample_step_s(), max(NEAR_ZERO * static_tension_N(scene, columns), 0.0)
-    samples = round((_whole(period) if period else BLOCK) * scene.waves.period_s / step_s)
-    tension_N = columns["tension_top_N"]
-    first = len(tension_N) - 1 - round(transient_periods * scene.waves.period_s / step_s)
-    starts = [len(tension_N) - 1 - samples * (i + 1) for i in range(max(first // samples, int(period is not None)))]
-    stretches = (tension_N[start : start + samples + 1] for start in starts)
-    return np.array([slack_fraction(stretch, step_s, threshold_N).fraction for stretch in stretches])
+    """Slack fraction of each whole stretch at the end of a record; the head of this file says how long they are."""
+    scene, tension_N = trajectory.scene, trajectory.columns["tension_top_N"]
+    threshold_N = max(NEAR_ZERO * static_tension_N(scene, trajectory.columns), 0.0)
+    in_period = scene.waves.period_s / scene.sample_step_s()
+    samples = round((_whole(period) if period else BLOCK) * in_period)
+    count = round(len(tension_N) - 1 - transient_periods * in_period) // samples
+    slack = tension_N[len(tension_N) - count * samples :] <= threshold_N
+    return slack.reshape(count, samples).mean(axis=1)
 
 
 def slack_error(shares: np.ndarray, companion: dict) -> tuple[float, list[str]]:
     """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
-    if companion["status"] != "ok" or not len(shares):
-        return math.nan, []
-    chance = shares.std(ddof=1) / math.sqrt(len(shares)) if len(shares) > 1 else 0.0
-    error = float(abs(known(companion, SLACK.name) - shares.mean()) * 4.0 / 3.0 + 3.0 * chance)
-    return error, [f"the slack fraction holds to {error:.2f} only"] if error > SLACK_COARSE else []
+    away = abs(known(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
+    scatter = shares.std(ddof=1) if len(shares) > 1 else 0.0
+    error = float(4.0 / 3.0 * away + 3.0 * scatter / math.sqrt(max(len(shares), 1)))
+    told = error > SLACK_COARSE and away > 2.0 * scatter
+    return error, [f"the slack fraction holds to {error:.2f} only"] if told else []
 
 
 def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:

@@ -53,7 +53,7 @@ ERROR = Column(
     "far it stands above what is usual", 0,
 )  # fmt: skip
 SLACK_ERROR = Column(
-    "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion, and by chance", 3
+    "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
 )
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
