@@ -16,7 +16,7 @@ from .scene.models import Scene
 PREFIX = "final_"
 NONE = np.empty(0)
 # fields of STATE: of one part
-COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain", "ringing")
+COUNTED = ("first", "samples", "first_profile", "profiles", "max_turn", "min_strain", "ringing", "folded")
 
 
 @dataclass(frozen=True, eq=False)

@@ -68,12 +68,13 @@ EXTRA_SPATIAL = np.dtype(_dtype("extra_spatial", "") + _EXTRAS + SPATIAL.descr)
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
 # accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
 # turn, or 0; low, high: extremes of the top tension since the last sample; first, first_profile:
-# numbers of the samples and profiles, counted from t = 0, with which the output begins
+# numbers of the samples and profiles, counted from t = 0, with which the output begins; folded: time (s) at which an
+# element first turned by more than FOLD of `engine.time.folds`, inf before
 STATE = np.dtype(
     _dtype(
         "status samples profiles small_steps steps rejected newton failures releases attempts cautious trail energies "
         "small cut first first_profile turned",
-        "t dt dt_before low high max_turn min_strain window_end trial_dt corner ringing",
+        "t dt dt_before low high max_turn min_strain window_end trial_dt corner ringing folded",
     )
 )
 

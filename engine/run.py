@@ -20,6 +20,7 @@ from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
 from .spatial import state as spatial
+from .time.folds import FOLD, words_of_folds
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
@@ -109,6 +110,7 @@ class Run:
         undamped = record["method"] == col.ONE_STAGE and record["gamma"] == 0.5  # rates alternate, and say nothing
         state["ringing"] = -1.0 if undamped else 0.0
         state["max_turn"] = lift.turns(Y).max() if self.kind is spatial else np.abs(np.diff(Y[:, PHI])).max()
+        state["folded"] = state["t"] if state["max_turn"] > FOLD else np.inf
 
     def _go_on(self, start: FinalState) -> None:
         """Begin where another run ended."""
@@ -189,6 +191,8 @@ class Run:
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
+        if status == OK and self.record["end"] == col.HELD:
+            message = "; ".join(filter(None, (message, words_of_folds(state, columns))))
         message = message_of(message, scene, columns, WORDS[status])
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
         if self.started is not None:

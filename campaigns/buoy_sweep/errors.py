@@ -1,4 +1,4 @@
-"""How far the largest tension of a row holds, from one companion of each row: `tension_top_max_error_N`.
+"""How far largest tension and slack fraction of a row hold, from one companion of each row: the columns of ERRORS.
 
     E = (T_max - T_b) + 2 |T_b' - T_b| + T_ringing
 
@@ -11,7 +11,14 @@ would do; where a snap halves them, it has half of it. T_max - T_b: what is left
 where the motion does not repeat, because another record as long has another largest tension. T_ringing:
 `unresolved_ringing_N`.
 
-E is of the motion of the row. Where its companion leaves that, and where E is above COARSE of T_max, `message` says so.
+    E_slack = 4/3 |chi' - chi| + 3 s
+
+chi, of the row after its transient, and chi', of the companion: mean slack fractions of stretches of BLOCK wave
+periods, of a motion that repeats as long as for T_b; s: standard error of chi, from its stretches. 4/3: of stiff lines
+the companion had less than a quarter of the error, where chance does not decide. 3: the stretches are few.
+
+Both are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
+where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter.
 Rows whose scenes do not go in lanes stay empty.
 """
 
@@ -24,23 +31,25 @@ import numpy as np
 from campaigns.answers import PERIODIC, kilonewton, known
 from campaigns.buoy_sweep.answer import COARSE, OTHER
 from campaigns.buoy_sweep.batches import UNFOLLOWED, Batch, changed, finer
-from campaigns.buoy_sweep.rows import ERROR
+from campaigns.buoy_sweep.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.columns import MESSAGE, PERIODS_RUN, RINGING, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.judge import job_from, tighter_scene
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Plan, Summary
 from campaigns.motions.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
 from engine import goes_in_lanes, simulate
+from engine.at_rest import static_tension_N
 
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
 FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")
 USUAL = Column(
     "tension_usual_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods at the end", 0
 )
-COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, WALL_S, RUN_KEY, MESSAGE)
+COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, SLACK, WALL_S, RUN_KEY, MESSAGE)
 REPEATING, OTHERS = 12, 40  # wave periods of a companion: at least, of a motion that repeats; of the others
 LEFT_OUT = 0.25  # of the latter: until it has forgotten that its grid was changed
 TIGHTER = 4  # times, as the square of an element
+SLACK_COARSE = 0.05  # an error of the slack fraction above it is told in words
 CHANGED = "with twice the elements at a quarter of the tolerance"
 
 
@@ -49,7 +58,7 @@ def errors(plan: Plan, summary: Summary) -> float:
 
     Rows without a transient, as of runs that ended early, stay empty. Raises as `runner.run`.
     """
-    jobs, usual = [], {}
+    jobs, usual, slack = [], {}, {}
     for row in summary.rows if plan.simulate is simulate else ():
         if row.get("transient_periods") is None or (run := run_of(plan.how.out, row)) is None:
             continue
@@ -57,6 +66,7 @@ def errors(plan: Plan, summary: Summary) -> float:
         if run.final_state is None or not goes_in_lanes(scene):
             continue
         usual[row["run_key"]] = usual_max_N(run, row["transient_periods"], period)
+        slack[row["run_key"]] = slack_shares(run, row["transient_periods"], period)
         length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
         motion = (settled_of(run) or as_it_is(run)) if row.get("regime") else None
         describe = partial(companion_row, period=period, motion=motion)
@@ -70,7 +80,9 @@ def errors(plan: Plan, summary: Summary) -> float:
         if (companion := found.get(row.get("run_key"))) is not None:
             error, said = error_N(row, usual[row["run_key"]], companion)
             row[ERROR.name] = error if math.isfinite(error) else None
-            row["message"] = "; ".join(filter(None, (row.get("message"), *said))) or None
+            error, said_of_slack = slack_error(slack[row["run_key"]], companion)
+            row[SLACK_ERROR.name] = error if math.isfinite(error) else None
+            row["message"] = "; ".join(filter(None, (row.get("message"), *said, *said_of_slack))) or None
     write_table(plan.how.out / "table.csv", plan.columns, summary.rows)
     return analysis_s
 
@@ -83,6 +95,8 @@ def companion_row(trajectory, checks=None, period: int | None = None, motion=Non
     row["periods"] = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
     if trajectory.status == "ok":
         row[USUAL.name] = usual_max_N(trajectory, LEFT_OUT * row["periods"], period)
+        shares = slack_shares(trajectory, LEFT_OUT * row["periods"], period)
+        row[SLACK.name] = float(shares.mean()) if len(shares) else None
         if motion is not None:
             strobed, measures, _ = section_of(trajectory)
             row[OUTCOME.name] = UNSETTLED if joins(strobed, measures, [motion]) is None else JOINED
@@ -106,6 +120,26 @@ def _maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     first = round(transient_periods * period_s / step_s) + 1
     return block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
+
+
+def slack_shares(trajectory, transient_periods: float, period: int | None) -> np.ndarray:
+    """Slack fraction of each whole stretch at the end of a record; the head of this file says how long they are."""
+    scene, tension_N = trajectory.scene, trajectory.columns["tension_top_N"]
+    threshold_N = max(NEAR_ZERO * static_tension_N(scene, trajectory.columns), 0.0)
+    in_period = scene.waves.period_s / scene.sample_step_s()
+    samples = round((_whole(period) if period else BLOCK) * in_period)
+    count = round(len(tension_N) - 1 - transient_periods * in_period) // samples
+    slack = tension_N[len(tension_N) - count * samples :] <= threshold_N
+    return slack.reshape(count, samples).mean(axis=1)
+
+
+def slack_error(shares: np.ndarray, companion: dict) -> tuple[float, list[str]]:
+    """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
+    away = abs(known(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
+    scatter = shares.std(ddof=1) if len(shares) > 1 else 0.0
+    error = float(4.0 / 3.0 * away + 3.0 * scatter / math.sqrt(max(len(shares), 1)))
+    told = error > SLACK_COARSE and away > 2.0 * scatter
+    return error, [f"the slack fraction holds to {error:.2f} only"] if told else []
 
 
 def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:

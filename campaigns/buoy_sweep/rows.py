@@ -32,6 +32,10 @@ STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amp
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
 TRANSIENT = Column("transient_periods", "", "transient", "wave periods at the start that are left out of extremes", 0)
 STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
+SLACK = Column(
+    "slack_fraction", "", "χ",
+    "share of the time after the transient with less than 5 % of the static tension at the top", 3,
+)  # fmt: skip
 # What is measured after the transient (`settled`) of any line, with or without a verdict.
 EXTREMES = (
     Column("radius_min_m", "m", "r_min", "smallest distance of the upper end from the anchor after the transient", 2),
@@ -40,10 +44,7 @@ EXTREMES = (
     Column("angle_max_rad", "rad", "θ_max", "largest angle of the upper end from the vertical after the transient", 3),
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
-    Column(
-        "slack_fraction", "", "χ",
-        "share of the time after the transient with less than 5 % of the static tension at the top", 3,
-    ),
+    SLACK,
     Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
 )  # fmt: skip
 ERROR = Column(
@@ -51,6 +52,9 @@ ERROR = Column(
     "how far the largest tension holds, by a companion on twice the elements at a quarter of the tolerance, and by how "
     "far it stands above what is usual", 0,
 )  # fmt: skip
+SLACK_ERROR = Column(
+    "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
+)
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
 _BITS = "bits/period"
@@ -84,6 +88,7 @@ COLUMNS = (
     STROBED,
     *EXTREMES,
     ERROR,
+    SLACK_ERROR,
     *WOLF,
     *TANGENT,
     *MULTIPLIERS,

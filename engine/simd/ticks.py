@@ -22,6 +22,7 @@ from ..physics.tension.kernels import tension
 from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
 from ..time import steps
+from ..time.folds import watch_turn
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.ringing import jumps_of_rates, watch_ringing
 from ..time.status import OK
@@ -165,7 +166,7 @@ def end_steps(records, tables, states, numbers, Y, one):
             watch_ringing(p, tables[b], state, numbers[TOP, b], low, high, jumps)
         step_done(p, state)
         state.min_strain = min(state.min_strain, numbers[LEAST, b])
-        state.max_turn = max(state.max_turn, numbers[TURN, b])
+        watch_turn(state, numbers[TURN, b])
         code, released = OK, False
         if numbers[TURN, b] > math.pi:
             copy_into(one, Y[:, :, b])

@@ -32,6 +32,7 @@ from ..physics.shocks import deforming_element, renew_viscosity
 from ..planar.columns import EPS, TURN  # EPS: in space the same column
 from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
+from .folds import watch_turn
 from .ringing import jumps_of_rates, near_stages, watch_ringing
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
 from .steps import least_strain, one_stage_step, runge_kutta_step, trial_error
@@ -49,7 +50,7 @@ def guard_turns(p, tables, state, Y):
     released = False
     for _ in range(Y.shape[0]):
         turn, where = largest_turn(p, Y)
-        state.max_turn = max(state.max_turn, turn)
+        watch_turn(state, turn)
         if turn <= math.pi:
             return OK, released
         if state.turned != 0:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from campaigns.buoy_sweep.answer import OTHER
-from campaigns.buoy_sweep.errors import REPEATING, companion_row, error_N
+from campaigns.buoy_sweep.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
 from campaigns.motions.starts import JOINED, UNSETTLED, settled_of
 from campaigns.sweep import main as sweep_command
 from engine import load_scene, simulate
@@ -21,6 +21,41 @@ def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands
     assert OTHER in other
     unknown, (ended,) = error_N(row, 101.0, same | {"status": "newton-failed"})
     assert np.isnan(unknown) and "newton-failed" in ended
+
+
+@pytest.mark.parametrize("bias", [0.0, 0.04])
+def test_the_error_of_a_slack_fraction_covers_its_distance_from_the_limit(bias):
+    """Stretches scatter about a share that is off by `bias`; the companion, of two stretches, by a quarter of that."""
+    generator, limit, covered = np.random.default_rng(1), 0.5, 0
+    for _ in range(400):
+        shares = limit + bias + 0.03 * generator.standard_normal(6)
+        finer = limit + 0.25 * bias + 0.03 * generator.standard_normal(2).mean()
+        error, words = slack_error(shares, {"slack_fraction": finer})
+        covered += abs(shares.mean() - limit) < error
+        assert error > SLACK_COARSE or not words
+    assert covered > 0.9 * 400
+    assert np.isnan(slack_error(shares, {"status": "newton-failed"})[0])
+
+
+def test_a_slack_fraction_that_the_companion_moves_is_told_and_chance_is_not():
+    same, scattered = np.full(4, 0.65), np.array([0.58, 0.72, 0.66, 0.64])
+    assert slack_error(same, {"slack_fraction": 0.71}) == (
+        pytest.approx(0.08),
+        ["the slack fraction holds to 0.08 only"],
+    )
+    error, words = slack_error(scattered, {"slack_fraction": 0.71})
+    assert error > 0.08 and not words
+
+
+@pytest.mark.parametrize(("transient", "period"), [(30, None), (30, 1), (0, 4)])
+def test_stretches_of_a_record_have_its_slack_fraction(transient, period):
+    """Of a tension that is above the threshold over two of five samples, again and again."""
+    run = sines(load_scene("tethered_buoy"), 90)
+    high_N = np.where(np.arange(len(run.columns["time_s"])) % 5 < 2, 2e3, -2e3)
+    run.columns["tension_top_N"][:] = high_N
+    shares = slack_shares(run, transient, period)
+    assert len(shares) == (90 - transient) // {None: 15, 1: 5, 4: 8}[period]
+    assert np.ptp(shares) < 1e-12 and shares.mean() == pytest.approx(0.6, abs=1e-12)
 
 
 @pytest.mark.parametrize(("swing_m", "outcome"), [(1.0, JOINED), (1.5, UNSETTLED)])

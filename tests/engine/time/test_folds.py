@@ -1,0 +1,67 @@
+"""Law: of a slack line whose end is moved, a run says that its largest tension comes after folds that its elements do
+not resolve where refinement changes that tension, by as much at most; elsewhere it says nothing.
+"""
+
+import math
+import re
+
+import pytest
+
+from engine import load_scene, simulate
+from engine.time.folds import FOLD
+from tests.engine.lines import STILL, held
+
+FINE = {"tether.nodes": 161, "solver.rtol": 0.005}
+WRONG, RIGHT = 0.05, 0.02  # of the largest tension: beyond the first it is off, below the second it is not
+
+
+def moved(share, tilt, length, period_s, along_m, across_m, stiffness_Nm2, **keys):
+    """A line in still water, its ends a share of its length apart; the upper one shaken along the chord and across."""
+    x, z = math.cos(tilt), math.sin(tilt)
+    amplitude = [along_m * x - across_m * z, 0.0, along_m * z + across_m * x]
+    motion = {"law": "harmonic", "amplitude_m": amplitude, "period_s": period_s, "ramp_s": period_s}
+    line = {"tether.length_m": length, "tether.bending_stiffness_Nm2": stiffness_Nm2, "water.depth_m": 3 * length}
+    return STILL | held(share * length * x, share * length * z, motion=motion) | line | keys
+
+
+def run_of(scene, **keys):
+    period_s = scene["end"]["motion"]["period_s"]
+    return simulate(load_scene("tethered_buoy", scene | keys), duration_s=3 * period_s)
+
+
+def test_the_chord_of_a_fold_is_five_per_cent_too_short():
+    """The box takes the mean of the tangents at both ends of an element, the arc that over its length."""
+    assert math.cos(FOLD / 2) / (math.sin(FOLD / 2) / (FOLD / 2)) == pytest.approx(0.95, abs=1e-3)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize(("wrong", "scene"), [
+    (True, moved(0.64, 0.5, 20.0, 2.0, 0.6, -0.3, 0.01)),
+    (True, moved(0.75, 0.2, 50.0, 4.0, 1.0, 4.0, 0.4)),
+    (False, moved(0.80, 0.0, 20.0, 6.0, 0.3, 0.5, 0.4)),
+    (False, moved(0.93, 1.2, 10.0, 3.0, 0.2, 0.3, 4.0)),
+])  # fmt: skip
+def test_a_run_tells_of_folds_where_they_move_its_largest_tension(wrong, scene, dimensions):
+    run, fine = (run_of(scene, **{"motion.dimensions": dimensions}, **more) for more in ({}, FINE))
+    assert run.status == fine.status == "ok"
+    largest, right = (float(found.columns["tension_top_high_N"].max()) for found in (run, fine))
+    off = abs(largest / right - 1.0)
+    assert off > WRONG if wrong else off < RIGHT
+    stated = re.search(r"folds .* by up to (\d+)%", run.message)
+    assert off < float(stated.group(1)) / 100.0 if wrong else stated is None
+
+
+def test_folds_after_the_largest_tension_and_those_of_a_buoys_line_are_not_told():
+    """A taut line is let hang: what folds later cannot have changed its largest tension."""
+    slackens = {"law": "table", "time_s": [0.0, 8.0], "displacement_m": [[0.0, 0.0, 0.0], [-8.0, 0.0, -8.0]]}
+    scene = STILL | held(14.2, 14.2, motion=slackens) | {"tether.bending_stiffness_Nm2": 0.01}
+    line, buoy = (simulate(load_scene("tethered_buoy", keys), duration_s=15.0) for keys in (scene, {}))
+    for run in (line, buoy):
+        assert run.status == "ok" and run.statistics["max_turn_rad"] > FOLD and "folds" not in run.message
+
+
+def test_a_line_that_hangs_still_is_not_warned_of_its_bend():
+    """Ends that almost meet: the lowest element turns by more than FOLD, and statics has its tension right."""
+    scene = STILL | held(0.02, 0.0) | {"tether.bending_stiffness_Nm2": 0.01}
+    run = simulate(load_scene("tethered_buoy", scene), duration_s=2.0)
+    assert run.status == "ok" and run.statistics["max_turn_rad"] > FOLD and run.message == ""
