@@ -56,10 +56,12 @@ def approach_evidence(
     alike = (expected / AGREES <= rates) & (rates <= AGREES * expected)
     passed = attracts and bool(alike.all()) and distances[2] <= min(NEAR, LEFT * distances[0])
     shown = float(np.exp(-rates.mean() * period))
+    what = "attracts" if attracts else "is not known to attract"
+    comes = "comes" if passed else "is not shown to come"
     sentence = (
-        f"a period-{period} orbit lies {100.0 * distances[2]:.2g} % of the motion away; it "
-        f"{'attracts' if attracts else 'is not known to attract'} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}) "
-        f"and the run {'comes' if passed else 'is not shown to come'} nearer as that says ({shown:.4f} each time)"
+        f"a period-{period} orbit lies {100.0 * distances[2]:.2g} % of the motion away; "
+        f"it {what} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
+        f"and the run {comes} nearer as that says ({shown:.4f} each time)"
     )
     return Evidence("approach", shown, float(moduli[0]), passed, sentence)
 

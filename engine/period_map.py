@@ -120,7 +120,7 @@ class PeriodMap:
         return state.with_numbers(**begin, first=0, samples=1, low=row[0, col.TOP], high=row[0, col.TOP])
 
     def history(self, points: Sequence[np.ndarray], value: float) -> dict[str, np.ndarray]:
-        """Columns of a trajectory (`engine.trajectory.COLUMNS`) over the periods that begin at the points of an orbit."""
+        """Columns of a trajectory (`engine.trajectory.COLUMNS`) over the periods that begin at points of an orbit."""
         parts = []
         for z, image in zip(points, self.frozen(points, value), strict=True):
             image(z, value)

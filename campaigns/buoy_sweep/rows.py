@@ -133,7 +133,7 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
         if verdict is not None and verdict.regime in (*OPEN, "quasi-periodic"):
             verdict, ahead = judged_by_orbit(trajectory, verdict)
         if ahead is not None:
-            row |= ahead.row()
+            row |= ahead.row()[0]
         elif verdict is not None and verdict.period and trajectory.final_state is not None:
             multipliers, orbit = orbit_row(trajectory, verdict.period)
             row |= multipliers

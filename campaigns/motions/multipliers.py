@@ -49,20 +49,15 @@ class OrbitUnder(NamedTuple):
     errors: np.ndarray
     run: Trajectory
 
-    def row(self) -> dict[str, float | None]:
-        """The columns MULTIPLIERS."""
+    def row(self) -> tuple[dict[str, float | None], str]:
+        """The columns MULTIPLIERS, and the leading multiplier in words."""
         first, error = complex(self.orbit.multipliers[0]), float(self.errors[0])
-        values = abs(first), abs(math.atan2(first.imag, first.real)), error if math.isfinite(error) else None
-        return dict(zip((column.name for column in MULTIPLIERS), values, strict=True))
-
-    def __str__(self) -> str:
-        first, error = complex(self.orbit.multipliers[0]), float(self.errors[0])
-        value = f"{first.real:.4f}" if first.imag == 0.0 else f"{abs(first):.4f} at {_degrees(first):.0f} degrees"
-        kept = abs(first) - error < 1.0
-        doubt = (
-            "" if abs(first) < 1.0 else ", not known to be stable" if kept else ": NOT stable, the run lies beside it"
-        )
-        return f"leading multiplier {value}, ± {error:.2g}{doubt}"
+        modulus, angle = abs(first), abs(math.atan2(first.imag, first.real))
+        values = modulus, angle, error if math.isfinite(error) else None
+        said = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees" if first.imag else f"{first.real:.4f}"
+        doubt = ", not known to be stable" if modulus - error < 1.0 else ": NOT stable, the run lies beside it"
+        words = f"leading multiplier {said}, ± {error:.2g}{doubt if modulus >= 1.0 else ''}"
+        return dict(zip((column.name for column in MULTIPLIERS), values, strict=True)), words
 
 
 def orbit_under(trajectory: Trajectory, period: int, iterations: int = 20) -> OrbitUnder:
@@ -99,8 +94,4 @@ def orbit_row(trajectory: Trajectory, period: int) -> tuple[dict[str, float | No
         return {}, f"no multipliers: {why}"
     if under.orbit.period != period:
         return {}, f"no multipliers: the orbit under it has period {under.orbit.period}"
-    return under.row(), str(under)
-
-
-def _degrees(value: complex) -> float:
-    return math.degrees(abs(math.atan2(value.imag, value.real)))
+    return under.row()

@@ -76,7 +76,7 @@ def _proposed(kicked: np.ndarray, task: list[tuple]) -> list[list[dict]]:
 
 
 def _motions(kicked: np.ndarray, scene) -> list[dict]:
-    from analysis import joins
+    from analysis import approached_period, joins
 
     try:
         rest = np.array(engine.massless_rest(scene))
@@ -100,7 +100,7 @@ def _motions(kicked: np.ndarray, scene) -> list[dict]:
                 one = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period}
                 one["tension_N"] = float(motion.measures[:, 2].max())
                 found.append(one)
-            elif periods < LONGER and (number == SCREENED or _rings(strobed)):
+            elif periods < LONGER and (number == SCREENED or approached_period(strobed, np.ptp(strobed, axis=0))):
                 ringing.append(number)
                 continue
             else:
@@ -139,12 +139,6 @@ def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):
     return settled(run.strobed[0], run.measures[0], scale=scale)
 
 
-def _rings(strobed: np.ndarray) -> bool:
-    from analysis import approached_period
-
-    return approached_period(strobed, np.ptp(strobed, axis=0)) is not None
-
-
 def _orbit_ahead(scene, strobed: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
     """A state (4,) on the periodic orbit that a massless run comes nearer to (`analysis.approaches`); None: on none."""
     from analysis import approach_evidence, approached_period
@@ -159,9 +153,7 @@ def _orbit_ahead(scene, strobed: np.ndarray, scale: np.ndarray) -> np.ndarray | 
         return image, lambda V: slope @ V
 
     period = approached_period(strobed, scale)
-    if period is None:
-        return None
-    orbit = find_orbit(OrbitMap(step), strobed[-1] / scale, 0.0, period, count=4)
+    orbit = find_orbit(OrbitMap(step), strobed[-1] / scale, 0.0, period or 1, count=4)
     if not orbit.found:
         return None
     errors = orbit.residuals + DIFFERENCE

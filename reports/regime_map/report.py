@@ -61,7 +61,8 @@ _REGIMES = (
 _OTHERS = (
     "The same map: number of motions; largest tension of all of them; share of the starts (from rest and kicks) "
     "that end in the motion of that tension, 0 where only states of neighbours lead to it; largest exponent of all of "
-    "them, white where none is known, without a map where no cell has one. Lines: borders between regimes of the motion from rest, as above."
+    "them, white where none is known. A quantity that no cell has is left out. Lines: borders between regimes of the "
+    "motion from rest, as above."
 )
 
 
