@@ -11,6 +11,7 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
+        "approaches": ["approach_evidence", "approached_period"],
         "correlation_sums": ["CorrelationDimension", "correlation_dimension"],
         "divergence": ["rosenstein_lyapunov", "kantz_lyapunov"],
         "embedding": ["choose_delay", "choose_embedding", "delay_vectors", "mutual_information"],

@@ -120,15 +120,16 @@ class PeriodMap:
         return state.with_numbers(**begin, first=0, samples=1, low=row[0, col.TOP], high=row[0, col.TOP])
 
     def history(self, points: Sequence[np.ndarray], value: float) -> dict[str, np.ndarray]:
-        """Columns of a trajectory (`engine.trajectory.COLUMNS`) over the periods that begin at these points."""
-        rows = []
-        for number, (z, image) in enumerate(zip(points, self.frozen(points, value), strict=True)):
+        """Columns of a trajectory (`engine.trajectory.COLUMNS`) over the periods that begin at points of an orbit."""
+        parts = []
+        for z, image in zip(points, self.frozen(points, value), strict=True):
             image(z, value)
             run = self._run(value)
-            part = run.output.samples[: self.samples_of(run.scene)].copy()
-            part[:, col.TIME] += number * run.scene.waves.period_s
-            rows.append(part)
-        return columns_of(np.concatenate(rows), heading_of(run.scene))
+            parts.append(run.output.samples[1 : self.samples_of(run.scene) + 1].copy())
+        # the last sample, at the strobe, is the first one too, with the extremes of the steps before it
+        samples = np.roll(np.concatenate(parts), 1, axis=0)
+        samples[:, col.TIME] = np.arange(len(samples)) * float(run.record["output_step"])
+        return columns_of(samples, heading_of(run.scene))
 
     def _run(self, value: float) -> Idle:
         """Arrays of the scene of a value; the last ones are kept."""

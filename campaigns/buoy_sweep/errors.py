@@ -4,7 +4,8 @@
 
 T_b, of the row after its transient: the mean of the largest tensions of every BLOCK wave periods; of a motion that
 repeats after N, the largest of its last periods, LAST at least and a multiple of N. T_b': the same of the companion,
-which goes on from the row's last state with twice the elements at a quarter of the tolerance.
+which goes on from the row's last state with twice the elements at a quarter of the tolerance. Where the row is judged
+by the orbit that its run comes nearer to, T_b and the last state are those of the orbit.
 
 2: where the orders hold (2 in the elements, 1 in the tolerance), the companion has a quarter of the error, and 4/3
 would do; where a snap halves them, it has half of it. T_max - T_b: what is left of the transient in the row, and chance
@@ -36,6 +37,7 @@ from campaigns.columns import MESSAGE, PERIODS_RUN, RINGING, RUN_KEY, STATUS, WA
 from campaigns.judge import job_from, tighter_scene
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Plan, Summary
+from campaigns.motions.approach import orbit_ahead
 from campaigns.motions.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
 from engine import goes_in_lanes, simulate
 from engine.at_rest import static_tension_N
@@ -63,6 +65,8 @@ def errors(plan: Plan, summary: Summary) -> float:
         if row.get("transient_periods") is None or (run := run_of(plan.how.out, row)) is None:
             continue
         scene, period = tighter_scene(changed(run.scene, UNFOLLOWED, finer(run.scene)), TIGHTER), _period(row)
+        if period and "approach: " in (row.get("evidence") or ""):
+            run = orbit_ahead(run)[0].run
         if run.final_state is None or not goes_in_lanes(scene):
             continue
         usual[row["run_key"]] = usual_max_N(run, row["transient_periods"], period)

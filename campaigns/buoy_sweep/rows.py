@@ -24,6 +24,7 @@ from campaigns.columns import (
 )
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
 from campaigns.motions.along import MOTIONS
+from campaigns.motions.approach import judged_by_orbit
 from campaigns.motions.multipliers import MULTIPLIERS, orbit_row
 from engine.at_rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
@@ -114,7 +115,8 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
     transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
-    those that the verdict has found; a periodic motion then has the multipliers of its orbit.
+    those that the verdict has found; a periodic motion then has the multipliers of its orbit, and one that only comes
+    nearer to its orbit has the extremes and the slack of the orbit.
     checks: how it went on at a tighter tolerance (`campaigns.judge.motion_of`), for a run that is chaotic.
     full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
     origin are asked for too; the verdict does not rest on them. None: they are not made.
@@ -129,13 +131,19 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
     if periods >= 0.0:
         row["periods"] = periods
     verdict, wolf = judged(trajectory, periods, transient_periods, checks)
-    orbit = ""
+    orbit, ahead = "", None
     if transient_periods is None:
-        if verdict is not None and verdict.period and trajectory.final_state is not None:
+        if verdict is not None and verdict.regime in (*OPEN, "quasi-periodic"):
+            verdict, ahead = judged_by_orbit(trajectory, verdict)
+        if ahead is not None:
+            row |= ahead.row()[0]
+        elif verdict is not None and verdict.period and trajectory.final_state is not None:
             multipliers, orbit = orbit_row(trajectory, verdict.period)
             row |= multipliers
         transient_periods = 0 if verdict is None else verdict.transient
     if measured := after_transient(trajectory, columns, transient_periods):
+        if ahead is not None:
+            measured |= settled(scene, ahead.run.columns, 0.0) | {STROBED.name: verdict.period}
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
             first = round(transient_periods * period_s / step_s)  # sample after the transient

@@ -6,12 +6,19 @@ orbit is one. Newton's method on the map over a wave period (`engine.period_map`
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
 
+import numpy as np
+
+from analysis.orbits import Orbit
 from campaigns.columns import Column
+from engine.trajectory import Trajectory
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
+LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
     Column(
         "multiplier_modulus", "", "|μ|",
@@ -34,35 +41,57 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)
 
 
-def orbit_row(trajectory, period: int) -> tuple[dict[str, float | None], str]:
-    """The columns MULTIPLIERS of the orbit under a run that repeats after `period` wave periods; the same in words.
+class OrbitUnder(NamedTuple):
+    """The periodic orbit under a run (`analysis.orbits.Orbit`), the errors of its multipliers, and a run on it that is
+    long enough to be judged."""
 
-    Where there is none, or one of another period than the run's, the words say why.
+    orbit: Orbit
+    errors: np.ndarray
+    run: Trajectory
+
+    def row(self) -> tuple[dict[str, float | None], str]:
+        """The columns MULTIPLIERS, and the leading multiplier in words."""
+        first, error = complex(self.orbit.multipliers[0]), float(self.errors[0])
+        modulus, angle = abs(first), abs(math.atan2(first.imag, first.real))
+        values = modulus, angle, error if math.isfinite(error) else None
+        said = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees" if first.imag else f"{first.real:.4f}"
+        doubt = ", not known to be stable" if modulus - error < 1.0 else ": NOT stable, the run lies beside it"
+        words = f"leading multiplier {said}, ± {error:.2g}{doubt if modulus >= 1.0 else ''}"
+        return dict(zip((column.name for column in MULTIPLIERS), values, strict=True)), words
+
+
+def orbit_under(trajectory: Trajectory, period: int, iterations: int = 20) -> OrbitUnder:
+    """The orbit under a run that repeats, or comes to repeat, after `period` wave periods or a divisor of them.
+
+    Raises ArithmeticError, with the end of a sentence, where Newton's method finds none in so many iterations.
     """
-    from analysis.orbits import find_orbit, scatter_of
+    from analysis.orbits import NoImage, find_orbit, scatter_of
     from engine.scene import scene_from_toml
 
     own = trajectory.scene
     scene = scene_from_toml(own.to_toml(), {"solver.rtol": min(QUICK, own.solver.rtol)})
+    cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
+    orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations)
+    if not orbit.found:
+        raise NoImage(orbit.reason)
+    once = cable.history(orbit.points, 0.0)
+    samples = max(LONG, 8 * orbit.period) * cable.samples_of(scene) + 1
+    columns = {name: np.resize(values, samples) for name, values in once.items()}
+    columns["time_s"] = np.arange(samples) * own.sample_step_s()
+    state = replace(cable.state_of(orbit.points[0], 0.0), scene=own)
+    run = replace(trajectory, columns=columns, final_state=state)
+    return OrbitUnder(orbit, scatter_of(system, orbit).multipliers, run)
+
+
+def orbit_row(trajectory: Trajectory, period: int) -> tuple[dict[str, float | None], str]:
+    """The columns MULTIPLIERS of the orbit under a run that repeats after `period` wave periods; the same in words.
+
+    Where there is none, or one of another period than the run's, the words say why.
+    """
     try:
-        cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
+        under = orbit_under(trajectory, period)
     except (ArithmeticError, ValueError) as why:
         return {}, f"no multipliers: {why}"
-    orbit = find_orbit(system, cable.first, 0.0, period, count=2)
-    if not orbit.found or orbit.period != period:
-        return {}, f"no multipliers: {orbit.reason or f'the orbit under it has period {orbit.period}'}"
-    first, error = complex(orbit.multipliers[0]), float(scatter_of(system, orbit).multipliers[0])
-    values = abs(first), abs(math.atan2(first.imag, first.real)), error if math.isfinite(error) else None
-    return dict(zip((column.name for column in MULTIPLIERS), values, strict=True)), _said(first, error)
-
-
-def _said(first: complex, error: float) -> str:
-    """A leading multiplier in words."""
-    value = f"{first.real:.2f}" if first.imag == 0.0 else f"{abs(first):.2f} at {_degrees(first):.0f} degrees"
-    kept = abs(first) - error < 1.0
-    doubt = "" if abs(first) < 1.0 else ", not known to be stable" if kept else ": NOT stable, the run lies beside it"
-    return f"leading multiplier {value}, ± {error:.2g}{doubt}"
-
-
-def _degrees(value: complex) -> float:
-    return math.degrees(abs(math.atan2(value.imag, value.real)))
+    if under.orbit.period != period:
+        return {}, f"no multipliers: the orbit under it has period {under.orbit.period}"
+    return under.row()

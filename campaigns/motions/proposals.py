@@ -3,7 +3,6 @@
 import hashlib
 from collections.abc import Sequence
 from functools import cache, partial
-from itertools import repeat
 
 import numpy as np
 
@@ -16,6 +15,8 @@ from campaigns.motions.starts import Start
 from engine.scales import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
+LONGER = 320  # wave periods of the start from rest and of kicks that come nearer to a period, if 80 do not settle them
+DIFFERENCE = 1e-5  # of a state, for the derivative of the map over a wave period
 
 
 def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple[float, float]]:
@@ -80,45 +81,86 @@ def _proposed(kicked: np.ndarray, task: list[tuple]) -> list[list[dict]]:
 
 
 def _motions(kicked: np.ndarray, scene) -> list[dict]:
-    from analysis import joins, settled
+    from analysis import approached_period, joins
 
     try:
         rest = np.array(engine.massless_rest(scene))
-        starts = np.column_stack([*map(partial(np.full, len(kicked)), rest), kicked])
-        runs = engine.massless_runs(scene, starts, PERIODS)
     except ValueError:  # not covered
         return []
-    known, found = [], []
-    loose = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
-    for number, (strobed, measures) in enumerate(zip(runs.strobed, runs.measures, strict=True)):
-        if not np.isfinite(strobed).all():
-            continue
-        which = joins(strobed, measures, known)
-        if which is not None:
-            one = found[which]
-        elif (motion := _settled(settled, scene, strobed, measures)) is not None:
-            known.append(motion)
-            x, z, u, w = map(float, strobed[-1])
-            one = {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period, "share": 0.0}
-            found.append(one | {"tension_N": float(motion.measures[:, 2].max()), "rest": False})
-            one = found[-1]
-        else:
-            one, later = loose, float(measures[len(measures) // 2 :, 2].max())
-            one["tension_N"] = max(one["tension_N"], later)
-        if number < SCREENED:
-            one["share"] += 1.0 / SCREENED
-        else:
-            one["rest"] = True
+    starts = np.column_stack([*map(partial(np.full, len(kicked)), rest), kicked])
+    known, found, numbers = [], [], range(len(kicked))
+    unknown = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
+    loose = dict(unknown)
+    for periods in (PERIODS, LONGER):
+        runs, ringing = engine.massless_runs(scene, starts[numbers], periods), []
+        for number, strobed, measures in zip(numbers, runs.strobed, runs.measures, strict=True):
+            if not np.isfinite(strobed).all():
+                continue
+            which = joins(strobed, measures, known)
+            if which is not None:
+                one = found[which]
+            elif (motion := _settled(scene, strobed, measures, number == SCREENED and periods == LONGER)) is not None:
+                known.append(motion)
+                x, z, u, w = map(float, strobed[-1])
+                one = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period}
+                one["tension_N"] = float(motion.measures[:, 2].max())
+                found.append(one)
+            elif periods < LONGER and (number == SCREENED or approached_period(strobed, np.ptp(strobed, axis=0))):
+                ringing.append(number)
+                continue
+            else:
+                one, later = loose, float(measures[len(measures) // 2 :, 2].max())
+                one["tension_N"] = max(one["tension_N"], later)
+            if number < SCREENED:
+                one["share"] += 1.0 / SCREENED
+            else:
+                one["rest"] = True
+        if not ringing:
+            break
+        numbers = ringing[::-1]  # the one from rest first: others join what it comes to
     found += [loose] if loose["tension_N"] else []
     static_N = tension_at(float(np.hypot(*rest)) / scene.tether.length_m - 1.0, scene.tether.tension)
     return [one | {"static_N": max(float(static_N), 0.0)} for one in found]
 
 
-def _settled(settled, scene, strobed, measures):
-    """The motion to which a massless run has settled, in the scale of its size within the period; None: it has not."""
+def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):
+    """The periodic motion to which a massless run has settled, in the scale of its size within the period; ahead: or to
+    which it comes nearer. None: neither."""
+    from analysis import settled
+
     later = strobed[len(strobed) // 2 :]
     place, speed = np.ptp(later[:, :2], axis=0).max(), np.ptp(later[:, 2:], axis=0).max()
     swing = np.ptp(measures[len(measures) // 2 :, :2])  # of r
     omega = 2.0 * np.pi / scene.waves.period_s
     size = max(place, swing, 1e-6), max(speed, omega * swing, 1e-6)
-    return settled(strobed, measures, scale=[*repeat(size[0], 2), *repeat(size[1], 2)])
+    scale = np.repeat(size, 2)
+    motion = settled(strobed, measures, scale=scale)
+    if motion is not None and motion.period:
+        return motion
+    start = _orbit_ahead(scene, strobed, scale) if ahead else None
+    if start is None:
+        return None
+    run = engine.massless_runs(scene, start[None], PERIODS)
+    return settled(run.strobed[0], run.measures[0], scale=scale)
+
+
+def _orbit_ahead(scene, strobed: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
+    """A state (4,) on the periodic orbit that a massless run comes nearer to (`analysis.approaches`); None: on none."""
+    from analysis import approach_evidence, approached_period
+    from analysis.orbits import NoImage, OrbitMap, find_orbit
+
+    def step(z: np.ndarray, _: float) -> tuple:
+        starts = np.vstack([z, z + DIFFERENCE * np.eye(4), z - DIFFERENCE * np.eye(4)])
+        image, *beside = engine.massless_runs(scene, starts * scale, 1).strobed[:, -1] / scale
+        if not np.isfinite(beside).all():
+            raise NoImage("the buoy flies off")
+        slope = np.subtract(beside[:4], beside[4:]).T / (2.0 * DIFFERENCE)
+        return image, lambda V: slope @ V
+
+    period = approached_period(strobed, scale)
+    orbit = find_orbit(OrbitMap(step), strobed[-1] / scale, 0.0, period or 1, count=4)
+    if not orbit.found:
+        return None
+    errors = orbit.residuals + DIFFERENCE
+    approach = approach_evidence(strobed, orbit.points * scale, orbit.multipliers, errors, scale)
+    return orbit.points[0] * scale if approach.passed else None

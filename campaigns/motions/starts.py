@@ -22,6 +22,7 @@ from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of, write_table
 from campaigns.machinery.plan import Further, Job, Plan, Summary
 from campaigns.machinery.runner import run
+from campaigns.motions.approach import orbit_ahead
 from engine.scene import scene_from_toml
 from engine.views import state_of
 
@@ -157,11 +158,14 @@ def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
 
 
 def settled_of(trajectory):
-    """The motion to which a run has settled (`analysis.Settled`); None where it has not."""
+    """The motion to which a run has settled, or comes nearer (`analysis.Settled`); None where it does neither."""
     from analysis import settled
 
     strobed, measures, scale = section_of(trajectory)
-    return settled(strobed, measures, scale=scale)
+    motion = settled(strobed, measures, scale=scale)
+    if motion is None and (ahead := orbit_ahead(trajectory)) and ahead[1].passed:
+        return settled_of(ahead[0].run)
+    return motion
 
 
 def as_it_is(trajectory):

@@ -176,7 +176,7 @@ def _percent(share: float) -> str:
 
 
 def numbers(atlas: Atlas) -> list[list[Map]]:
-    """The four other maps of each page, in scales that all pages share."""
+    """The four other maps of each page, in scales that all pages share; none of a quantity without a value."""
     from matplotlib.colors import BoundaryNorm, CenteredNorm, LinearSegmentedColormap, Normalize
 
     def ends(name: str) -> tuple[float, float]:
@@ -197,7 +197,8 @@ def numbers(atlas: Atlas) -> list[list[Map]]:
         ("share_of_largest", "share of kicks that end in that motion", even, Normalize(0.0, 1.0), None),
         (_EXPONENT, f"largest exponent ({unit or '–'})", signed, CenteredNorm(0.0, growth or 1.0), None),
     )
-    return [[_shaded(page, *one) for one in told] for page in atlas.pages]
+    known = [one for one in told if any(np.isfinite(page.column(one[0])).any() for page in atlas.pages)]
+    return [[_shaded(page, *one) for one in known] for page in atlas.pages]
 
 
 def _shaded(page: Page, name: str, title: str, colours, norm, ticks) -> Map:

@@ -32,7 +32,7 @@ def report(directory: str | Path) -> Report:
     first = _figure(
         atlas, [regimes(page) for page in atlas.pages], legend(atlas), f"Maps of regimes over {over}", _REGIMES
     )
-    others = [_figure(atlas, four, (), f"Four maps over {over}", _OTHERS) for four in numbers(atlas)]
+    others = [_figure(atlas, four, (), f"Maps over {over}", _OTHERS) for four in numbers(atlas)]
     pages = zip(atlas.pages, others, strict=True) if len(others) > 1 else ()
     items = [
         first,
@@ -61,7 +61,8 @@ _REGIMES = (
 _OTHERS = (
     "The same map: number of motions; largest tension of all of them; share of the kicks "
     "that end in the motion of that tension, 0 where only rest or states of neighbours lead to it; largest exponent of "
-    "all of them, white where none is known. Lines: borders between regimes of the motion from rest, as above."
+    "all of them, white where none is known. A quantity that no cell has is left out. Lines: borders between regimes "
+    "of the motion from rest, as above."
 )
 
 

@@ -15,7 +15,7 @@ from engine import load_scene
 from reports import build, content_of
 from reports.figures.regime_map import Cells, regime_maps
 from reports.parts.content import CellSheets, Figure, Picture, Report, Table
-from reports.parts.folder import FolderError, read_folder
+from reports.parts.folder import Folder, FolderError, read_folder
 from reports.parts.html import render_html
 from reports.parts.style import MAP_PERIODS, REGIME_COLOURS
 from reports.regime_map import draw
@@ -236,6 +236,15 @@ def test_a_screen_alone_has_its_report_too(folder_of, monkeypatch):
     table.unlink()
     with pytest.raises(FolderError, match="cells"):
         content_of(place)
+
+
+def test_a_quantity_that_no_cell_has_is_given_no_map(folder_of):
+    """As the exponent of a map that is only screened."""
+    atlas = read_atlas(Folder(folder_of(), {}, (), None, {}))
+    page = atlas.pages[0]
+    bare = replace(atlas, pages=[replace(page, rows=[{**row, _EXPONENT: None} for row in page.rows])])
+    titles = [[one.title for one in maps] for maps in (*numbers(atlas), *numbers(bare))]
+    assert len(titles[0]) == 4 and titles[1] == [title for title in titles[0] if "exponent" not in title]
 
 
 @pytest.mark.slow

@@ -1,0 +1,74 @@
+"""Whether a run that has not settled comes nearer to a periodic orbit, and as fast as the orbit's multiplier says.
+
+A slowly damped motion rings for hundreds of periods. Newton's method finds the orbit long before the run is there, and
+the largest multiplier mu of the orbit says whether it attracts: |mu| + error < 1. Whether the run goes to this orbit,
+and not to another motion, its distance from the orbit says. Near an orbit of period N it shrinks as |mu|^(k/N) in k
+periods. So the last two thirds of a record are cut into three windows, with distances d_1, d_2, d_3 (rms over a window
+of the largest difference of a coordinate, in its scale):
+
+    near        d_3 <= NEAR
+    shrinks     d_3 <= LEFT d_1
+    as it must  ln(d_1/d_2) and ln(d_2/d_3) are within a factor AGREES of what |mu| says
+
+A run that stops at a saddle or at a torus beside the orbit, or decays towards another motion, has another rate.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from analysis.evidence import Evidence
+from analysis.sampling import checked_columns
+
+NEAR, LEFT, AGREES = 0.2, 0.65, 1.5
+
+
+def approached_period(strobed: ArrayLike, scale: ArrayLike, max_period: int = 16) -> int | None:
+    """The least N for which the steps over N periods shrink, to LEFT at most and alike over both pairs of windows.
+
+    strobed (m + 1, d), scale (d,)   as in `detect_period`
+    """
+    x = checked_columns(strobed, "strobed") / np.asarray(scale)
+    for period in range(1, min(max_period, len(x) // 9) + 1):
+        distances, rates = _in_windows(x[period:] - x[:-period])
+        if distances[2] <= LEFT * distances[0] and 0.0 < rates.max() <= AGREES**2 * rates.min():
+            return period
+    return None
+
+
+def approach_evidence(
+    strobed: ArrayLike, orbit: ArrayLike, multipliers: ArrayLike, errors: ArrayLike, scale: ArrayLike
+) -> Evidence:
+    """Whether a record comes nearer to a periodic orbit that attracts (head of this file).
+
+    strobed (m + 1, d)            states once a forcing period, from the start of the run on
+    orbit (N, d)                  the strobed states of the orbit, in order
+    multipliers, errors (k,)      of the orbit, the largest first
+    scale (d,)                    size of the motion in each coordinate
+    The value of the Evidence is the multiplier that the distances show, the threshold that of the orbit.
+    """
+    x, points = checked_columns(strobed, "strobed"), checked_columns(orbit, "orbit")
+    order, period = np.arange(len(x)), len(points)
+    phases = [_in_windows((x - points[(order + k) % period]) / np.asarray(scale)) for k in range(period)]
+    distances, rates = min(phases, key=lambda phase: phase[0][2])
+    moduli = np.abs(multipliers)
+    expected = -np.log(moduli[0]) / period
+    attracts = bool((moduli + errors).max() < 1.0)
+    alike = (expected / AGREES <= rates) & (rates <= AGREES * expected)
+    passed = attracts and bool(alike.all()) and distances[2] <= min(NEAR, LEFT * distances[0])
+    shown = float(np.exp(-rates.mean() * period))
+    what = "attracts" if attracts else "is not known to attract"
+    comes = "comes" if passed else "is not shown to come"
+    sentence = (
+        f"a period-{period} orbit lies {100.0 * distances[2]:.2g} % of the motion away; "
+        f"it {what} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
+        f"and the run {comes} nearer as that says ({shown:.4f} each time)"
+    )
+    return Evidence("approach", shown, float(moduli[0]), passed, sentence)
+
+
+def _in_windows(differences: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(3,) distances in the three windows, and the two rates, nats a period, at which they shrink."""
+    window = 2 * len(differences) // 9
+    away = np.abs(differences[-3 * window :]).max(axis=1).reshape(3, window)
+    distances = np.maximum(np.sqrt(np.mean(away**2, axis=1)), np.finfo(float).tiny)
+    return distances, -np.diff(np.log(distances)) / window

@@ -1,0 +1,62 @@
+"""Slowly damped motions of the cable and of the massless tether are told by the orbit that they come nearer to."""
+
+import numpy as np
+import pytest
+
+from campaigns.buoy_sweep.rows import buoy_row
+from campaigns.motions.approach import orbit_ahead
+from campaigns.motions.proposals import SCREENED, _motions
+from campaigns.motions.starts import settled_of
+from engine import load_scene, simulate
+
+
+def at(steepness, depth_m=21.0):
+    return load_scene("tethered_buoy", {"waves.steepness": steepness, "water.depth_m": depth_m})
+
+
+def largest_N(run, periods):
+    samples = round(periods * run.scene.waves.period_s / run.scene.sample_step_s())
+    return run.columns["tension_top_high_N"][-samples:].max()
+
+
+@pytest.mark.parametrize(
+    ("steepness", "modulus", "periods", "truth"),
+    [(0.02, 0.970, 135, 400), pytest.param(0.037, 0.9978, 465, 3000, marks=pytest.mark.slow)],
+)
+def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(steepness, modulus, periods, truth):
+    run = simulate(at(steepness), periods=periods)
+    row = buoy_row(run, None)
+    assert row["regime"] == "period-1" and row["strobed_period"] == 1 and "in the limit" in row["regime_reason"]
+    assert row["multiplier_modulus"] == pytest.approx(modulus, abs=5e-4)
+    later = simulate(run.scene, periods=truth - periods, start=run)
+    exact_N = largest_N(later, 5)
+    assert row["tension_top_max_N"] == pytest.approx(exact_N, rel=1e-3 if steepness == 0.037 else 1e-4)
+    assert largest_N(run, periods // 3) > exact_N + 5.0 * abs(row["tension_top_max_N"] - exact_N), "the run rings"
+    motion = settled_of(run)
+    assert motion.period == 1 and motion.measures[:, 2].max() == pytest.approx(row["tension_top_max_N"], abs=1e-6)
+
+
+@pytest.mark.slow
+def test_a_run_that_spirals_to_a_torus_beyond_its_birth_is_not_told_by_the_orbit_within():
+    """At kA = 0.039 the multiplier is 1.007."""
+    run = simulate(at(0.039), periods=465)
+    found = orbit_ahead(run)
+    assert found is None or not found[1].passed
+    assert buoy_row(run, None)["regime"] != "period-1"
+
+
+def from_rest(steepness, depth_m):
+    """The motion to which a massless tether goes from rest."""
+    return next(one for one in _motions(np.zeros((SCREENED + 1, 2)), at(steepness, depth_m)) if one["rest"])
+
+
+@pytest.mark.parametrize(("steepness", "depth_m"), [(0.012, 26.0), (0.016, 25.0), (0.037, 22.0), (0.0415, 22.0)])
+def test_a_massless_tether_in_calm_waves_repeats_every_wave(steepness, depth_m):
+    """Leading multipliers .979 to .994: none has settled in 80 periods."""
+    assert from_rest(steepness, depth_m)["period"] == 1
+
+
+@pytest.mark.parametrize(("steepness", "depth_m"), [(0.037, 20.8), (0.045, 22.0), (0.16, 22.0)])
+def test_tori_and_chaos_of_a_massless_tether_have_no_period(steepness, depth_m):
+    """Multipliers 1.008 of the orbit within the tori."""
+    assert from_rest(steepness, depth_m)["period"] is None
