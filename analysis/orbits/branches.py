@@ -156,14 +156,14 @@ class _Follower:
         how = near_orbits(self.tolerance)
         solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
-            raise NoImage("the branch turns too sharply, as where the map is not smooth")
+            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:
             raise NoImage("the orbit found is out of the range")
         orbit, space = described(solved, self.count)
         slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
         change, rate = tangent_of(self.system, space, slopes, tangent)
         if tangent @ np.append(change[0], rate) < STRAIGHT:
-            raise NoImage("the branch turns too sharply, as where the map is not smooth")
+            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
 
 

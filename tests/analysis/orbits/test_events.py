@@ -36,14 +36,14 @@ def logistic(z, r):
     return r * z * (1.0 - z), lambda V: r * (1.0 - 2.0 * z[:, None]) * V
 
 
-def in_steps(size, seed):
-    """The logistic map with steps: they change the parameter by `size`, as irregularly as a mesh that adapts itself."""
+def in_steps(size, seed, step=logistic):
+    """A map with steps: they change the parameter by the share `size`, as irregularly as a mesh that adapts itself."""
 
     def frozen(points, r, mesh=0):
         shift = size * np.sin(1e7 * (r + float(points[0][0])) + 2.0 * mesh + seed)
-        return [lambda z, s: logistic(z, s * (1.0 + shift))] * len(points)
+        return [lambda z, s: step(z, s * (1.0 + shift))] * len(points)
 
-    return OrbitMap(logistic, frozen=frozen, meshes=3)
+    return OrbitMap(step, frozen=frozen, meshes=3)
 
 
 def branch_of(step, start, low, high, at, **more):
@@ -66,6 +66,13 @@ def test_a_pair_that_leaps_across_the_unit_circle_is_no_torus_point(sides):
     branch = branch_of(collision(*sides), [-0.1, 0.0], -0.3, 0.3, -0.2)
     assert not branch.events and "not smooth" in branch.ends[1]
     assert -1e-3 < branch.parameters.max() <= 1e-9
+
+
+@pytest.mark.parametrize("sides", [((0.5, 0.6), (0.5, 2.2)), ((-1.5, 0.6), (-1.9, 0.8))])
+def test_a_corner_is_no_event_of_a_map_in_steps(sides):
+    system = in_steps(1e-3, 1, collision(*sides))
+    branch = follow_branch(system, find_orbit(system, [-0.1, 0.0], -0.2), -0.3, 0.3, least=2e-3, accuracy=1e-2)
+    assert not branch.events and "not smooth" in branch.ends[1] and branch.parameters.max() < 2e-3
 
 
 @pytest.mark.parametrize("slopes", [(-0.3, -0.8), (0.2, 0.4), (-1.2, -1.7)])
