@@ -84,17 +84,17 @@ def _told(one: dict) -> dict[str, object]:
     """The columns of an orbit."""
     values = [complex(*pair) for pair in one["multipliers"]]
     parts = (part for pair in one["multipliers"] for part in pair)
-    doubt = "" if one["settled"] else "its multipliers have not settled"
+    sure = {"status": "ok"} if one["settled"] else {"status": "unsure", "message": "its multipliers have not settled"}
     for value, error in zip(values, one["errors"], strict=True):
         if error is None:
-            doubt = doubt or "not found with other steps: its multipliers have no errors"
+            sure.setdefault("message", "with other steps it is not found: its multipliers have no errors")
         elif abs(abs(value) - 1.0) <= error:
-            doubt = doubt or "stable or not within the error of a multiplier"
+            sure.setdefault("message", "stable or not within the error of a multiplier")
     found = {"period": one["period"], "unstable": sum(abs(value) > 1.0 for value in values), "gap": one["gap"]}
     motion = *one["radius_m"], *one["tension_N"]
     for columns, numbers in ((PARTS, parts), (ERRORS, one["errors"]), (MOTION_OF, motion)):
         found |= {column.name: number for column, number in zip(columns, numbers, strict=False)}
-    return found | {MODULUS.name: abs(values[0]), "status": "unsure" if doubt else "ok", "message": doubt}
+    return found | {MODULUS.name: abs(values[0]), **sure}
 
 
 def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:

@@ -219,7 +219,8 @@ def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Noti
     if coarse := [row for row in events if _coarse(row, key.name)]:
         at = listed(f"{row['kind']} of branch {row['branch']} at {decimals(value(row, key.name), 4)}" for row in coarse)
         lines.append(f"Known to no better than {number(_ACCURATE)}: {at}.")
-    if unsure := [f"{row['branch']} at {number(row[key.name])}" for row in rows_of(folder, "orbits") if _unsure(row)]:
+    orbits = *folder.table, *rows_of(folder, "orbits")
+    if unsure := dict.fromkeys(f"{row['branch']} at {number(row[key.name])}" for row in orbits if _unsure(row)):
         lines.append(f"Stable or not within the error of a multiplier: branch {listed(unsure)}.")
     failed = (row for row in (*folder.table, *events, *ended) if row["status"] != "ok")
     for row in failed:
