@@ -9,11 +9,12 @@ Growth in neighbouring periods is correlated, and most of its fluctuation is bou
 lose (a period-2 motion grows and shrinks in turn, a torus turns round). Blocks take that for diffusion, and their error
 is two to three times too large. So the mean is tapered, with a cosine over a quarter of the record at each end, and
 
-    error^2 = S(0) sum w^2,    S(0) ~ mean over j = 2 ... 7 of S(j/m),    S(f) = |sum h_p g_p e^(-2 pi i f p)|^2/sum h^2
+    error^2 = S(0) sum w^2,    S(0) ~ mean of S(j/m), j = 2 ... J + 1,    S(f) = |sum h_p g_p e^(-2 pi i f p)|^2/sum h^2
 
-with the weights w (sum 1) of that taper, growth g less its mean and Hann's window h. Six frequencies know S(0) only
-roughly: deviations from the truth, in such errors, have a standard deviation of 1.16 for white noise of any length. How
-it is for the cable (about 0.9) and for eq. (33) (about 1.15): docs/verdicts.md.
+with the weights w (sum 1) of that taper, growth g less its mean and Hann's window h. J is 6 up to 500 periods, and
+grows as sqrt(m) beyond, so that the band narrows while the error becomes sure. Six frequencies know S(0) to 30 %:
+deviations from the truth, in such errors, have a standard deviation of 1.16 for white noise. A run knows only the
+fluctuations that it has met: other starts may lie farther apart (docs/verdicts.md counts it).
 """
 
 import numpy as np
@@ -24,7 +25,8 @@ from analysis.sampling import checked_columns, checked_count, checked_series
 
 METHOD = "tangent dynamics, Benettin et al. 1980"
 TAPER = 0.5  # share of the record under the two cosines
-FREQUENCIES = np.arange(2, 8)  # cycles over the record: the lowest that the mean does not leak into
+LOWEST = 2  # cycles over the record: the mean leaks into those below
+FREQUENCIES, SHORT = 6, 500  # how many count in records of up to this many periods
 LEAST_PERIODS = 32
 
 
@@ -52,7 +54,7 @@ def tangent_lyapunov(
         reason = f"too short: {LEAST_PERIODS} periods of growth are needed, given {periods}"
         return tuple(no_exponent(METHOD, reason, BITS_PER_PERIOD) for _ in range(growth.shape[1]))
     values, errors = _tapered_mean(kept)
-    reason = f"tapered mean growth over {periods} forcing periods, error from its slowest fluctuations"
+    reason = f"tapered mean growth over {periods} forcing periods, error from this one run's slowest fluctuations"
     return tuple(
         Exponent(float(value), float(error), BITS_PER_PERIOD, METHOD, reason, {"periods": periods})
         for value, error in zip(values, errors, strict=True)
@@ -92,6 +94,7 @@ def _tapered_mean(values):
     weight = np.sin(np.pi * np.minimum(np.minimum(t, 1.0 - t) / TAPER, 0.5)) ** 2
     weight /= weight.sum()
     mean, window = weight @ values, np.sin(np.pi * t) ** 2
-    waves = np.exp(-2j * np.pi * np.outer(FREQUENCIES, np.arange(count)) / count)
+    frequencies = LOWEST + np.arange(round(FREQUENCIES * max(1.0, count / SHORT) ** 0.5))
+    waves = np.exp(-2j * np.pi * np.outer(frequencies, np.arange(count)) / count)
     power = np.abs(waves @ ((values - mean) * window[:, None])) ** 2 / np.sum(window**2)
     return mean, np.sqrt(power.mean(axis=0) * np.sum(weight**2))

@@ -39,6 +39,7 @@ GRADE = 2.0  # longest step, in lengths of the next one
 LEAST_SHARE = 0.3  # of the step before: a last step that is shorter shares its way with it
 NEWTON = 1e-10  # the map must be smooth to below the gaps of an orbit
 SPLITS = 8  # steps of a mesh that may be halved because Newton's method refuses them
+RELEASED = 0.9 * math.pi  # turn of an element: its stiffness grows without bound from there to the release of a loop
 ROOM = 256  # steps of a pass between two looks
 
 
@@ -233,6 +234,8 @@ class PeriodMap:
                 taken = steps * run.scene.waves.period_s
                 trail = self._trail(len(steps), value)
                 code, at = march_over(run.record, run.tables, run.state, taken, motion, run.output, trail)
+                if run.state["max_turn"] > RELEASED:
+                    raise ArithmeticError("a loop is about to be released")
                 if code == OK:
                     break
                 begin, half = steps[at, 0], 0.5 * steps[at, 1]

@@ -16,7 +16,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "branches": ["Branch", "follow_branch"],
         "events": ["Event", "doubled_orbit"],
-        "finding": ["Orbit", "Scatter", "find_orbit", "scatter_of"],
+        "finding": ["Orbit", "Scatter", "find_orbit", "middle_of", "scatter_of"],
         "maps": ["NoImage", "OrbitMap"],
     },
 )

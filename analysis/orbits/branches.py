@@ -11,7 +11,6 @@ orbit, begun at any of its points, lies on the last chord.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -80,15 +79,13 @@ def follow_branch(
     """
     if not orbit.found or not low <= orbit.parameter <= high:
         raise ValueError(f"orbit: one within {low:g} and {high:g} is needed, given {orbit.parameter:g}, {orbit.reason}")
-    how = _Follower(system, low, high, least, longest, most, count, tolerance, told)
+    how = _Follower(system, low, high, least, longest, most, count, tolerance, accuracy, told)
     first = how.place(orbit)
-    ahead, end, closed = how.one_way(first, checked_positive(step, "step"))
+    ahead, events, end, closed = how.one_way(first, checked_positive(step, "step"))
     places, begin = [first, *ahead], end
     if not closed:
-        back, begin, _ = how.one_way(_reversed(first), step)
-        places = [*map(_reversed, back[::-1]), *places]
-    pairs = pairwise(places)
-    events = [event for pair in pairs for event in events_between(system, *pair, count, tolerance, accuracy)]
+        back, before, begin, _ = how.one_way(_reversed(first), step)
+        places, events = [*map(_reversed, back[::-1]), *places], before[::-1] + events
     rates = np.array([place.rate for place in places])
     return Branch(tuple(place.orbit for place in places), rates, closed, (begin, end), tuple(events))
 
@@ -96,9 +93,9 @@ def follow_branch(
 class _Follower:
     """What stays the same along a branch."""
 
-    def __init__(self, system, low, high, least, longest, most, count, tolerance, told):
+    def __init__(self, system, low, high, least, longest, most, count, tolerance, accuracy, told):
         self.system, self.low, self.high, self.least, self.longest = system, low, high, least, longest
-        self.most, self.count, self.tolerance, self.told = most, count, tolerance, told
+        self.most, self.count, self.tolerance, self.accuracy, self.told = most, count, tolerance, accuracy, told
 
     def place(self, orbit):
         """The orbit with its tangent in the direction of a growing parameter."""
@@ -113,30 +110,33 @@ class _Follower:
         return Place(orbit, change, rate, slopes)
 
     def one_way(self, first, step):
-        """Places after the first; why they end; whether they come back to the first."""
-        places = [first]
+        """Places after the first; events between them; why they end; whether they come back to the first."""
+        places, events = [first], []
         while len(places) <= self.most:
-            here = places[-1]
+            here, again = places[-1], None
             end, limited = self._limit(here, step)
             if limited == 0.0:
-                return places[1:], f"reaches the end of the range, {end:g}", False
+                return places[1:], events, f"reaches the end of the range, {end:g}", False
             try:
                 place, easy = self._next(here, limited, end)
+                if _meets_half(self.system, here.orbit.points, place.orbit.points):
+                    return places[1:], events, f"meets the orbit of period {here.orbit.period // 2}", False
+                if len(places) > 2:
+                    again = _come_back(self.system, first, here, place)
+                events += events_between(self.system, here, again or place, self.count, self.tolerance, self.accuracy)
             except ArithmeticError as why:
                 step = 0.5 * limited
                 if step < self.least:
                     where = f"{here.orbit.parameter:.6g}"
-                    return places[1:], f"at {where} no step above {self.least:g} succeeds: {why}", False
+                    return places[1:], events, f"at {where} no step above {self.least:g} succeeds: {why}", False
                 continue
-            if _meets_half(self.system, here.orbit.points, place.orbit.points):
-                return places[1:], f"meets the orbit of period {here.orbit.period // 2}", False
-            if len(places) > 2 and (again := _come_back(self.system, first, here, place)) is not None:
-                return [*places[1:], again], "comes back to its beginning", True
-            places.append(place)
+            places.append(again or place)
+            if again is not None:
+                return places[1:], events, "comes back to its beginning", True
             if self.told and self.told(place.orbit):
-                return places[1:], "followed as far as asked", False
+                return places[1:], events, "followed as far as asked", False
             step = min(step * GROW, self.longest) if easy else step
-        return places[1:], f"followed over {self.most} orbits", False
+        return places[1:], events, f"followed over {self.most} orbits", False
 
     def _limit(self, here, step):
         """The end of the range that a step would reach, or None; and the step, cut there."""
@@ -156,14 +156,14 @@ class _Follower:
         how = near_orbits(self.tolerance)
         solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
-            raise NoImage("the branch turns too sharply")
+            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:
             raise NoImage("the orbit found is out of the range")
         orbit, space = described(solved, self.count)
         slopes = slopes_of(solved.maps, solved.shots, solved.points, solved.parameter)
         change, rate = tangent_of(self.system, space, slopes, tangent)
         if tangent @ np.append(change[0], rate) < STRAIGHT:
-            raise NoImage("the branch turns too sharply")
+            raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
 
 

@@ -14,6 +14,7 @@ v, Jv, ... The correction is orthogonal to v and the parameter is free (equation
 """
 
 from collections import namedtuple
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,11 +34,11 @@ from analysis.orbits.finding import (
 from analysis.orbits.maps import NoImage, OrbitMap, shoot
 from analysis.orbits.spaces import Space
 
-CLOSE, ROUGH = 1e-2, 0.1  # of a multiplier at an event to what it should be; of a system in steps
+CLOSE = 2e-3  # of a multiplier on both sides of an event to what it is there; `finding.SETTLED` is below
 ACCURACY = 1e-9  # of a chord, to which an event is located
+CLOSER, LEAST = 1e-2, 1e-9  # an event is located this much better, to so much at best, until its multiplier is CLOSE
 ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
-NEARBY = 0.3  # distance, in chords, over which the slope of a test function is taken
-ON_WAY = 0.01  # of the change of the parameter
+WIDE = 0.1, 0.2, 0.4  # chords: so near to an event one set of steps of the system suits the orbits on both sides
 # An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter; slopes (N, n)
 Place = namedtuple("Place", "orbit change rate slopes")
 
@@ -61,16 +62,16 @@ class Event:
     angle_rad: float
 
 
-def turned(multipliers: np.ndarray) -> float:
-    """Product of 1 - mu_i mu_j over pairs."""
+def pairs_of(multipliers: np.ndarray) -> np.ndarray:
+    """1 - mu_i mu_j over pairs."""
     i, j = np.triu_indices(len(multipliers), 1)
-    return float(np.prod(1.0 - multipliers[i] * multipliers[j]).real)
+    return 1.0 - multipliers[i] * multipliers[j]
 
 
-TESTS = {
-    "fold": lambda multipliers: float(np.prod(1.0 - multipliers).real),
-    "flip": lambda multipliers: float(np.prod(1.0 + multipliers).real),
-    "torus": turned,
+FACTORS = {
+    "fold": lambda multipliers: 1.0 - multipliers,
+    "flip": lambda multipliers: 1.0 + multipliers,
+    "torus": pairs_of,
 }
 
 
@@ -82,106 +83,141 @@ def near_orbits(tolerance: float) -> Newton:
 def events_between(
     system: OrbitMap, before: Place, after: Place, count: int, tolerance: float, accuracy: float
 ) -> list[Event]:
-    """Events between two neighbours of a branch; none where their multipliers are not settled."""
-    found = []
+    """Events between two neighbours of a branch; none where their multipliers are not settled.
+
+    Raises NoImage where multipliers leap across the unit circle, or an orbit in between is not found.
+    """
+    events = []
     if not (before.orbit.settled and after.orbit.settled):
-        return found
-    for kind, test in TESTS.items():
-        ends = [test(place.orbit.multipliers) for place in (before, after)]
+        return events
+    for kind, factors in FACTORS.items():
+        chord = _Chord(system, factors, before.orbit, after, count, tolerance)
+        ends = [chord.test(place.orbit) for place in (before, after)]
         if min(np.abs(ends)) > ROUNDING and ends[0] * ends[1] < 0.0:
-            found.append(_Chord(system, test, before, after, count, tolerance).event(kind, accuracy))
+            event = chord.event(kind, accuracy)
+            events += [event] if event else []
     backwards = after.orbit.parameter < before.orbit.parameter
-    return sorted((event for event in found if event), key=lambda event: event.parameter, reverse=backwards)
+    return sorted(events, key=lambda event: event.parameter, reverse=backwards)
 
 
 class _Chord:
-    """Orbits between two places, in the planes across the way from one to the other."""
+    """Orbits between two neighbours, in the planes across the way from one to the other."""
 
-    def __init__(self, system, test, begin, end, count, tolerance):
-        self.system, self.test, self.begin, self.end = system, test, begin, end
-        self.count, self.tolerance, self.size = count, tolerance, system.parameter_size
-        way = end.orbit.points[0] - begin.orbit.points[0]
-        by = (end.orbit.parameter - begin.orbit.parameter) / self.size
-        self.length = system.length(way, by)
-        self.across = system.row(way, by) / self.length
-        self.seen = {share: (place.orbit, test(place.orbit.multipliers)) for share, place in ((0.0, begin), (1.0, end))}
+    def __init__(self, system, factors, begin, end, count, tolerance):
+        self.system, self.factors, self.slopes = system, factors, end.slopes
+        self.count, self.tolerance = count, tolerance
+        way = end.orbit.points[0] - begin.points[0]
+        by = (end.orbit.parameter - begin.parameter) / system.parameter_size
+        self.across = system.row(way, by) / system.length(way, by)
+        self.orbits = {0.0: begin, 1.0: end.orbit}
+        self.values = {share: self.test(orbit) for share, orbit in self.orbits.items()}
+        self.maps = None  # None: every orbit takes steps of its own
+
+    def test(self, orbit):
+        """The product that changes its sign at an event."""
+        return float(np.prod(self.factors(orbit.multipliers)).real)
 
     def between(self, share):
-        """Points, parameter and slopes at a share of the way, from the nearest orbits that were found."""
-        a = max((s for s in self.seen if s <= share), default=0.0)
-        b = min((s for s in self.seen if s >= share), default=1.0)
-        before, after = self.seen[a][0], self.seen[b][0]
-        part = (share - a) / (b - a) if b > a else 0.0
+        """Points and parameter at a share of the way, from the nearest orbits found; beyond the ends, from these."""
+        shares = sorted(self.orbits)
+        right = min(max(int(np.searchsorted(shares, share)), 1), len(shares) - 1)
+        a, b = shares[right - 1 : right + 1] if 0.0 <= share <= 1.0 else (0.0, 1.0)
+        before, after, part = self.orbits[a], self.orbits[b], (share - a) / (b - a)
         points = before.points + part * (after.points - before.points)
-        parameter = before.parameter + part * (after.parameter - before.parameter)
-        return points, parameter, self.begin.slopes + share * (self.end.slopes - self.begin.slopes)
+        return points, before.parameter + part * (after.parameter - before.parameter)
 
     def look(self, maps, share):
-        """The orbit at a share of the way, and the test function there."""
-        points, parameter, slopes = self.between(share)
-        directions = real_span(self.begin.orbit.vectors)
-        solved = corrected(maps, points, parameter, near_orbits(self.tolerance), self.across, directions, slopes)
-        orbit, _ = described(solved, self.count)
-        return orbit, self.test(orbit.multipliers)
+        """The orbit at a share of the way."""
+        guess, how, directions = self.between(share), near_orbits(self.tolerance), real_span(self.orbits[0.0].vectors)
+        if maps is None:
+            solved = solved_near(self.system, *guess, how, self.across, directions, self.slopes)
+        else:
+            solved = corrected(maps, *guess, how, self.across, directions, self.slopes)
+        return described(solved, self.count)[0]
+
+    def value(self, share):
+        """The test function."""
+        if share not in self.values:
+            self.orbits[share] = self.look(self.maps, share)
+            self.values[share] = self.test(self.orbits[share])
+        return self.values[share]
+
+    def bracket(self, low, high, accuracy):
+        """The share of the zero, and the two shares nearest to it with the zero between them."""
+        share = brentq(self.value, low, high, xtol=accuracy, rtol=4e-16 + accuracy, maxiter=60, disp=False)
+        opposite = [other for other in self.values if self.values[other] * self.values[share] <= 0.0]
+        return share, *sorted((share, min(opposite, key=lambda other: abs(other - share))))
 
     def event(self, kind, accuracy):
-        """The event, or None where the sign changes for another reason."""
-        begin, end = self.begin.orbit, self.end.orbit
-        first, last = self.seen[0.0][1], self.seen[1.0][1]
-        turns = kind != "fold" or self.begin.rate * self.end.rate < 0.0
-
-        def value(share):
-            if share not in self.seen:
-                self.seen[share] = self.look(maps, share)
-            return self.seen[share][1]
-
-        try:
-            points, parameter, _ = self.between(first / (first - last))
-            maps = self.system.near(points, parameter)
-            share = brentq(value, 0.0, 1.0, xtol=accuracy, rtol=4e-16 + accuracy, maxiter=40, disp=False)
-        except ArithmeticError:  # no orbit there, or none with these steps of the system: as near as the branch tells
-            nearest = begin if abs(first) < abs(last) else end
-            error = self.length * self.size * max(abs(self.begin.rate), abs(self.end.rate))
-            return _event(kind, nearest, nearest.parameter, error, ROUGH) if turns else None
-        orbit, at = self.seen[share]
-        inside = (orbit.parameter - begin.parameter) / (end.parameter - begin.parameter or 1.0)
-        if not turns and ON_WAY < inside < 1.0 - ON_WAY:
+        """The event; None where the sign changes for another reason. Raises NoImage (`events_between`)."""
+        low, high = 0.0, 1.0
+        if self.system.frozen is not None:
+            share, low, high = self.bracket(low, high, WIDE[0])
+            self.maps, self.values = self.system.near(self.orbits[share].points, self.orbits[share].parameter), {}
+            tried = ((low - wide, high + wide) for wide in WIDE)
+            low, high = next((pair for pair in tried if self.value(pair[0]) * self.value(pair[1]) < 0.0), (None, None))
+            if low is None:
+                return None  # it is the sign of the steps that changes
+        while True:  # a continuous multiplier closes in, one that leaps does not
+            share, low, high = self.bracket(low, high, accuracy)
+            orbit, sides = self.orbits[share], (self.orbits[low], self.orbits[high])
+            off = max(np.abs(self.factors(side.multipliers)).min() for side in sides)
+            if off <= CLOSE or accuracy <= LEAST:
+                break
+            accuracy *= CLOSER
+        if off > CLOSE:
+            if _unstable(sides[0]) == _unstable(sides[1]):
+                return None  # one that enters or leaves the largest ones
+            leap = " to ".join(f"{np.abs(side.multipliers).max():.3g}" for side in sides)
+            where = f"{orbit.parameter:.6g}, where the map is not smooth"
+            raise NoImage(f"the largest multiplier leaps from {leap} in modulus at {where}")
+        angle = _angle(kind, orbit.multipliers)
+        if angle is None or not orbit.settled or (kind == "fold" and not self.turns(orbit)):
             return None
-        if self.system.frozen is None:
-            across = [other.parameter for s, (other, worth) in self.seen.items() if worth * at <= 0.0 and s != share]
-            error = min((abs(other - orbit.parameter) for other in across), default=0.0)
-            return _event(kind, orbit, orbit.parameter, error + self.size * ROUNDING)
+        if self.maps is None:
+            search = self.system.parameter_size * max(ROUNDING, orbit.gap)
+            return Event(kind, orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search, orbit, angle)
         try:
             every = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
         except ArithmeticError:
-            return _event(kind, orbit, orbit.parameter, np.inf, ROUGH)
+            return Event(kind, orbit.parameter, np.inf, orbit, angle)
         middle = float(np.median(every))
-        return _event(kind, orbit, middle, max(abs(middle - other) for other in every), ROUGH)
+        return Event(kind, middle, max(abs(middle - other) for other in every), orbit, angle)
+
+    def turns(self, orbit):
+        """Whether the parameter turns back at an orbit. Where steps scatter it, it is compared a chord away on both
+        sides, and an orbit whose halves are as near as that is no fold, but the flip of half its period."""
+        ends = self.orbits[0.0], self.orbits[1.0]
+        if self.maps is not None:
+            half, odd = divmod(orbit.period, 2)
+            ways = ends[1].points[0] - ends[0].points[0], orbit.points[0] - orbit.points[half]
+            chord, apart = (self.system.length(way, 0.0) for way in ways)
+            if half and not odd and apart < chord:
+                return False
+            with suppress(ArithmeticError):
+                ends = self.look(None, -1.0), self.look(None, 2.0)
+        return np.prod([end.parameter - orbit.parameter for end in ends]) > 0.0
 
     def elsewhere(self, mesh, share):
         """The parameter of the event with the steps of a mesh at the orbit that was found: one orbit there, and slopes
         from the chord, because those of a map in steps are rough from one orbit to the next."""
-        found, at = self.seen[share]
-        nearby = min((s for s in self.seen if s != share), key=lambda s: abs(abs(s - share) - NEARBY))
-        orbit, worth = self.seen[nearby]
-        maps = self.system.near(found.points, found.parameter, mesh)
-        other, there = self.look(maps, share)
-        return other.parameter + there / (at - worth) * (orbit.parameter - found.parameter)
+        orbit, far = self.orbits[share], max(self.values, key=lambda other: abs(other - share))
+        other = self.look(self.system.near(orbit.points, orbit.parameter, mesh), share)
+        slope = (self.orbits[far].parameter - orbit.parameter) / (self.values[far] - self.values[share])
+        return float(other.parameter + (self.values[share] - self.test(other)) * slope)
 
 
-def _event(kind, orbit, parameter, error, close=CLOSE):
-    """The Event, or None where no multiplier is near what it should be."""
-    mu = orbit.multipliers
-    angle = {"fold": 0.0, "flip": np.pi}.get(kind)
-    if kind == "torus":
-        pairs = mu[mu.imag > 0.0]
-        pairs = pairs[np.abs(np.abs(pairs) - 1.0) < close]
-        if not len(pairs):
-            return None
-        angle = float(np.angle(pairs[np.argmin(np.abs(np.abs(pairs) - 1.0))]))
-    elif kind == "flip" and np.abs(mu + 1.0).min() > close:
-        return None
-    return Event(kind, float(parameter), float(error), orbit, angle) if orbit.settled else None
+def _unstable(orbit):
+    return int((np.abs(orbit.multipliers) > 1.0).sum())
+
+
+def _angle(kind, multipliers):
+    """Of the multiplier that crosses the unit circle there; None where none does, as two reals with mu_i mu_j = 1."""
+    if kind != "torus":
+        return {"fold": 0.0, "flip": np.pi}[kind]
+    pairs = multipliers[multipliers.imag > 0.0]
+    off = np.abs(np.abs(pairs) - 1.0)
+    return float(np.angle(pairs[np.argmin(off)])) if len(off) and off.min() < CLOSE else None
 
 
 def doubled_orbit(

@@ -136,18 +136,36 @@ def find_orbit(
 
 def scatter_of(system: OrbitMap, orbit: Orbit, *, tolerance: float = TOLERANCE) -> Scatter:
     """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
-    points, multipliers, others = np.zeros_like(orbit.points), orbit.residuals, []
+    points, others = np.zeros_like(orbit.points), []
     try:
         for mesh in range(1, system.meshes):
             place = orbit.points, orbit.parameter
             solved = solved_near(system, *place, Newton(tolerance), None, real_span(orbit.vectors), mesh=mesh)
             others.append(described(solved, len(orbit.multipliers))[0])
             points = np.maximum(points, np.abs(others[-1].points - orbit.points))
-            apart = np.abs(others[-1].multipliers - orbit.multipliers[:, None]).min(axis=1)
-            multipliers = np.maximum(multipliers, apart)
     except ArithmeticError:
-        points, multipliers = np.full_like(points, np.inf), np.full_like(multipliers, np.inf)
-    return Scatter(points, multipliers, tuple(others))
+        return Scatter(np.full_like(points, np.inf), np.full_like(orbit.residuals, np.inf), tuple(others))
+    return Scatter(points, changes(orbit, others), tuple(others))
+
+
+def middle_of(system: OrbitMap, orbit: Orbit) -> tuple[Orbit, np.ndarray]:
+    """Of the orbits on all meshes, that whose leading multiplier is in the middle, and the errors (k,) of multipliers.
+
+    One mesh in three may give a false value; its distance is then the error.
+    """
+    scatter = scatter_of(system, orbit)
+    every = sorted((orbit, *scatter.orbits), key=lambda one: abs(one.multipliers[0]))
+    middle = every[len(every) // 2]
+    lost = len(every) < system.meshes
+    return middle, np.full_like(middle.residuals, np.inf) if lost else changes(middle, every)
+
+
+def changes(orbit: Orbit, others: Sequence[Orbit]) -> np.ndarray:
+    """Errors (k,) of the multipliers: largest |difference| to the nearest one of each of the others."""
+    errors = orbit.residuals
+    for other in others:
+        errors = np.maximum(errors, np.abs(other.multipliers - orbit.multipliers[:, None]).min(axis=1))
+    return errors
 
 
 def corrected(

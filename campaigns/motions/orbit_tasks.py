@@ -16,43 +16,43 @@ STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what 
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
 ACCURACY = 1e-2  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
-LEAP = 0.2  # of a multiplier, between neighbours of a branch
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
 
 def under(line: Line, value: float, period: int, state: object) -> tuple[dict, list[np.ndarray]]:
     """The orbit under a run, or at a state (period, 8 n): its row, errors and history."""
-    from analysis.orbits import find_orbit, scatter_of
+    from analysis.orbits import find_orbit, middle_of
 
     cable, system = line.maps
     begin = state if isinstance(state, np.ndarray) else cable.at_strobe(state, value)
     orbit = find_orbit(system, begin, value, period, count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
-    scatter, history = scatter_of(system, orbit), cable.history(orbit.points, value)
+    orbit, errors = middle_of(system, orbit)
+    history = cable.history(orbit.points, value)
     kept = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
-    errors = [error if math.isfinite(error) else None for error in map(float, scatter.multipliers)]
-    result = _row(cable, orbit, history) | {"errors": errors}
-    return result | {"history": {name: [*map(float, history[name])] for name in kept}}, [orbit.points]
+    history_lists = {name: [*map(float, history[name])] for name in kept}
+    return _row(cable, orbit, history, errors) | {"history": history_lists}, [orbit.points]
 
 
 def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[dict, list[np.ndarray]]:
     """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
-    from analysis.orbits import doubled_orbit, find_orbit, follow_branch
+    from analysis.orbits import doubled_orbit, find_orbit, follow_branch, middle_of
 
     cable, system = line.maps
     orbit = find_orbit(system, points, value, len(points), count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
     branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, count=COUNT, accuracy=ACCURACY)
-    orbits = [*branch.orbits]
-    for at in range(1, len(orbits) - 1):
-        orbits[at] = _steady(system, *orbits[at - 1 : at + 2])
-    rows = [_row(cable, one, cable.history(one.points, one.parameter)) for one in orbits]
-    found, events = [one.points for one in orbits], []
+    rows, found, events = [], [], []
+    for followed_orbit in branch.orbits:
+        middle, errors = middle_of(system, followed_orbit)
+        rows.append(_row(cable, middle, cable.history(middle.points, middle.parameter), errors))
+        found.append(middle.points)
     for event in branch.events:
         history = cable.history(event.orbit.points, event.orbit.parameter)
-        told = _row(cable, event.orbit, history) | {"kind": event.kind, "angle_rad": event.angle_rad}
+        told = _row(cable, event.orbit, history, event.orbit.residuals)
+        told |= {"kind": event.kind, "angle_rad": event.angle_rad}
         told |= {"value": event.parameter, "error": event.error if math.isfinite(event.error) else None}
         told["at"] = len(found)
         found.append(event.orbit.points)
@@ -135,28 +135,15 @@ def _again(line, kind, at, value, points):
     return {"reason": "", "value": event.parameter, "error": event.error if math.isfinite(event.error) else None}, []
 
 
-def _steady(system, before, orbit, after):
-    """The orbit; where its leading multiplier leaps from those of its neighbours, that of three sequences of steps
-    whose leading one is in the middle."""
-    from analysis.orbits import scatter_of
-
-    sides = [abs(one.multipliers[0]) for one in (before, after)]
-    if before.period != after.period or min(sides) * (1.0 - LEAP) < abs(orbit.multipliers[0]) < max(sides) * (
-        1.0 + LEAP
-    ):
-        return orbit
-    every = sorted((orbit, *scatter_of(system, orbit).orbits), key=lambda one: abs(one.multipliers[0]))
-    return every[len(every) // 2]
-
-
-def _row(cable, orbit, history) -> dict:
-    """An orbit in numbers and lists."""
+def _row(cable, orbit, history, errors) -> dict:
+    """An orbit in numbers and lists. errors: of its multipliers."""
     per_period = len(history["time_s"]) // orbit.period
     return {
         "reason": "",
         "value": orbit.parameter,
         "period": orbit.period,
         "multipliers": [[float(one.real), float(one.imag)] for one in orbit.multipliers],
+        "errors": [float(error) if math.isfinite(error) else None for error in errors],
         "gap": orbit.gap,
         "settled": orbit.settled,
         "strobes": [float(one) for one in history["radius_m"][::per_period]],

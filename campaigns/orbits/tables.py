@@ -72,14 +72,12 @@ def tables(tree: Tree, key: Column) -> list[dict]:
     shape = BRANCH, PERIOD, MOTION, ORBITS, CLOSED, BEGINS, ENDS
     write_table(out / "branches" / "table.csv", (*shape, STATUS, MESSAGE), [*_branches(tree)])
     chosen = [*_chosen(tree, key)]
-    write_table(
-        out / "orbits" / "table.csv", (BRANCH, PLACE, key, MOTION, *_shape(ERRORS), GAP, STATUS, MESSAGE), chosen
-    )
+    write_table(out / "orbits" / "table.csv", (BRANCH, PLACE, key, MOTION, *_shape(), GAP, STATUS, MESSAGE), chosen)
     return rows
 
 
-def _shape(errors: tuple[Column, ...] = ()) -> tuple[Column, ...]:
-    return PERIOD, UNSTABLE, *PARTS, *errors, MODULUS, *MOTION_OF
+def _shape() -> tuple[Column, ...]:
+    return PERIOD, UNSTABLE, *PARTS, *ERRORS, MODULUS, *MOTION_OF
 
 
 def _told(one: dict) -> dict[str, object]:
@@ -87,8 +85,14 @@ def _told(one: dict) -> dict[str, object]:
     values = [complex(*pair) for pair in one["multipliers"]]
     parts = (part for pair in one["multipliers"] for part in pair)
     sure = {"status": "ok"} if one["settled"] else {"status": "unsure", "message": "its multipliers have not settled"}
+    for value, error in zip(values, one["errors"], strict=True):
+        if error is None:
+            sure.setdefault("message", "with other steps it is not found: its multipliers have no errors")
+        elif abs(abs(value) - 1.0) <= error:
+            sure.setdefault("message", "stable or not within the error of a multiplier")
     found = {"period": one["period"], "unstable": sum(abs(value) > 1.0 for value in values), "gap": one["gap"]}
-    for columns, numbers in ((PARTS, parts), (MOTION_OF, (*one["radius_m"], *one["tension_N"]))):
+    motion = *one["radius_m"], *one["tension_N"]
+    for columns, numbers in ((PARTS, parts), (ERRORS, one["errors"]), (MOTION_OF, motion)):
         found |= {column.name: number for column, number in zip(columns, numbers, strict=False)}
     return found | {MODULUS.name: abs(values[0]), **sure}
 
@@ -131,12 +135,10 @@ def _chosen(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
         counts[branch] += 1
         path = tree.plan.how.out / "orbits" / f"{branch}_{place}.csv"
         write_atomic(path, csv_of([*one["history"]], zip(*one["history"].values(), strict=True)))
-        errors = {column.name: error for column, error in zip(ERRORS, one["errors"], strict=False)}
         yield {
             "branch": branch,
             "place": place,
             key.name: one["value"],
             "motion": one["motion"],
             **_told(one),
-            **errors,
         }

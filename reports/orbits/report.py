@@ -83,6 +83,7 @@ def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions:
     lines = {what: [line for one in branches for line in one.lines(what)] for what in branches[0].seen}
     for what, drawn in lines.items():  # marks stand over all lines
         drawn += [mark for one in branches for mark in one.marks(what)]
+    lines["modulus"] += [_scatter(one, key) for one in branches]
     top, far = (float(max(np.nanmax(one.seen[what]) for one in branches)) for what in ("peak", "modulus"))
     top = max(top, *(float(np.nanmax(curve.y, initial=0.0)) for curve in simulated))
     texts = [*_texts(branches, 0.14 * top)]
@@ -98,11 +99,17 @@ def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions:
     caption = (
         "Lines: r of each orbit once a wave period, solid where it is stable, dashed where no run stays on it. Dashes "
         "and small dots: the motions that runs have found, in the same colours (`motions/table.csv`). Below: largest "
-        f"tension; modulus of the largest multiplier{f', up to {number(_FAR)}' if far > _FAR else ''}."
+        f"tension; modulus of the largest multiplier, with its error{f', up to {number(_FAR)}' if far > _FAR else ''}."
     )
     events = listed(count(many, kind, "torus points" if kind == "torus" else "") for kind, many in met.items())
     alt = f"Orbit diagram with {count(len(branches), 'branch', 'branches')} of orbits and {events}; see text."
     yield Figure(pictures[0], caption, alt, narrow=pictures[1])
+
+
+def _scatter(branch: Branch, key: Quantity) -> Curve:
+    """The errors of the modulus along a branch, as bars."""
+    at, modulus, error = (series(branch.orbits, name) for name in (key.name, MODULUS, "multiplier_1_error"))
+    return Curve(at, modulus, line="", colour=branch.colour, error=error)
 
 
 def _texts(branches: Sequence[Branch], aside: float) -> Iterator[tuple[float, float, str, str]]:
@@ -212,7 +219,8 @@ def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Noti
     if coarse := [row for row in events if _coarse(row, key.name)]:
         at = listed(f"{row['kind']} of branch {row['branch']} at {decimals(value(row, key.name), 4)}" for row in coarse)
         lines.append(f"Known to no better than {number(_ACCURATE)}: {at}.")
-    if unsure := [f"{row['branch']} at {number(row[key.name])}" for row in rows_of(folder, "orbits") if _unsure(row)]:
+    orbits = *folder.table, *rows_of(folder, "orbits")
+    if unsure := dict.fromkeys(f"{row['branch']} at {number(row[key.name])}" for row in orbits if _unsure(row)):
         lines.append(f"Stable or not within the error of a multiplier: branch {listed(unsure)}.")
     failed = (row for row in (*folder.table, *events, *ended) if row["status"] != "ok")
     for row in failed:

@@ -72,6 +72,7 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
     for branch, kind, value, leads in (("1", "fold", FOLD, ""), ("1", "flip", FLIP, "2"), ("2", "flip", SECOND, "4")):
         (event,) = (one for one in events if (one["branch"], one["kind"]) == (branch, kind))
         assert abs(float(event["a"]) - value) <= float(event["error"]) < 1e-2 and event["leads_to"] == leads
+    assert all(float(row["multiplier_1_error"]) < 1e-6 for row in rows_of(tmp_path)), "every multiplier has an error"
     assert {row["unstable"] for row in rows_of(tmp_path, "orbits/table.csv")} == {"0", "1"}
     again = grown(tmp_path)
     assert first.computed > 0 and again.computed == 0 and again.there == first.computed + first.there
