@@ -23,6 +23,7 @@ needed here: what moves is known, and its perturbations are carried along.
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,7 +33,7 @@ from analysis.exponents import Exponent
 from analysis.neighbours import neighbour_growth
 from analysis.periods import PeriodEstimate, detect_period
 from analysis.sampling import checked_columns, checked_count, checked_series
-from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov
+from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov, turned
 from analysis.verdicts import Verdict
 
 OPEN = ("transient", "undecided")  # words that wait for the next look
@@ -40,11 +41,15 @@ FIRST_LOOK = 90
 POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the look, and of its later half
 LEAST_BITS = 10.0  # growth over a look
 LONG = 465  # periods from which one look can be enough
+SHORTEST = 150  # periods of the shortest part at the end of a record that is looked at by itself
+SEEN = 0.1  # bits per period: growth, a doubling in ten periods, that a period's test has to be able to see
+CLOSELY = 0.2  # tolerances by which a period is missed at most where no perturbations tell
+NO_GROWTH, CLOSE = "no growth", "close"  # the tests of a period
+SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a record to its end
 CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
-ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
 CLEARLY = 3.0  # tolerances from its orbit within which a periodic motion has settled
 
 
@@ -84,36 +89,34 @@ def motion_regime(
         raise ValueError(f"growth_nats: {periods} values are needed for {periods + 1} states, given {growth.shape}")
     checked_series(growth[np.isfinite(growth)], "growth_nats")
     checked_count(max_period, "max_period")
-    before, word, reason, evidence, start = "", "undecided", "", [], 0
-    for end in looks(periods):
-        start = end // 3
-        word, reason, evidence, estimate = _look(x, growth, start, end, scale, tolerance, max_period)
-        goes_on = word == "chaotic" and tighter is not None
-        counts = word == before or (end >= LONG and (goes_on or _clear(word, evidence)))
-        if counts and goes_on and end in tighter:
-            evidence.append(_tighter(tighter[end]))
-            if not evidence[-1].passed:
-                word, reason = "undecided", f"chaotic at this tolerance, but {evidence[-1].sentence}"
-        elif goes_on and end < periods:
-            counts = False
-        if counts and word not in OPEN:
-            break
-        before = word
-    else:
-        if not evidence:
-            reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
-        elif word not in OPEN:
-            word, reason = "undecided", f"{word} at the last look only, over periods {start} to {end}: {reason}"
-        return Verdict(word, reason, tuple(evidence), None, len(x) - start, 0, start)
-    reason += f", over periods {start} to {end}"
-    if estimate.period is not None:
-        start = _settled(x[: end + 1], estimate)
+    if periods < FIRST_LOOK:
+        reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
+        return Verdict("undecided", reason, (), None, len(x), 0, 0)
+    last = _look(x, growth, periods, scale, tolerance, max_period)
+    *earlier, _ = looks(periods)  # the last one is at the end of the record
+    before = [_look(x, growth, end, scale, tolerance, max_period) for end in earlier[-1:]]
+    twice = any(_agree(last, look) for look in before)
+    word, reason, evidence = last.word, last.reason, last.evidence
+    if word not in OPEN and not twice and not _alone(last, tighter is not None):
+        word, reason = "undecided", f"{word} at the last look only: {reason}"
+    if word == "chaotic" and tighter:
+        latest = max(tighter)
+        check = _tighter(tighter[latest])
+        if latest == last.end or (check.passed and twice):  # chaos that goes on stays confirmed
+            evidence.append(check)
+            if not check.passed:
+                word, reason = "undecided", f"chaotic at this tolerance, but {check.sentence}"
+    reason += f", over periods {last.start} to {last.end}"
+    start = last.start
+    if word.startswith("period"):
+        start = _settled(x, last.estimate)
         reason += _on_the_way(growth[:start])
-    return Verdict(word, reason, tuple(evidence), estimate.period, end + 1 - start, 0, start)
+        return Verdict(word, reason, tuple(evidence), last.estimate.period, len(x) - start, 0, start)
+    return Verdict(word, reason, tuple(evidence), None, len(x) - start, 0, start)
 
 
 def looks(periods: int) -> Iterator[int]:
-    """The looks at a record of so many periods; the last at its end where that is half-way to the next or further."""
+    """The looks at a run of so many periods; the last at its end where that is half-way to the next or further."""
     end = next_look()
     while end <= periods:
         yield end
@@ -122,64 +125,127 @@ def looks(periods: int) -> Iterator[int]:
             yield periods
 
 
-def _look(x, growth, start, end, scale, tolerance, max_period):
-    """Word, reason, evidence and PeriodEstimate of periods `start` to `end`."""
+class _Look(NamedTuple):
+    """What is found in the periods `start` to `end` of a record."""
+
+    word: str
+    reason: str
+    evidence: list[Evidence]
+    estimate: PeriodEstimate
+    start: int
+    end: int
+
+
+def _agree(last: _Look, before: _Look) -> bool:
+    """Whether two looks find one motion."""
+    return last.word == before.word or (
+        last.estimate.period is not None and last.estimate.period == before.estimate.period
+    )
+
+
+def _alone(look: _Look, goes_on: bool) -> bool:
+    """Whether one look is enough: a period, chaos that goes on at a tighter tolerance, a torus that is clearly one."""
+    if look.end < LONG:
+        return False
+    return look.word.startswith("period") or (look.word == "chaotic" and goes_on) or _clear(look)
+
+
+def _clear(look: _Look) -> bool:
+    """A torus whose exponent is below its bound with more than two errors."""
+    exponent = next((item for item in look.evidence if item.name == "exponent"), None)
+    return look.word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+
+
+def _look(x, growth, end, scale, tolerance, max_period) -> _Look:
+    """What the first `end` periods end in: a period where a later part repeats, else what they are after a third."""
+    whole = look = _part(x, growth, end // 3, end, scale, tolerance, max_period)
+    while not look.word.startswith("period"):
+        start = (look.start + end) // 2
+        if end - start < SHORTEST:
+            return whole
+        look = _part(x, growth, start, end, scale, tolerance, max_period)
+    return look
+
+
+def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
+    """What is found in periods `start` to `end`."""
     section = x[start : end + 1]
     estimate = detect_period(section, max_period, tolerance, scale)
-    evidence = period_evidence(estimate)
-    carried = np.flatnonzero(np.isfinite(growth))
-    first = max(start, carried[0] + ALIGNED) if len(carried) else end
-    known = growth[first:end]
+    known = turned(growth[:end], start)
     (whole,) = tangent_lyapunov(known)
     (later,) = tangent_lyapunov(known[len(known) // 2 :])
-    shrinks = evidence[-1].passed is not False
+    evidence, repeats = period_evidence(estimate), ""
+
+    def look(word: str, reason: str) -> _Look:
+        return _Look(word, reason + repeats, evidence, estimate, start, end)
+
+    rising = bool(later.value > LATER * later.error)
     if later.found:
-        rising = bool(later.value > LATER * later.error)
-        shrinks = not rising
-        what = (
-            "bits per period in the later half, which have to be positive by two errors for chaos, and not for a period"
-        )
-        evidence.append(Evidence("later half", later.value, LATER * later.error, rising, what, later.error))
-    if estimate.period is not None and shrinks:
-        return f"period-{estimate.period}", estimate.reason, evidence, estimate
+        sentence = "bits per period in the later half, which have to be positive by two errors for chaos"
+        evidence.append(Evidence("later half", later.value, LATER * later.error, rising, sentence, later.error))
+    if estimate.period is not None:
+        shrinks, alone = evidence[1].passed is not False, not np.isfinite(growth[:end]).any()
+        evidence.append(_confirmation(estimate, whole, later))
+        if (evidence[-1].passed or alone) and (later.found or shrinks):
+            most = f"; perturbations grow by {evidence[-1].value:.3f} bits per period at most" if later.found else ""
+            return look(f"period-{estimate.period}", estimate.reason + most)
+        repeats = f"; yet the strobed state {estimate.reason}"
     if not later.found:
-        what = "no period, and" if estimate.period is None else "a period that perturbations do not confirm, and"
-        few = f"{what} perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
-        return ("transient" if _comes_nearer(estimate) else "undecided"), few, evidence, estimate
-    bits = whole.value * len(known)
+        few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
+        return look("transient" if _comes_nearer(estimate) else "undecided", few)
+    exponent, bits = whole.value, whole.value * len(known)
+    positive, grown = bool(exponent > POSITIVE * whole.error), bool(bits > LEAST_BITS)
+    sentence = f"bits per period, of the tangent dynamics over {len(known)} periods"
     evidence += [
-        Evidence(
-            "exponent", whole.value, POSITIVE * whole.error, bool(whole.value > POSITIVE * whole.error),
-            f"bits per period, of the tangent dynamics over {len(known)} periods", whole.error,
-        ),
-        Evidence("growth", bits, LEAST_BITS, bool(bits > LEAST_BITS), "bits by which a perturbation grew in all"),
-    ]  # fmt: skip
-    said = f"{whole.value:.3f} ± {whole.error:.3f} bits per period"
-    if all(item.passed for item in evidence[-3:]):
-        return "chaotic", f"perturbations grow by {said}, and so they do in the later half", evidence, estimate
-    bound = abs(whole.value) + 2.0 * whole.error
+        Evidence("exponent", exponent, POSITIVE * whole.error, positive, sentence, whole.error),
+        Evidence("growth", bits, LEAST_BITS, grown, "bits by which a perturbation grew in all"),
+    ]
+    rate = f"{exponent:.3f} ± {whole.error:.3f} bits per period"
+    if rising and positive and grown:
+        return look("chaotic", f"perturbations grow by {rate}, and so they do in the later half")
+    if repeats:
+        return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
+    bound = abs(exponent) + 2.0 * whole.error
     sentence = "|exponent| and two errors, bits per period"
     evidence.append(Evidence("about zero", bound, ABOUT_ZERO, bool(bound < ABOUT_ZERO), sentence))
     neighbours = _neighbours(section, tolerance)
     drift = drift_evidence(section, neighbours)
     evidence += [neighbours, drift]
     if drift.passed:
-        return "transient", drift.sentence, evidence, estimate
-    if whole.value + LATER * whole.error < 0.0:
-        return "transient", f"perturbations shrink ({said}), but no period is met yet", evidence, estimate
-    if bound < ABOUT_ZERO and neighbours.passed:
+        return look("transient", drift.sentence)
+    if exponent + LATER * whole.error < 0.0:
+        return look("transient", f"perturbations shrink ({rate}), but no period is met yet")
+    sheared = max(_sure_bits(whole, len(known)), _sure_bits(later, len(known) - len(known) // 2))
+    sentence = "bits by which a perturbation grew for certain; the shear of a torus gives less"
+    evidence.append(Evidence("shear", sheared, SHEAR, bool(sheared < SHEAR), sentence))
+    if bound < ABOUT_ZERO and neighbours.passed and evidence[-1].passed:
         evidence.append(incommensurate_evidence(section, max_period))
         if evidence[-1].passed:
-            reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {said}"
-            return "quasi-periodic", reason, evidence, estimate
+            reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {rate}"
+            return look("quasi-periodic", reason)
     lacking = [item.name for item in evidence if item.passed is False]
-    return "undecided", f"no period; {said}; not met: {', '.join(lacking)}", evidence, estimate
+    return look("undecided", f"no period; {rate}; not met: {', '.join(lacking)}")
 
 
-def _clear(word, evidence):
-    """A torus whose exponent is below its bound with more than two errors."""
-    exponent = next((item for item in evidence if item.name == "exponent"), None)
-    return word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+def _confirmation(estimate: PeriodEstimate, whole: Exponent, later: Exponent) -> Evidence:
+    """The test that a state which repeats should pass, because the rest of the system need not repeat with it.
+
+    whole, later: exponents of the part and of its later half. Without them the state has to repeat more closely than
+    within the tolerance: a buoy misses its period by more than a fifth of it where its rope is chaotic.
+    """
+    if later.found:
+        most = min(found.value + LATER * found.error for found in (whole, later))
+        rising = later.value > LATER * later.error
+        sentence = "bits per period by which perturbations grow at most, two errors included"
+        return Evidence(NO_GROWTH, most, SEEN, bool(most < SEEN and not rising), sentence)
+    residual, bound = float(estimate.residual[estimate.period - 1]), CLOSELY * estimate.tolerance
+    sentence = "share of the scale by which the period is missed, where perturbations do not tell"
+    return Evidence(CLOSE, residual, bound, bool(residual <= bound), sentence)
+
+
+def _sure_bits(exponent, periods: int) -> float:
+    """Growth over so many periods where it is positive by two errors, else 0."""
+    return exponent.value * periods if exponent.value > LATER * exponent.error else 0.0
 
 
 def _comes_nearer(estimate: PeriodEstimate):

@@ -108,6 +108,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         from campaigns.motions.along import FROM_REST, Along
         from campaigns.motions.starts import DISPLACED, start_job
         from campaigns.motions.tracing import Scenes
+        from campaigns.motions.transients import outlasting
 
         there = {job.key for job in jobs if trajectory_path(plan.how.out, job.key).exists()}
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
@@ -117,13 +118,23 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs, ahead)
         if not real:
             return timing, first
-        along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), first.rows)
+        rows = {row["run_key"]: row for row in first.rows}
+        rest = [(at, job, rows.get(job.key, {})) for at, job in enumerate(jobs)]
+        longer, late = run(plan, outlasting(rest, lambda at: (at - 1, at + 1)))
+        rows |= {row["run_key"]: row for row in late.rows}
+        along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), [*rows.values()])
         along.find(kicks, order.own.kick_speed, order.own.seed)
 
         others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
         there |= {job.key for job in others.values() if trajectory_path(plan.how.out, job.key).exists()}
         more, found = run(plan, [*jobs, *others.values()])
-        along.judged(others, found.rows)
+        rows |= {row["run_key"]: row for row in found.rows}
+        rest = [(at, job, rows.get(job.key, {})) for at, job in enumerate(jobs)]
+        beside_rest = [
+            (motion.at, job, {**rows.get(job.key, {}), "found_by": motion.found_by}) for motion, job in others.items()
+        ]
+        again, late = run(plan, [job for job in outlasting([*rest, *beside_rest], along.beside) if job in others.values()])
+        along.judged(others, [*(rows | {row["run_key"]: row for row in late.rows}).values()])
         along.name()
         if len(jobs) > 1:
             ends.bisect(along)
@@ -136,7 +147,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
             judged += [job_of(order, job, motion, along.labels(motion)) for motion in some]
         last, summary = run(plan, judged)
         kept = sum(row["run_key"] in there for row in summary.rows)
-        for times in (more, last, along.starts.times):
+        for times in (longer, more, again, last, along.starts.times):
             timing = {name: seconds + times[name] for name, seconds in timing.items()}
         return timing, replace(summary, computed=len(summary.rows) - kept, found=kept)
 
