@@ -144,10 +144,13 @@ def _agree(last: _Look, before: _Look) -> bool:
 
 
 def _alone(look: _Look, goes_on: bool) -> bool:
-    """Whether one look is enough: a period, chaos that goes on at a tighter tolerance, a torus that is clearly one."""
+    """Whether one look is enough: a period after the first third, chaos that goes on at a tighter tolerance, a torus that
+    is clearly one.
+    """
     if look.end < LONG:
         return False
-    return look.word.startswith("period") or (look.word == "chaotic" and goes_on) or _clear(look)
+    periodic = look.word.startswith("period") and look.start == look.end // 3
+    return periodic or (look.word == "chaotic" and goes_on) or _clear(look)
 
 
 def _clear(look: _Look) -> bool:
