@@ -93,10 +93,12 @@ def motion_regime(
         reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
         return Verdict("undecided", reason, (), None, len(x), 0, 0)
     last = _look(x, growth, periods, scale, tolerance, max_period)
+    word, reason, evidence, period = last.word, last.reason, last.evidence, last.estimate.period
     *earlier, _ = looks(periods)  # the last one is at the end of the record
-    before = [_look(x, growth, end, scale, tolerance, max_period) for end in earlier[-1:]]
-    twice = any(_agree(last, look) for look in before)
-    word, reason, evidence = last.word, last.reason, last.evidence
+    twice = False
+    if earlier:
+        before = _look(x, growth, earlier[-1], scale, tolerance, max_period)
+        twice = word == before.word or (period is not None and period == before.estimate.period)
     if word not in OPEN and not twice and not _alone(last, tighter is not None):
         word, reason = "undecided", f"{word} at the last look only: {reason}"
     if word == "chaotic" and tighter:
@@ -108,11 +110,10 @@ def motion_regime(
                 word, reason = "undecided", f"chaotic at this tolerance, but {check.sentence}"
     reason += f", over periods {last.start} to {last.end}"
     start = last.start
-    if word.startswith("period"):
-        start = _settled(x, last.estimate)
-        reason += _on_the_way(growth[:start])
-        return Verdict(word, reason, tuple(evidence), last.estimate.period, len(x) - start, 0, start)
-    return Verdict(word, reason, tuple(evidence), None, len(x) - start, 0, start)
+    if not word.startswith("period"):
+        return Verdict(word, reason, tuple(evidence), None, len(x) - start, 0, start)
+    start = _settled(x, last.estimate)
+    return Verdict(word, reason + _on_the_way(growth[:start]), tuple(evidence), period, len(x) - start, 0, start)
 
 
 def looks(periods: int) -> Iterator[int]:
@@ -134,13 +135,6 @@ class _Look(NamedTuple):
     estimate: PeriodEstimate
     start: int
     end: int
-
-
-def _agree(last: _Look, before: _Look) -> bool:
-    """Whether two looks find one motion."""
-    return last.word == before.word or (
-        last.estimate.period is not None and last.estimate.period == before.estimate.period
-    )
 
 
 def _alone(look: _Look, goes_on: bool) -> bool:
@@ -209,8 +203,9 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     if repeats:
         return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
     bound = abs(exponent) + 2.0 * whole.error
-    sentence = "|exponent| and two errors, bits per period"
-    evidence.append(Evidence("about zero", bound, ABOUT_ZERO, bool(bound < ABOUT_ZERO), sentence))
+    about_zero = bool(bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * whole.error))
+    sentence = f"|exponent| and two errors, bits per period; if it is positive, less than {SHEAR:g} bits in all"
+    evidence.append(Evidence("about zero", bound, ABOUT_ZERO, about_zero, sentence))
     neighbours = _neighbours(section, tolerance)
     drift = drift_evidence(section, neighbours)
     evidence += [neighbours, drift]
@@ -218,10 +213,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         return look("transient", drift.sentence)
     if exponent + LATER * whole.error < 0.0:
         return look("transient", f"perturbations shrink ({rate}), but no period is met yet")
-    sheared = max(_sure_bits(whole, len(known)), _sure_bits(later, len(known) - len(known) // 2))
-    sentence = "bits by which a perturbation grew for certain; the shear of a torus gives less"
-    evidence.append(Evidence("shear", sheared, SHEAR, bool(sheared < SHEAR), sentence))
-    if bound < ABOUT_ZERO and neighbours.passed and evidence[-1].passed:
+    if about_zero and neighbours.passed:
         evidence.append(incommensurate_evidence(section, max_period))
         if evidence[-1].passed:
             reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {rate}"
@@ -244,11 +236,6 @@ def _confirmation(estimate: PeriodEstimate, whole: Exponent, later: Exponent) ->
     residual, bound = float(estimate.residual[estimate.period - 1]), CLOSELY * estimate.tolerance
     sentence = "share of the scale by which the period is missed, where perturbations do not tell"
     return Evidence(CLOSE, residual, bound, bool(residual <= bound), sentence)
-
-
-def _sure_bits(exponent, periods: int) -> float:
-    """Growth over so many periods where it is positive by two errors, else 0."""
-    return exponent.value * periods if exponent.value > LATER * exponent.error else 0.0
 
 
 def _comes_nearer(estimate: PeriodEstimate):

@@ -90,11 +90,13 @@ def job_of(order: Order, job: Job, motion, labels: dict, most: int | None = None
 
     most: as of `campaigns.judge.judged_job`.
     """
-    from campaigns.motions.along import FROM_REST
+    from campaigns.motions.along import FROM_REST, KICKED
+    from campaigns.motions.transients import as_long_as
 
     if motion.found_by == FROM_REST:
         return replace(job, labels={**job.labels, **labels})
-    return judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero(), most)
+    own = judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero(), most)
+    return as_long_as(own, order.periods) if motion.found_by == KICKED else own
 
 
 def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | None = None) -> Callable:
@@ -119,8 +121,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         if not real:
             return timing, first
         rows = {row["run_key"]: row for row in first.rows}
-        rest = [(at, job, rows.get(job.key, {})) for at, job in enumerate(jobs)]
-        longer, late = run(plan, outlasting(rest, lambda at: (at - 1, at + 1)))
+        longer, late = run(plan, outlasting(jobs, rows, lambda at: (at - 1, at + 1)))
         rows |= {row["run_key"]: row for row in late.rows}
         along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), [*rows.values()])
         along.find(kicks, order.own.kick_speed, order.own.seed)
@@ -128,13 +129,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
         there |= {job.key for job in others.values() if trajectory_path(plan.how.out, job.key).exists()}
         more, found = run(plan, [*jobs, *others.values()])
-        rows |= {row["run_key"]: row for row in found.rows}
-        rest = [(at, job, rows.get(job.key, {})) for at, job in enumerate(jobs)]
-        beside_rest = [
-            (motion.at, job, {**rows.get(job.key, {}), "found_by": motion.found_by}) for motion, job in others.items()
-        ]
-        again, late = run(plan, [job for job in outlasting([*rest, *beside_rest], along.beside) if job in others.values()])
-        along.judged(others, [*(rows | {row["run_key"]: row for row in late.rows}).values()])
+        along.judged(others, found.rows)
         along.name()
         if len(jobs) > 1:
             ends.bisect(along)
@@ -147,7 +142,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
             judged += [job_of(order, job, motion, along.labels(motion)) for motion in some]
         last, summary = run(plan, judged)
         kept = sum(row["run_key"] in there for row in summary.rows)
-        for times in (longer, more, again, last, along.starts.times):
+        for times in (longer, more, last, along.starts.times):
             timing = {name: seconds + times[name] for name, seconds in timing.items()}
         return timing, replace(summary, computed=len(summary.rows) - kept, found=kept)
 

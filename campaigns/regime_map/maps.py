@@ -113,8 +113,7 @@ class Map(Lattice):
         self.rest_s, self.parts = 0.0, own.refine / len(jobs) if len(self.jobs) == len(jobs) else 0.0
         self.after = AFTER_REST
         self._run(jobs, "runs from rest", ahead)
-        rest = [(self.tree.number[cell], job, self.rows.get(job.key, {})) for cell, job in zip(cells, jobs, strict=True)]
-        self._run(outlasting(rest, self.beside), "chaos that may be a transient")
+        self._run(outlasting(self.jobs, self.rows, self.beside), "chaos that may be a transient")
         self.rest_s, self.before_s = self.times["run_s"] - rest_s, self.starts.times["run_s"]
         places = self.add(jobs, [self.rows[job.key] for job in jobs if job.key in self.rows])
         if real:
