@@ -3,20 +3,23 @@
 A simulation can be carried on until its motion is told. So it is looked at after 90, 135, 205, 310, 465, 585, ...
 periods (`next_look`), each time without its first third, the transient:
 
-    period-N          the strobed orbit repeats (`detect_period`), and its perturbations do not grow in the later half;
-                      where none are carried, the steps towards the orbit shrink
+    period-N          the strobed orbit repeats (`detect_period`), and its perturbations grow by less than 0.1 bits per
+                      period, two errors included; where none are carried, the steps towards the orbit shrink
     chaotic           lambda > 3.5 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
                       on a torus, too, perturbations grow, as the logarithm of time
-    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period, neighbours on the section stay neighbours, and a
-                      spectral line is incommensurate with the forcing
+    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period; a lambda above 0 by 2 errors leaves 4 bits of growth in
+                      all; neighbours on the section stay neighbours, and a spectral line is incommensurate with the
+                      forcing
     transient         at the end of the record: spread, mean or the steps towards a period still march, or perturbations
                       shrink and no period is met
     undecided         otherwise
 
-A word counts when two looks in a row find it, because a motion on its way passes by others: near an unstable period-2
-for 60 periods, or through a chaotic transient for 350. From 465 periods on one look is enough: for a torus by three
-errors instead of two, and for chaos if perturbations go on growing, by two errors, where the run goes on at a tighter
-tolerance. A longer chaotic transient is called chaotic: the verdict is one over the periods that it names.
+The verdict on a record is that of its last look, which is at its end. A word counts when this look and the one before
+find it, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic
+transient for 900. From 465 periods on one look is enough: for a period; for a torus by three errors instead of two; and
+for chaos if perturbations go on growing, by two errors, where the run goes on at a tighter tolerance. A period is also
+looked for in the last half, quarter, ... of what a look sees, and takes two looks there, because beside a window
+orbits repeat for long, again and again. Chaos that ends after the record is called chaotic: the verdict names its periods.
 Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
 """
