@@ -7,8 +7,8 @@ periods (`next_look`), each time without its first third, the transient:
                       period, two errors included; where none are carried, the steps towards the orbit shrink
     chaotic           lambda > 3.5 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
                       on a torus, too, perturbations grow, as the logarithm of time
-    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period; a lambda above 0 by 2 errors leaves 4 bits of growth in
-                      all; neighbours on the section stay neighbours, and a spectral line is incommensurate with the
+    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period; a lambda above 0 by 2 errors leaves 4 bits in all;
+                      neighbours on the section stay neighbours, and a spectral line is incommensurate with the
                       forcing
     transient         at the end of the record: spread, mean or the steps towards a period still march, or perturbations
                       shrink and no period is met
@@ -18,8 +18,8 @@ The verdict on a record is that of its last look, which is at its end. A word co
 find it, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic
 transient for 900. From 465 periods on one look is enough: for a period; for a torus by three errors instead of two; and
 for chaos if perturbations go on growing, by two errors, where the run goes on at a tighter tolerance. A period is also
-looked for in the last half, quarter, ... of what a look sees, and takes two looks there, because beside a window
-orbits repeat for long, again and again. Chaos that ends after the record is called chaotic: the verdict names its periods.
+looked for in the last half, quarter, ... of what a look sees. It takes two looks there, because beside a window orbits
+repeat for long, again and again. Chaos that ends after the record is called chaotic: the verdict names its periods.
 Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
 """
@@ -141,8 +141,8 @@ class _Look(NamedTuple):
 
 
 def _alone(look: _Look, goes_on: bool) -> bool:
-    """Whether one look is enough: a period after the first third, chaos that goes on at a tighter tolerance, a torus that
-    is clearly one.
+    """Whether one look is enough: a period after the first third, chaos that goes on at a tighter tolerance, a torus
+    that is clearly one.
     """
     if look.end < LONG:
         return False

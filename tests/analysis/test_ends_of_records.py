@@ -63,7 +63,7 @@ def test_a_torus_whose_perturbations_grow_is_none_though_little():
 
 @pytest.mark.parametrize("scatter", [0.3, 1.0])
 def test_an_observed_period_beside_growing_perturbations_is_no_period_and_says_both(scatter):
-    """The rest of the system need not repeat: a test of the perturbations that cannot see their growth does not count."""
+    """The rest of the system need not repeat: a test that cannot see growth does not count."""
     record = RANDOM.random(8)[np.arange(1501) % 8] + 5e-4 * RANDOM.normal(size=1501)
     grows, shrinks = steps(1500, 0.35, scatter), steps(1500, -0.1, scatter)
     for length in LENGTHS:

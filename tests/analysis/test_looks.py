@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import motion_regime, next_look
+from analysis import motion_regime
 from analysis.exponents import Exponent
 from tests.analysis.systems import circle, circle_map, henon, logistic
 
