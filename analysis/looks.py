@@ -16,10 +16,11 @@ periods (`next_look`), each time without its first third, the transient:
 
 The verdict on a record is that of its last look, which is at its end. A word counts when this look and the one before
 find it, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic
-transient for 900. From 465 periods on one look is enough: for a period; for a torus by three errors instead of two; and
-for chaos if perturbations go on growing, by two errors, where the run goes on at a tighter tolerance. A period is also
-looked for in the last half, quarter, ... of what a look sees. It takes two looks there, because beside a window orbits
-repeat for long, again and again. Chaos that ends after the record is called chaotic: the verdict names its periods.
+transient for 900. From 465 periods on one look is enough: for a period if perturbations shrink by 4 bits; for a torus
+by three errors instead of two; and for chaos if perturbations go on growing, by two errors, where the run goes on at a
+tighter tolerance. A period is also looked for in the last half, quarter, ... of what a look sees. It takes two looks
+there, because beside a window orbits repeat for long, again and again. Chaos that ends after the record is called
+chaotic: the verdict names its periods.
 Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
 """
@@ -146,8 +147,10 @@ def _alone(look: _Look, goes_on: bool) -> bool:
     """
     if look.end < LONG:
         return False
-    periodic = look.word.startswith("period") and look.start == look.end // 3
-    return periodic or (look.word == "chaotic" and goes_on) or _clear(look)
+    if look.word.startswith("period"):
+        bits = look.evidence[-1].value * (look.end - look.start)  # a slow torus repeats too, and hardly shrinks
+        return look.start == look.end // 3 and look.evidence[-1].name == NO_GROWTH and bits < -SHEAR
+    return (look.word == "chaotic" and goes_on) or _clear(look)
 
 
 def _clear(look: _Look) -> bool:
