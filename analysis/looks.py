@@ -3,26 +3,31 @@
 A simulation can be carried on until its motion is told. So it is looked at after 90, 135, 205, 310, 465, 585, ...
 periods (`next_look`), each time without its first third, the transient:
 
-    period-N          the strobed orbit repeats (`detect_period`), and its perturbations do not grow in the later half;
-                      where none are carried, the steps towards the orbit shrink
+    period-N          the strobed orbit repeats (`detect_period`), and its perturbations grow by less than 0.1 bits per
+                      period, two errors included; where none are carried, the steps towards the orbit shrink
     chaotic           lambda > 3.5 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
                       on a torus, too, perturbations grow, as the logarithm of time
-    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period, neighbours on the section stay neighbours, and a
-                      spectral line is incommensurate with the forcing
+    quasi-periodic    |lambda| + 2 errors < 0.06 bits per period; a lambda above 0 by 2 errors leaves 4 bits in all;
+                      neighbours on the section stay neighbours, and a spectral line is incommensurate with the
+                      forcing
     transient         at the end of the record: spread, mean or the steps towards a period still march, or perturbations
                       shrink and no period is met
     undecided         otherwise
 
-A word counts when two looks in a row find it, because a motion on its way passes by others: near an unstable period-2
-for 60 periods, or through a chaotic transient for 350. From 465 periods on one look is enough: for a torus by three
-errors instead of two, and for chaos if perturbations go on growing, by two errors, where the run goes on at a tighter
-tolerance. A longer chaotic transient is called chaotic: the verdict is one over the periods that it names.
+The verdict on a record is that of its last look, which is at its end. A word counts when this look and the one before
+find it, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic
+transient for 900. From 465 periods on one look is enough: for a period if perturbations shrink by 4 bits; for a torus
+by three errors instead of two; and for chaos if perturbations go on growing, by two errors, where the run goes on at a
+tighter tolerance. A period is also looked for in the last half, quarter, ... of what a look sees. It takes two looks
+there, because beside a window orbits repeat for long, again and again. Chaos that ends after the record is called
+chaotic: the verdict names its periods.
 Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
 """
 
 import math
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,7 +37,7 @@ from analysis.exponents import Exponent
 from analysis.neighbours import neighbour_growth
 from analysis.periods import PeriodEstimate, detect_period
 from analysis.sampling import checked_columns, checked_count, checked_series
-from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov
+from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov, turned
 from analysis.verdicts import Verdict
 
 OPEN = ("transient", "undecided")  # words that wait for the next look
@@ -40,11 +45,15 @@ FIRST_LOOK = 90
 POSITIVE, LATER = 3.5, 2.0  # errors by which an exponent is positive: of the look, and of its later half
 LEAST_BITS = 10.0  # growth over a look
 LONG = 465  # periods from which one look can be enough
+SHORTEST = 150  # periods of the shortest part at the end of a record that is looked at by itself
+SEEN = 0.1  # bits per period: growth, a doubling in ten periods, that a period's test has to be able to see
+CLOSELY = 0.2  # tolerances by which a period is missed at most where no perturbations tell
+NO_GROWTH, CLOSE = "no growth", "close"  # the tests of a period
+SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a record to its end
 CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
 STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
-ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
 CLEARLY = 3.0  # tolerances from its orbit within which a periodic motion has settled
 
 
@@ -84,36 +93,35 @@ def motion_regime(
         raise ValueError(f"growth_nats: {periods} values are needed for {periods + 1} states, given {growth.shape}")
     checked_series(growth[np.isfinite(growth)], "growth_nats")
     checked_count(max_period, "max_period")
-    before, word, reason, evidence, start = "", "undecided", "", [], 0
-    for end in looks(periods):
-        start = end // 3
-        word, reason, evidence, estimate = _look(x, growth, start, end, scale, tolerance, max_period)
-        goes_on = word == "chaotic" and tighter is not None
-        counts = word == before or (end >= LONG and (goes_on or _clear(word, evidence)))
-        if counts and goes_on and end in tighter:
-            evidence.append(_tighter(tighter[end]))
-            if not evidence[-1].passed:
-                word, reason = "undecided", f"chaotic at this tolerance, but {evidence[-1].sentence}"
-        elif goes_on and end < periods:
-            counts = False
-        if counts and word not in OPEN:
-            break
-        before = word
-    else:
-        if not evidence:
-            reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
-        elif word not in OPEN:
-            word, reason = "undecided", f"{word} at the last look only, over periods {start} to {end}: {reason}"
+    if periods < FIRST_LOOK:
+        reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
+        return Verdict("undecided", reason, (), None, len(x), 0, 0)
+    last = _look(x, growth, periods, scale, tolerance, max_period)
+    word, reason, evidence, period = last.word, last.reason, last.evidence, last.estimate.period
+    *earlier, _ = looks(periods)  # the last one is at the end of the record
+    twice = False
+    if earlier:
+        before = _look(x, growth, earlier[-1], scale, tolerance, max_period)
+        twice = word == before.word or (period is not None and period == before.estimate.period)
+    if word not in OPEN and not twice and not _alone(last, tighter is not None):
+        word, reason = "undecided", f"{word} at the last look only: {reason}"
+    if word == "chaotic" and tighter:
+        latest = max(tighter)
+        check = _tighter(tighter[latest])
+        if latest == last.end or (check.passed and twice):  # chaos that goes on stays confirmed
+            evidence.append(check)
+            if not check.passed:
+                word, reason = "undecided", f"chaotic at this tolerance, but {check.sentence}"
+    reason += f", over periods {last.start} to {last.end}"
+    start = last.start
+    if not word.startswith("period"):
         return Verdict(word, reason, tuple(evidence), None, len(x) - start, 0, start)
-    reason += f", over periods {start} to {end}"
-    if estimate.period is not None:
-        start = _settled(x[: end + 1], estimate)
-        reason += _on_the_way(growth[:start])
-    return Verdict(word, reason, tuple(evidence), estimate.period, end + 1 - start, 0, start)
+    start = _settled(x, last.estimate)
+    return Verdict(word, reason + _on_the_way(growth[:start]), tuple(evidence), period, len(x) - start, 0, start)
 
 
 def looks(periods: int) -> Iterator[int]:
-    """The looks at a record of so many periods; the last at its end where that is half-way to the next or further."""
+    """The looks at a run of so many periods; the last at its end where that is half-way to the next or further."""
     end = next_look()
     while end <= periods:
         yield end
@@ -122,64 +130,118 @@ def looks(periods: int) -> Iterator[int]:
             yield periods
 
 
-def _look(x, growth, start, end, scale, tolerance, max_period):
-    """Word, reason, evidence and PeriodEstimate of periods `start` to `end`."""
+class _Look(NamedTuple):
+    """What is found in the periods `start` to `end` of a record."""
+
+    word: str
+    reason: str
+    evidence: list[Evidence]
+    estimate: PeriodEstimate
+    start: int
+    end: int
+
+
+def _alone(look: _Look, goes_on: bool) -> bool:
+    """Whether one look is enough: a period after the first third, chaos that goes on at a tighter tolerance, a torus
+    that is clearly one.
+    """
+    if look.end < LONG:
+        return False
+    if look.word.startswith("period"):
+        bits = look.evidence[-1].value * (look.end - look.start)  # a slow torus repeats too, and hardly shrinks
+        return look.start == look.end // 3 and look.evidence[-1].name == NO_GROWTH and bits < -SHEAR
+    return (look.word == "chaotic" and goes_on) or _clear(look)
+
+
+def _clear(look: _Look) -> bool:
+    """A torus whose exponent is below its bound with more than two errors."""
+    exponent = next((item for item in look.evidence if item.name == "exponent"), None)
+    return look.word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+
+
+def _look(x, growth, end, scale, tolerance, max_period) -> _Look:
+    """What the first `end` periods end in: a period where a later part repeats, else what they are after a third."""
+    whole = look = _part(x, growth, end // 3, end, scale, tolerance, max_period)
+    while not look.word.startswith("period"):
+        start = (look.start + end) // 2
+        if end - start < SHORTEST:
+            return whole
+        look = _part(x, growth, start, end, scale, tolerance, max_period)
+    return look
+
+
+def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
+    """What is found in periods `start` to `end`."""
     section = x[start : end + 1]
     estimate = detect_period(section, max_period, tolerance, scale)
-    evidence = period_evidence(estimate)
-    carried = np.flatnonzero(np.isfinite(growth))
-    first = max(start, carried[0] + ALIGNED) if len(carried) else end
-    known = growth[first:end]
+    known = turned(growth[:end], start)
     (whole,) = tangent_lyapunov(known)
     (later,) = tangent_lyapunov(known[len(known) // 2 :])
-    shrinks = evidence[-1].passed is not False
+    evidence, repeats = period_evidence(estimate), ""
+
+    def look(word: str, reason: str) -> _Look:
+        return _Look(word, reason + repeats, evidence, estimate, start, end)
+
+    rising = bool(later.value > LATER * later.error)
     if later.found:
-        rising = bool(later.value > LATER * later.error)
-        shrinks = not rising
-        what = (
-            "bits per period in the later half, which have to be positive by two errors for chaos, and not for a period"
-        )
-        evidence.append(Evidence("later half", later.value, LATER * later.error, rising, what, later.error))
-    if estimate.period is not None and shrinks:
-        return f"period-{estimate.period}", estimate.reason, evidence, estimate
+        sentence = "bits per period in the later half, which have to be positive by two errors for chaos"
+        evidence.append(Evidence("later half", later.value, LATER * later.error, rising, sentence, later.error))
+    if estimate.period is not None:
+        shrinks, alone = evidence[1].passed is not False, not np.isfinite(growth[:end]).any()
+        evidence.append(_confirmation(estimate, whole, later))
+        if (evidence[-1].passed or alone) and (later.found or shrinks):
+            most = f"; perturbations grow by {evidence[-1].value:.3f} bits per period at most" if later.found else ""
+            return look(f"period-{estimate.period}", estimate.reason + most)
+        repeats = f"; yet the strobed state {estimate.reason}"
     if not later.found:
-        what = "no period, and" if estimate.period is None else "a period that perturbations do not confirm, and"
-        few = f"{what} perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
-        return ("transient" if _comes_nearer(estimate) else "undecided"), few, evidence, estimate
-    bits = whole.value * len(known)
+        few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
+        return look("transient" if _comes_nearer(estimate) else "undecided", few)
+    exponent, bits = whole.value, whole.value * len(known)
+    positive, grown = bool(exponent > POSITIVE * whole.error), bool(bits > LEAST_BITS)
+    sentence = f"bits per period, of the tangent dynamics over {len(known)} periods"
     evidence += [
-        Evidence(
-            "exponent", whole.value, POSITIVE * whole.error, bool(whole.value > POSITIVE * whole.error),
-            f"bits per period, of the tangent dynamics over {len(known)} periods", whole.error,
-        ),
-        Evidence("growth", bits, LEAST_BITS, bool(bits > LEAST_BITS), "bits by which a perturbation grew in all"),
-    ]  # fmt: skip
-    said = f"{whole.value:.3f} ± {whole.error:.3f} bits per period"
-    if all(item.passed for item in evidence[-3:]):
-        return "chaotic", f"perturbations grow by {said}, and so they do in the later half", evidence, estimate
-    bound = abs(whole.value) + 2.0 * whole.error
-    sentence = "|exponent| and two errors, bits per period"
-    evidence.append(Evidence("about zero", bound, ABOUT_ZERO, bool(bound < ABOUT_ZERO), sentence))
+        Evidence("exponent", exponent, POSITIVE * whole.error, positive, sentence, whole.error),
+        Evidence("growth", bits, LEAST_BITS, grown, "bits by which a perturbation grew in all"),
+    ]
+    rate = f"{exponent:.3f} ± {whole.error:.3f} bits per period"
+    if rising and positive and grown:
+        return look("chaotic", f"perturbations grow by {rate}, and so they do in the later half")
+    if repeats:
+        return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
+    bound = abs(exponent) + 2.0 * whole.error
+    about_zero = bool(bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * whole.error))
+    sentence = f"|exponent| and two errors, bits per period; if it is positive, less than {SHEAR:g} bits in all"
+    evidence.append(Evidence("about zero", bound, ABOUT_ZERO, about_zero, sentence))
     neighbours = _neighbours(section, tolerance)
     drift = drift_evidence(section, neighbours)
     evidence += [neighbours, drift]
     if drift.passed:
-        return "transient", drift.sentence, evidence, estimate
-    if whole.value + LATER * whole.error < 0.0:
-        return "transient", f"perturbations shrink ({said}), but no period is met yet", evidence, estimate
-    if bound < ABOUT_ZERO and neighbours.passed:
+        return look("transient", drift.sentence)
+    if exponent + LATER * whole.error < 0.0:
+        return look("transient", f"perturbations shrink ({rate}), but no period is met yet")
+    if about_zero and neighbours.passed:
         evidence.append(incommensurate_evidence(section, max_period))
         if evidence[-1].passed:
-            reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {said}"
-            return "quasi-periodic", reason, evidence, estimate
+            reason = f"neighbours stay neighbours, a line is incommensurate, and perturbations grow by {rate}"
+            return look("quasi-periodic", reason)
     lacking = [item.name for item in evidence if item.passed is False]
-    return "undecided", f"no period; {said}; not met: {', '.join(lacking)}", evidence, estimate
+    return look("undecided", f"no period; {rate}; not met: {', '.join(lacking)}")
 
 
-def _clear(word, evidence):
-    """A torus whose exponent is below its bound with more than two errors."""
-    exponent = next((item for item in evidence if item.name == "exponent"), None)
-    return word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+def _confirmation(estimate: PeriodEstimate, whole: Exponent, later: Exponent) -> Evidence:
+    """The test that a state which repeats should pass, because the rest of the system need not repeat with it.
+
+    whole, later: exponents of the part and of its later half. Without them the state has to repeat more closely than
+    within the tolerance: a buoy misses its period by more than a fifth of it where its rope is chaotic.
+    """
+    if later.found:
+        most = min(found.value + LATER * found.error for found in (whole, later))
+        rising = later.value > LATER * later.error
+        sentence = "bits per period by which perturbations grow at most, two errors included"
+        return Evidence(NO_GROWTH, most, SEEN, bool(most < SEEN and not rising), sentence)
+    residual, bound = float(estimate.residual[estimate.period - 1]), CLOSELY * estimate.tolerance
+    sentence = "share of the scale by which the period is missed, where perturbations do not tell"
+    return Evidence(CLOSE, residual, bound, bool(residual <= bound), sentence)
 
 
 def _comes_nearer(estimate: PeriodEstimate):

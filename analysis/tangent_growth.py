@@ -28,6 +28,7 @@ TAPER = 0.5  # share of the record under the two cosines
 LOWEST = 2  # cycles over the record: the mean leaks into those below
 FREQUENCIES, SHORT = 6, 500  # how many count in records of up to this many periods
 LEAST_PERIODS = 32
+ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
 
 
 def tangent_lyapunov(
@@ -59,6 +60,13 @@ def tangent_lyapunov(
         Exponent(float(value), float(error), BITS_PER_PERIOD, METHOD, reason, {"periods": periods})
         for value, error in zip(values, errors, strict=True)
     )
+
+
+def turned(growth_nats: np.ndarray, start: int) -> np.ndarray:
+    """The growth (m,) from period `start` on of perturbations that had ALIGNED periods to turn. NaN: none carried."""
+    carried = np.flatnonzero(np.isfinite(growth_nats))
+    first = max(start, carried[0] + ALIGNED) if len(carried) else len(growth_nats)
+    return growth_nats[first:]
 
 
 def transverse_lyapunov(

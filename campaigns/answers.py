@@ -94,6 +94,7 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
     def at(*words: str) -> str:
         return spans([one in words for one in said], values)
 
+    value, error = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
     found = set(filter(None, said))
     periodic = sorted((word for word in found if word.startswith(PERIODIC)), key=lambda word: (len(word), word))
     regular, rest = [], []
@@ -107,6 +108,9 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
     for word in sorted(found - {*calm, *OPEN_WORDS}):
         growth = _growth([row for row, one in zip(rows, said, strict=True) if one == word]) if word == CHAOTIC else ""
         rest.append(f"{word.capitalize()} at {symbol} = {at(word)}{growth}.")
+    beside = [known(row, "strobed_period") > 0 and known(row, value) > 2.0 * known(row, error) for row in rows]
+    if any(beside):
+        rest.append(f"Perturbations grow though the buoy repeats at {symbol} = {spans(beside, values)}.")
     if more := "; ".join(f"{words} at {symbol} = {at(word)}" for word, words in OPEN_WORDS.items() if word in found):
         rest.append(f"Not decided: {more}.")
     return regular, rest

@@ -4,7 +4,7 @@ import math
 from functools import partial
 
 import engine.scene
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of, verdict
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
 OPEN = ("undecided", "transient")  # regimes that decide nothing
@@ -21,15 +21,11 @@ def tighter_scene(scene, times: int = 10):
 
 def tangent_of(trajectory, transient_periods: int):
     """The exponent of a run's tangent dynamics in bits per wave period; without a value where it carried none."""
-    import numpy as np
-
-    from analysis import tangent_lyapunov
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
     if not carried(trajectory):
         return no_exponent("tangent dynamics", "no perturbation was carried along", BITS_PER_PERIOD)
-    growth = trajectory.tangent.growth_nats[transient_periods:, 0]
-    return tangent_lyapunov(growth[np.isfinite(growth)])[0]
+    return exponent(trajectory, transient_periods)
 
 
 def motion_of(trajectory, checks=None):
@@ -37,16 +33,18 @@ def motion_of(trajectory, checks=None):
 
     checks: Trajectories that went on from it at a tighter tolerance, by its wave periods then; None: none ever does.
     """
+    from analysis import tangent_lyapunov
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
     if checks is None:
         return verdict(trajectory)
-    ended = {
-        end: no_exponent("tangent dynamics", f"the run ended: {check.status}", BITS_PER_PERIOD)
-        for end, check in checks.items()
-        if check.status != "ok"
-    }
-    return verdict(trajectory, {end: ended.get(end) or tangent_of(check, 0) for end, check in checks.items()})
+    tighter = {}
+    for end, check in checks.items():
+        if check.status == "ok":
+            (tighter[end],) = tangent_lyapunov(check.tangent.growth_nats[:, :1])
+        else:
+            tighter[end] = no_exponent("tangent dynamics", f"the run ended: {check.status}", BITS_PER_PERIOD)
+    return verdict(trajectory, tighter)
 
 
 def record_regime(trajectory, transient_periods: int, tangent=None):
@@ -79,7 +77,9 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
     return verdict, wolf
 
 
-def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=None, most: int | None = None):
+def going_on(
+    scene, trajectory, row, checks, budget: int, looks: bool, start=None, most: int | None = None, least: float = 0.0
+):
     """What a run whose regime is asked for does next (`campaigns.machinery.plan.Further`); None when it is told.
 
     start: the state of another run that it begins in; None: as the scene says. most: wave periods after which it is not
@@ -88,7 +88,10 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=Non
     the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
     One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
     judged; at first for as long as it takes to show by SURE errors.
+    least: wave periods that chaos has to last, because transients of such a length are known (`motions.transients`).
     """
+    from analysis.evidence import read_evidence
+    from analysis.looks import CLOSE, next_look
     from analysis.looks import looks as looks_at
     from campaigns.machinery.plan import Further
 
@@ -99,6 +102,10 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=Non
     if row["status"] != "ok" or row.get("regime") is None or done is None:
         return None
     # whole periods: samples need not add up to them to the last digit, and a check of nothing would go on for ever
+    ahead = next((end for end in ends if end > round(done)), None)
+    may_go_on = ahead is not None and (most is None or ahead <= most)
+    if row["regime"] == "chaotic" and done < least and may_go_on:
+        return Further(_carrying(scene), ahead - done, trajectory)
     judged, check = round(done) - (row.get("transient_periods") or 0), checks.get(round(done))
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
@@ -107,10 +114,11 @@ def going_on(scene, trajectory, row, checks, budget: int, looks: bool, start=Non
     if check is not None and check.status == "ok" and row.get("regime_tighter") != "chaotic":
         if (ran := len(check.tangent.growth_nats)) < judged:
             return Further(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)
-    ahead = next((end for end in ends if end > round(done)), None)
-    if row["regime"] not in OPEN or ahead is None or (most is not None and ahead > most):
+    if row["regime"] not in OPEN or not may_go_on:
         return None
-    unclear = row["regime"] == "undecided" and row.get("strobed_period") is None
+    failed = {name for name, *_, met in read_evidence(row.get("evidence") or "") if met == "no"}
+    loose = CLOSE in failed and done > next_look()
+    unclear = row["regime"] == "undecided" and (row.get("strobed_period") is None or loose)
     wanted = unclear or (trajectory is not None and carried(trajectory))
     scene = _carrying(scene) if wanted and carries_tangents(scene) else scene
     return Further(scene, ahead - done, trajectory)

@@ -137,7 +137,8 @@ class Trajectory:
         return views.section(self, columns, transient_periods, phase)
 
     def exponent(self, transient_periods: int | None = None) -> "Exponent":
-        """The largest Lyapunov exponent after the transient, its first third, in bits per forcing period.
+        """The largest Lyapunov exponent after the transient, that of `verdict` or the first third, in bits per forcing
+        period.
 
         From the tangent dynamics where the run carried them (`output.tangent_vectors`), else by Wolf's method from r,
         which is far less certain and takes seconds; its `method` says which.

@@ -90,14 +90,14 @@ def section(
 
 
 def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
-    import numpy as np
-
     from analysis import tangent_lyapunov, wolf_lyapunov
+    from analysis.tangent_growth import turned
 
     (step_s, period_s), first = _forcing(run), _transient(run, transient_periods)
+    if transient_periods is None and run.status == "ok" and in_regular_waves(run.scene):
+        first = verdict(run).transient or first
     if carried(run):
-        growth = run.tangent.growth_nats[first:, 0]  # nan before the perturbations were carried
-        return tangent_lyapunov(growth[np.isfinite(growth)])[0]
+        return tangent_lyapunov(turned(run.tangent.growth_nats[:, 0], first))[0]
     radius_m = run.columns["radius_m"][round(first * period_s / step_s) :]
     found = wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
     if not found.found and carries_tangents(run.scene):

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from analysis.evidence import evidence_text
-from analysis.looks import next_look
+from analysis.looks import CLOSE, next_look
 from campaigns.columns import (
     LINE_COUNTS,
     MESSAGE,
@@ -140,6 +140,10 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
         elif verdict is not None and verdict.period and trajectory.final_state is not None:
             multipliers, orbit = orbit_row(trajectory, verdict.period)
             row |= multipliers
+            loose = any(test.name == CLOSE and not test.passed for test in verdict.evidence)
+            if loose and not multipliers:
+                reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
+                verdict = replace(verdict, regime="undecided", reason=reason)
         transient_periods = 0 if verdict is None else verdict.transient
     if measured := after_transient(trajectory, columns, transient_periods):
         if ahead is not None:

@@ -89,11 +89,13 @@ def job_of(order: Order, job: Job, motion, labels: dict, most: int | None = None
 
     most: as of `campaigns.judge.judged_job`.
     """
-    from campaigns.motions.along import FROM_REST
+    from campaigns.motions.along import FROM_REST, KICKED
+    from campaigns.motions.transients import as_long_as
 
     if motion.found_by == FROM_REST:
         return replace(job, labels={**job.labels, **labels})
-    return judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero(), most)
+    own = judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero(), most)
+    return as_long_as(own, order.periods) if motion.found_by == KICKED else own
 
 
 def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | None = None) -> Callable:
@@ -107,6 +109,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         from campaigns.motions.along import FROM_REST, Along
         from campaigns.motions.starts import DISPLACED, start_job
         from campaigns.motions.tracing import Scenes
+        from campaigns.motions.transients import outlasting
 
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
         later = plan.then or (lambda seconds: 0.0)
@@ -115,7 +118,10 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs, ahead)
         if not real:
             return timing, first
-        along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), first.rows)
+        rows = {row["run_key"]: row for row in first.rows}
+        longer, late = run(plan, outlasting(jobs, rows, lambda at: (at - 1, at + 1)))
+        rows |= {row["run_key"]: row for row in late.rows}
+        along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), [*rows.values()])
         along.find(kicks, order.own.kick_speed, order.own.seed)
 
         others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
@@ -132,8 +138,9 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
             judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
             judged += [job_of(order, job, motion, along.labels(motion)) for motion in some]
         last, summary = run(plan, judged)
-        computed = sum(row["run_key"] in first.made | found.made | summary.made for row in summary.rows)
-        for times in (more, last, along.starts.times):
+        made = first.made | late.made | found.made | summary.made
+        computed = sum(row["run_key"] in made for row in summary.rows)
+        for times in (longer, more, last, along.starts.times):
             timing = {name: seconds + times[name] for name, seconds in timing.items()}
         return timing, replace(summary, computed=computed, found=len(summary.rows) - computed)
 

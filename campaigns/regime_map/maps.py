@@ -12,7 +12,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import engine
-from campaigns.buoy_sweep.rows import TANGENT, buoy_row
+from analysis.evidence import read_evidence
+from analysis.looks import CLOSE, NO_GROWTH
+from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.columns import number
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery.folder import write_table
@@ -23,6 +25,7 @@ from campaigns.motions.along import Lattice, Motion, from_rest
 from campaigns.motions.proposals import screened
 from campaigns.motions.starts import DISPLACED, start_job
 from campaigns.motions.sweep import job_of
+from campaigns.motions.transients import outlasting
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
 from campaigns.regime_map.tables import STATIC
@@ -38,12 +41,13 @@ CHEAP, FULL = "cheap", "full"
 def cell_row(trajectory, checks=None) -> dict[str, object]:
     """The row of a judged run of a cell, and which evidence its regime has.
 
-    A run that repeats at its last look counts as periodic after this one look, unless its perturbations grow.
+    A run that repeats at its last look counts as periodic after this one look, where it repeats closely, or where its
+    perturbations do not grow.
     """
     row = buoy_row(trajectory, None, checks)
-    period, growth = row.get("strobed_period"), row.get(TANGENT[0].name)
-    once = row.get("regime") == "undecided" and period and not (growth or 0.0) > 0.0
-    if once:
+    period = row.get("strobed_period")
+    met = {name for name, *_, met in read_evidence(row.get("evidence") or "") if met == "yes"}
+    if row.get("regime") == "undecided" and period and met & {CLOSE, NO_GROWTH}:
         row |= {"regime": f"period-{period:g}", "verdict": CHEAP}
     elif row.get("regime"):
         row["verdict"] = FULL
@@ -109,6 +113,7 @@ class Map(Lattice):
         self.rest_s, self.parts = 0.0, own.refine / len(jobs) if len(self.jobs) == len(jobs) else 0.0
         self.after = AFTER_REST
         self._run(jobs, "runs from rest", ahead)
+        self._run(outlasting(self.jobs, self.rows, self.beside), "chaos that may be a transient")
         self.rest_s, self.before_s = self.times["run_s"] - rest_s, self.starts.times["run_s"]
         places = self.add(jobs, [self.rows[job.key] for job in jobs if job.key in self.rows])
         if real:

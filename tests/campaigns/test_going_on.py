@@ -64,6 +64,13 @@ def test_the_undecided_go_on_with_perturbations_and_what_settles_or_repeats_with
     assert after(regime=regime, periods=205.0, budget=280).periods == 75
 
 
+def test_a_period_that_nothing_confirms_goes_on_with_perturbations_from_the_second_look_on():
+    loose = {"regime": "undecided", "strobed_period": 8, "evidence": "period: 8/0.01/yes; close: 0.004/0.002/no"}
+    close = loose | {"evidence": "period: 8/0.01/yes; close: 0.001/0.002/yes"}
+    for row, periods, carried in ((loose, 90.0, 0), (loose, 135.0, 1), (close, 135.0, 0)):
+        assert after(**row, periods=periods).scene.output.tangent_vectors == carried
+
+
 @pytest.mark.parametrize(("error", "periods"), [(0.001, LEAST_CHECK), (0.02, 117), (0.04, 467)])
 def test_chaos_goes_on_at_a_tenth_of_the_tolerance_as_long_as_it_takes_to_show(error, periods):
     more = after(lyapunov_tangent_error=error)

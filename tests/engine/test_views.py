@@ -57,6 +57,17 @@ def test_the_exponent_is_that_of_the_tangent_dynamics_where_it_was_carried():
     assert "Wolf" in moved(0.5).exponent().method
 
 
+def test_exponent_and_verdict_speak_of_the_same_part():
+    """A motion of period 2 after 130 periods of something else, whose perturbations grew."""
+    run = moved(0.5, -0.2)
+    for name in ("radius_m", "radius_rate_mps"):
+        run.columns[name][: 130 * STEPS] *= 1.1
+    run.tangent.growth_nats[:130] += 0.5
+    verdict, exponent = run.verdict(), run.exponent()
+    assert verdict.transient == 130 and exponent.details["periods"] == PERIODS - 130
+    assert exponent.value == pytest.approx(-0.2 / np.log(2.0), abs=0.01)
+
+
 def test_everything_goes_to_xarray_with_units():
     run = moved(0.5, 0.0)
     data = run.to_xarray()
