@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from . import parameters
+from . import parameters, trust
 from . import record as col
 from .arrays import Motion, Output
 from .final_state import FinalState
@@ -14,7 +14,7 @@ from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
-from .scales import TRANSIT_STEPS, begins_with_a_blow, height_at_rest, ringing_period, tension_at, wave_beyond
+from .scales import TRANSIT_STEPS, height_at_rest, jumps_of, tension_at, wave_beyond
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
@@ -22,10 +22,11 @@ from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
+from .time.status import ADVICE, COARSE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, WAVES_ON_ELEMENT, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
+from .trust import NOTED
 
 
 class Run:
@@ -89,11 +90,12 @@ class Run:
         self.motion.Y_before[:] = Y
         state["low"], state["high"] = np.inf, -np.inf
         self._watch()
+        self.turn_at_rest, self.top_at_rest = float(state["max_turn"]), Y[-1].copy()
         if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
-        blow = begins_with_a_blow(scene.end)
+        blow = any(spread_s == 0.0 for _, _, spread_s in jumps_of(scene.end))
         starter = (needs_rates or blow) and not record["at_rest"]
         state["small_steps"] = col.SMALL_STEPS if starter else 0
         first_s = min(1e-3 * scene.solver.max_step_s, record["max_step"])
@@ -174,26 +176,41 @@ class Run:
         message = ADVICE[status].format(
             t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
         )
-        if status == OK and state["ringing"] > 0:
-            lengths = col.lengths_of(self.record, self.tables)
-            key, step_s = longest_step(scene)
-            what = f"axial ringing of period {ringing_period(self.record, scene):.2g} s is"
-            if self.record["all_waves"]:
-                what = f"axial waves on elements of {lengths[-1]:.2g} m are"
-            if self.record["adaptive"]:
-                key = "solver.shortest_period_s or solver.max_step_s"
-            message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
-        elif status == OK:
-            message = self._waves_on_element() or self._out_at_rest()
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
+        if status == OK:
+            lost = trust.unresolved(self.record, self.tables, scene, columns)
+            said = self._coarse_at_rest(), trust.blows(self.record, scene, columns), lost
+            message = "; ".join(filter(None, (*said, self._waves_on_element(), self._out_at_rest())))
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
+        if state["ringing"] >= 0.0:
+            statistics["unresolved_ringing_N"] = float(columns["unresolved_N"].max(initial=state["ringing"]))
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
                 statistics[name] -= number if name in COUNTED else 0
         more = profiles, tangent, self._budget(), self.final_state(), self.began
         return Trajectory(scene, WORDS[status], message, columns, statistics, *more)
+
+    def _coarse_at_rest(self) -> str:
+        """Says that a finer grid has another tension at the top at rest: of a line that is bent or sheared there."""
+        scene, nodes = self.scene, FINER * (self.scene.tether.nodes - 1) + 1
+        if self.started is not None:
+            return ""
+        given_N, shear_N = self._top_at_rest()
+        if self.turn_at_rest < BENT and shear_N <= NOTED * abs(given_N):
+            return ""
+        tether = scene.tether.model_copy(update={"nodes": nodes})
+        finer = Run(scene.model_copy(update={"tether": tether}), scene.sample_step_s())
+        better_N = finer._top_at_rest()[0]
+        if finer.state["status"] != OK or abs(given_N - better_N) <= NOTED * max(abs(given_N), abs(better_N)):
+            return ""
+        return COARSE.format(given=given_N, nodes=scene.tether.nodes, better=better_N, finer=nodes)
+
+    def _top_at_rest(self) -> tuple[float, float]:
+        """Tension and shear force (N) at the upper end at rest."""
+        shear = self.top_at_rest[EPS + 1 : 3 if self.kind is spatial else 2]
+        return tension_at(float(self.top_at_rest[EPS]), self.scene.tether.tension), float(np.abs(shear).max())
 
     def _waves_on_element(self) -> str:
         """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
@@ -236,6 +253,8 @@ class Idle(Run):
         self.state["status"] = OK
 
 
+BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
+FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 KEPT = ("output", "profile")  # what is kept evenly in time, as in the names of RECORD
 COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases")
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from
@@ -270,6 +289,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     angle = np.unwrap(np.arctan2(along, z))
-    others = (samples[:, at] for at in (col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES))
+    kept = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.MISSED
+    others = (samples[:, at] for at in kept)
     found = t, x, y, z, r, radius_rate, angle, angle_rate, *others
     return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

@@ -92,15 +92,32 @@ def height_at_rest(record: np.void, scene: Scene) -> float:
     return scene.anchor.position_m[2] + length * (1.0 + strain_at(load, scene.tether.tension))
 
 
-def begins_with_a_blow(end: End) -> bool:
-    """Does the velocity of a held end jump at t = 0? A harmonic motion without a ramp begins at its full speed."""
+def jumps_of(end: End) -> list[tuple[float, float, float]]:
+    """Jumps of the velocity at which a held end is moved: time (s), size (m/s), time (s) over which it is spread.
+
+    A harmonic motion without a ramp begins at its full speed. A table that goes on as it begins, or ends as it went on,
+    does so with the velocity that the parabola through three rows has there: a jump if none within is as large. The
+    table spreads it between two rows (`physics.ends.table_of`).
+    """
     motion = end.motion
-    return (
-        motion is not None
-        and motion.law == "harmonic"
-        and motion.ramp_s == 0
-        and abs(math.cos(motion.phase_rad)) > 1e-6
-    )
+    if motion is None or motion.law == "circular":
+        return []
+    if motion.law == "harmonic":
+        if motion.ramp_s > 0 or abs(math.cos(motion.phase_rad)) <= 1e-6:
+            return []
+        return [(0.0, end_speed(end) * abs(math.cos(motion.phase_rad)), 0.0)]
+    found, times = [], np.asarray(motion.time_s)
+    steps_s = np.diff(times)
+    speeds = np.diff(motion.displacement_m, axis=0) / steps_s[:, None]
+    if len(speeds) < 3:
+        return []  # a way from rest to rest
+    changes = np.linalg.norm(np.diff(speeds, axis=0), axis=1)
+    for at, row, following in ((0, 0, 1), (-1, -1, -2)):
+        bend = (speeds[row] - speeds[following]) * steps_s[row] / (steps_s[row] + steps_s[following])
+        jump = float(np.linalg.norm(speeds[row] + bend))
+        if jump > changes.max():
+            found.append((float(times[at]), jump, float(steps_s[row])))
+    return found
 
 
 def end_speed(end: End) -> float:

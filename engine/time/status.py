@@ -14,8 +14,8 @@ WORDS = dict(
     )
 )
 
-UNRESOLVED = (  # of a run that is ok
-    "{what} not resolved by steps of up to {step:.2g} s: tensions hold to {tension:.2g} N; lower {key}"
+COARSE = (  # of a run that is ok, and so the next ones
+    "at rest the line bears {given:.4g} N at the top on {nodes} nodes and {better:.4g} N on {finer}: add nodes"
 )
 WAVES_ON_ELEMENT = (
     "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
