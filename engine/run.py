@@ -22,7 +22,7 @@ from .spatial import state as spatial
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, COARSE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, WAVES_ON_ELEMENT, WORDS
+from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, WAVES_ON_ELEMENT, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
@@ -38,7 +38,7 @@ class Run:
     """
 
     def __init__(self, scene: Scene, duration_s: float, start: FinalState | None = None) -> None:
-        self.scene, self.began = scene, ""
+        self.scene, self.duration_s, self.began = scene, duration_s, ""
         if start is not None:
             start, self.began = taken_over(start, scene)
         self.started = start
@@ -90,7 +90,8 @@ class Run:
         self.motion.Y_before[:] = Y
         state["low"], state["high"] = np.inf, -np.inf
         self._watch()
-        self.turn_at_rest, self.top_at_rest = float(state["max_turn"]), Y[-1].copy()
+        self.turn_at_rest = float(state["max_turn"])
+        self.top_at_rest_N = tension_at(float(Y[-1, EPS]), scene.tether.tension)
         if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
@@ -181,10 +182,10 @@ class Run:
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
         if status == OK:
             lost = trust.unresolved(self.record, self.tables, scene, columns)
-            said = self._coarse_at_rest(), trust.blows(self.record, scene, columns), lost
+            said = self._coarse_at_rest(), self._steps_too_long(columns), trust.blows(self.record, scene, columns), lost
             message = "; ".join(filter(None, (*said, self._waves_on_element(), self._out_at_rest())))
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
-        if state["ringing"] >= 0.0:
+        if state["ringing"] >= 0.0:  # listened to: not by undamped methods
             statistics["unresolved_ringing_N"] = float(columns["unresolved_N"].max(initial=state["ringing"]))
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
@@ -193,24 +194,33 @@ class Run:
         return Trajectory(scene, WORDS[status], message, columns, statistics, *more)
 
     def _coarse_at_rest(self) -> str:
-        """Says that a finer grid has another tension at the top at rest: of a line that is bent or sheared there."""
+        """Says that a line which is bent at rest has another tension at the top on a finer grid, or nothing."""
         scene, nodes = self.scene, FINER * (self.scene.tether.nodes - 1) + 1
-        if self.started is not None:
+        if self.started is not None or self.turn_at_rest < BENT:
             return ""
-        given_N, shear_N = self._top_at_rest()
-        if self.turn_at_rest < BENT and shear_N <= NOTED * abs(given_N):
+        finer = Run(scene.model_copy(update={"tether": scene.tether.model_copy(update={"nodes": nodes})}), 1.0)
+        given, better = self.top_at_rest_N, finer.top_at_rest_N
+        if finer.state["status"] != OK or abs(given - better) <= NOTED * max(abs(given), abs(better)):
             return ""
-        tether = scene.tether.model_copy(update={"nodes": nodes})
-        finer = Run(scene.model_copy(update={"tether": tether}), scene.sample_step_s())
-        better_N = finer._top_at_rest()[0]
-        if finer.state["status"] != OK or abs(given_N - better_N) <= NOTED * max(abs(given_N), abs(better_N)):
-            return ""
-        return COARSE.format(given=given_N, nodes=scene.tether.nodes, better=better_N, finer=nodes)
+        return f"at rest the top bears {given:.4g} N on this grid and {better:.4g} N on {nodes} nodes: add tether.nodes"
 
-    def _top_at_rest(self) -> tuple[float, float]:
-        """Tension and shear force (N) at the upper end at rest."""
-        shear = self.top_at_rest[EPS + 1 : 3 if self.kind is spatial else 2]
-        return tension_at(float(self.top_at_rest[EPS]), self.scene.tether.tension), float(np.abs(shear).max())
+    def _steps_too_long(self, columns: dict[str, np.ndarray]) -> str:
+        """Says what steps twice as long do to the largest tension, of one-stage methods in steps of one length."""
+        scene, solver = self.scene, self.scene.solver
+        if self.record["method"] != col.ONE_STAGE or solver.courant is not None:
+            return ""
+        twice = solver.model_copy(update={"step_s": 2 * float(self.record["fixed_step"])})
+        longer = Run(scene.model_copy(update={"solver": twice}), self.duration_s, self.started)
+        longer.advance(longer.goal)
+        largest_N = float(columns["tension_top_high_N"].max())
+        other_N = float(longer.output.samples[: longer.goal, col.TOP_HIGH].max())
+        error_N = abs(other_N - largest_N) / (1 if solver.integrator == "backward-euler" else 3)  # 2^order - 1
+        if longer.state["status"] != OK or error_N <= NOTED * abs(largest_N):
+            return ""
+        return (
+            f"the largest tension, {largest_N:.4g} N, holds to {error_N:.2g} N, because it is {other_N:.4g} N in steps "
+            "twice as long: shorten solver.step_s"
+        )
 
     def _waves_on_element(self) -> str:
         """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
@@ -260,14 +270,12 @@ COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "l
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from
     "steps": "steps", "rejected_steps": "rejected", "newton_iterations": "newton", "newton_failures": "failures",
     "loop_releases": "releases", "max_turn_rad": "max_turn", "min_strain": "min_strain", "end_time_s": "t",
-    "unresolved_ringing_N": "ringing",
 }  # fmt: skip
 
 
 def statistics_of(state: np.void, wall_s: float) -> dict[str, int | float]:
-    """What a run has done, and how long (s) that has taken; ringing where it was listened to: not by other methods."""
-    found = {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
-    return {name: number for name, number in found.items() if name != "unresolved_ringing_N" or number >= 0.0}
+    """What a run has done, and how long (s) that has taken."""
+    return {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
 
 
 def sample_count(duration_s: float, step_s: float) -> int:
@@ -276,7 +284,7 @@ def sample_count(duration_s: float, step_s: float) -> int:
 
 
 def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
-    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 13) with the columns of `engine.record`.
+    """Columns of the table, by `engine.trajectory.COLUMNS`, from samples (n, 14) with the columns of `engine.record`.
 
     The angle from the vertical is taken in the plane of waves that travel along `heading` (rad); `along` is the place,
     `rate` the velocity in the direction of these waves.
@@ -289,7 +297,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     angle = np.unwrap(np.arctan2(along, z))
-    kept = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.MISSED
-    others = (samples[:, at] for at in kept)
+    measured = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.MISSED
+    others = (samples[:, at] for at in measured)
     found = t, x, y, z, r, radius_rate, angle, angle_rate, *others
     return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

@@ -96,8 +96,8 @@ def jumps_of(end: End) -> list[tuple[float, float, float]]:
     """Jumps of the velocity at which a held end is moved: time (s), size (m/s), time (s) over which it is spread.
 
     A harmonic motion without a ramp begins at its full speed. A table that goes on as it begins, or ends as it went on,
-    does so with the velocity that the parabola through three rows has there: a jump if none within is as large. The
-    table spreads it between two rows (`physics.ends.table_of`).
+    does so with the velocity that the parabola through three rows has there: a jump if it is twice as large as
+    any within. The table spreads it between two rows (`physics.ends.table_of`).
     """
     motion = end.motion
     if motion is None or motion.law == "circular":
@@ -106,18 +106,14 @@ def jumps_of(end: End) -> list[tuple[float, float, float]]:
         if motion.ramp_s > 0 or abs(math.cos(motion.phase_rad)) <= 1e-6:
             return []
         return [(0.0, end_speed(end) * abs(math.cos(motion.phase_rad)), 0.0)]
-    found, times = [], np.asarray(motion.time_s)
-    steps_s = np.diff(times)
-    speeds = np.diff(motion.displacement_m, axis=0) / steps_s[:, None]
-    if len(speeds) < 3:
+    times, places = np.asarray(motion.time_s), np.asarray(motion.displacement_m)
+    if len(times) < 3:
         return []  # a way from rest to rest
-    changes = np.linalg.norm(np.diff(speeds, axis=0), axis=1)
-    for at, row, following in ((0, 0, 1), (-1, -1, -2)):
-        bend = (speeds[row] - speeds[following]) * steps_s[row] / (steps_s[row] + steps_s[following])
-        jump = float(np.linalg.norm(speeds[row] + bend))
-        if jump > changes.max():
-            found.append((float(times[at]), jump, float(steps_s[row])))
-    return found
+    speeds = np.linalg.norm(np.gradient(places, times, axis=0, edge_order=2), axis=1)
+    changes = np.diff(np.diff(places, axis=0) / np.diff(times)[:, None], axis=0)
+    within = np.linalg.norm(changes, axis=1).max()
+    ends = (times[0], speeds[0], times[1] - times[0]), (times[-1], speeds[-1], times[-1] - times[-2])
+    return [end for end in ends if end[1] > 2 * within]
 
 
 def end_speed(end: End) -> float:

@@ -29,16 +29,16 @@ def errors_of_ringing(record: np.void, scene: Scene, time_s: np.ndarray, lost_N:
 
 
 def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[str, np.ndarray]) -> str:
-    """Says how far the largest tension holds, and the least and later ones, where ringing was lost."""
-    time_s, low, high = (columns[name] for name in ("time_s", "tension_top_low_N", "tension_top_high_N"))
-    lost_N = columns["unresolved_N"]
+    """Says how far the largest tension holds where ringing was lost, and other and later ones; at most to itself."""
+    time_s, high, lost_N = columns["time_s"], columns["tension_top_high_N"], columns["unresolved_N"]
     if not lost_N.any():
         return ""
+    most, largest_N = int(high.argmax()), float(np.abs(high).max())
     errors = errors_of_ringing(record, scene, time_s, lost_N)
     errors[:-1] = np.maximum(errors[:-1], errors[1:])  # what a step lost is booked with the sample after it
-    most, least = int(high.argmax()), int(low.argmin())
-    largest_N = max(abs(high[most]), abs(low[least]))
-    if errors.max() <= NOTED * largest_N:
+    errors = np.minimum(errors, largest_N)
+    worst, large = int(errors.argmax()), np.flatnonzero(errors > NOTED * largest_N)
+    if not len(large):
         return ""
     key, step_s = longest_step(scene)
     what = f"axial ringing of period {ringing_period(record, scene):.2g} s is"
@@ -46,36 +46,29 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[
         what = f"axial waves on elements of {lengths_of(record, tables)[-1]:.2g} m are"
     if record["adaptive"]:
         key = "solver.shortest_period_s or solver.max_step_s"
-    held = [f"the largest tension, {high[most]:.4g} N at t = {time_s[most]:.4g} s, holds to {errors[most]:.2g} N"]
-    if errors[least] > NOTED * largest_N:
-        held.append(f"the least, {low[least]:.4g} N at t = {time_s[least]:.4g} s, to {errors[least]:.2g} N")
-    worst = int(errors.argmax())
-    if errors[worst] > max(errors[most], errors[least]):
-        held.append(f"others to {errors[worst]:.2g} N (t = {time_s[worst]:.4g} s)")
-    settled = np.flatnonzero(errors > NOTED * largest_N)[-1] + 1
-    if settled < len(errors):
-        held.append(f"from t = {time_s[settled]:.4g} s on to {errors[settled:].max():.2g} N")
-    return f"{what} not resolved by steps of up to {step_s:.2g} s: {', '.join(held)}; lower {key}"
+    holds = f"the largest tension, {high[most]:.4g} N at t = {time_s[most]:.4g} s, holds to {errors[most]:.2g} N"
+    if errors[worst] > 1.1 * errors[most]:
+        holds += f", others to {errors[worst]:.2g} N (t = {time_s[worst]:.4g} s)"
+    if (settled := large[-1] + 1) < len(errors):
+        holds += f", from t = {time_s[settled]:.4g} s on to {errors[settled:].max():.2g} N"
+    return f"{what} not resolved by steps of up to {step_s:.2g} s: {holds}; lower {key}"
 
 
 def blows(record: np.void, scene: Scene, columns: dict[str, np.ndarray]) -> str:
     """Says where a held end is set in motion or stopped at once, if that makes a force worth telling.
 
     A jump of velocity v sends out a wave of the force v sqrt(m T'). Spread over longer than a wave takes along the line
-    and back it makes less, because what comes back takes it away. Of a harmonic motion, whose ramp is a choice, it is
+    and back it makes less, because what comes back takes it away. A motion without a ramp, which its user chose, is
     told where it makes an extreme: before a wave has come back twice.
     """
     wave_mps, told = fastest_wave(record, scene), []
-    impedance, back_s = float(record["m"]) * wave_mps, 2 * scene.tether.length_m / wave_mps
+    back_s, sample_s = 2 * scene.tether.length_m / wave_mps, float(record["output_step"])
     time_s, low, high = (columns[name] for name in ("time_s", "tension_top_low_N", "tension_top_high_N"))
-    extremes_s = time_s[[high.argmax(), low.argmin()]]
-    harmonic = scene.end.motion is not None and scene.end.motion.law == "harmonic"
+    soon = time_s[[high.argmax(), low.argmin()]].min() <= 2 * back_s + sample_s
     for t, speed, spread_s in jumps_of(scene.end):
-        force_N = impedance * speed * min(1.0, back_s / max(spread_s, 1e-300))
-        if force_N <= NOTED * np.abs(high).max() or t > time_s[-1] or (harmonic and extremes_s.min() > 2 * back_s):
-            continue
-        told.append(f"by {speed:.2g} m/s at t = {t:.4g} s (about {force_N:.2g} N)")
-    if not told:
-        return ""
-    cure = "give it an end.motion.ramp_s" if harmonic else "let it begin and end at rest"
-    return f"the velocity of end.motion jumps {' and '.join(told)}, which is a blow on the line: {cure}"
+        force_N = float(record["m"]) * wave_mps * speed * min(1.0, back_s / max(spread_s, 1e-300))
+        within = time_s[0] <= t < time_s[-1] + sample_s
+        if within and force_N > NOTED * np.abs(high).max() and (spread_s or soon):
+            told.append(f"by {speed:.2g} m/s at t = {t:.4g} s (about {force_N:.2g} N)")
+    jumps = " and ".join(told)
+    return jumps and f"the velocity of end.motion jumps {jumps}, a blow on the line: let it begin and end at rest"

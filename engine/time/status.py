@@ -14,10 +14,7 @@ WORDS = dict(
     )
 )
 
-COARSE = (  # of a run that is ok, and so the next ones
-    "at rest the line bears {given:.4g} N at the top on {nodes} nodes and {better:.4g} N on {finer}: add nodes"
-)
-WAVES_ON_ELEMENT = (
+WAVES_ON_ELEMENT = (  # of a run that is ok
     "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
     "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )

@@ -96,12 +96,7 @@ def batched(items: Sequence, most: int) -> list[Sequence]:
 
 def _failed(keys: Sequence[Quantity], rows) -> Notice:
     failed = [row for row in rows if row["status"] != "ok"]
-    less = [
-        row
-        for row in rows
-        if row not in failed
-        and (float(row.get("unresolved_ringing_N") or 0.0) > 0.0 or "largest tension" in str(row["message"]))
-    ]
+    less = [row for row in rows if row not in failed and "largest tension" in str(row["message"])]
     if not failed and not less:
         return Notice("note", "Nothing to warn of", ("Every run reached its full length.",))
     lines = (": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less)
