@@ -59,12 +59,12 @@ def blows(record: np.void, scene: Scene, columns: dict[str, np.ndarray]) -> str:
 
     A jump of velocity v sends out a wave of the force v sqrt(m T'). Spread over longer than a wave takes along the line
     and back it makes less, because what comes back takes it away. A motion without a ramp, which its user chose, is
-    told where it makes an extreme: before a wave has come back twice.
+    told where it makes the largest tension: before a wave has come back twice.
     """
     wave_mps, told = fastest_wave(record, scene), []
     back_s, sample_s = 2 * scene.tether.length_m / wave_mps, float(record["output_step"])
-    time_s, low, high = (columns[name] for name in ("time_s", "tension_top_low_N", "tension_top_high_N"))
-    soon = time_s[[high.argmax(), low.argmin()]].min() <= 2 * back_s + sample_s
+    time_s, high = columns["time_s"], columns["tension_top_high_N"]
+    soon = time_s[high.argmax()] <= 2 * back_s + sample_s
     for t, speed, spread_s in jumps_of(scene.end):
         force_N = float(record["m"]) * wave_mps * speed * min(1.0, back_s / max(spread_s, 1e-300))
         within = time_s[0] <= t < time_s[-1] + sample_s
