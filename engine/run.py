@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 
-from . import parameters
+from . import parameters, trust
 from . import record as col
 from .arrays import Motion, Output
 from .excursions import message_of
@@ -15,7 +15,7 @@ from .perturbations.exponents import Followed
 from .physics import energy
 from .planar import state as planar
 from .planar.columns import EPS, PHI
-from .scales import TRANSIT_STEPS, begins_with_a_blow, ringing_period, tension_at, wave_beyond
+from .scales import TRANSIT_STEPS, jumps_of, tension_at, wave_beyond
 from .scene.models import Scene
 from .scene.size_limits import longest_step
 from .spatial import lift
@@ -24,10 +24,11 @@ from .time.folds import FOLD, words_of_folds
 from .time.held_start import held_away, why_not_held
 from .time.ringing import HEARD
 from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, UNRESOLVED, WAVES_ON_ELEMENT, WORDS
+from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, WAVES_ON_ELEMENT, WORDS
 from .time.time_loop import march
 from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
 from .trajectory_parts import along_waves, heading_of
+from .trust import NOTED
 
 
 class Run:
@@ -39,7 +40,7 @@ class Run:
     """
 
     def __init__(self, scene: Scene, duration_s: float, start: FinalState | None = None) -> None:
-        self.scene, self.began = scene, ""
+        self.scene, self.duration_s, self.began = scene, duration_s, ""
         if start is not None:
             start, self.began = taken_over(start, scene)
         self.started = start
@@ -91,11 +92,13 @@ class Run:
         self.motion.Y_before[:] = Y
         state["low"], state["high"] = np.inf, -np.inf
         self._watch()
+        self.turn_at_rest = float(state["max_turn"])
+        self.top_at_rest_N = tension_at(float(Y[-1, EPS]), scene.tether.tension)
         if state["status"] == OK and record["bent"] and state["max_turn"] > math.pi:
             state["status"] = TURN_UNRESOLVED
         # a sudden start has rates at t = 0 that are not zero: steps that need none come first, or the order falls to 1
         needs_rates = record["method"] == col.RUNGE_KUTTA or record["alpha_m"] != record["gamma"]
-        blow = begins_with_a_blow(scene.end)
+        blow = any(spread_s == 0.0 for _, _, spread_s in jumps_of(scene.end))
         starter = (needs_rates or blow) and not record["at_rest"]
         state["small_steps"] = col.SMALL_STEPS if starter else 0
         first_s = min(1e-3 * scene.solver.max_step_s, record["max_step"])
@@ -177,29 +180,59 @@ class Run:
         message = ADVICE[status].format(
             t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
         )
-        if status == OK and state["ringing"] > 0:
-            lengths = col.lengths_of(self.record, self.tables)
-            key, step_s = longest_step(scene)
-            what = f"axial ringing of period {ringing_period(self.record, scene):.2g} s is"
-            if self.record["all_waves"]:
-                what = f"axial waves on elements of {lengths[-1]:.2g} m are"
-            if self.record["adaptive"]:
-                key = "solver.shortest_period_s or solver.max_step_s"
-            message = UNRESOLVED.format(what=what, step=step_s, tension=state["ringing"], key=key)
-        if status == OK:
-            message = "; ".join(filter(None, (message, self._waves_on_element(), self._out_at_rest())))
         if status == STATICS_FAILED:
             message += self.why_no_rest(self.record, scene)
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], heading_of(scene))
-        if status == OK and self.record["end"] == col.HELD:
-            message = "; ".join(filter(None, (message, words_of_folds(state, columns))))
+        if status == OK:
+            doubts = [
+                self._coarse_at_rest(),
+                self._steps_too_long(columns),
+                trust.blows(self.record, scene, columns),
+                trust.unresolved(self.record, self.tables, scene, columns),
+                self._waves_on_element(),
+                self._out_at_rest(),
+            ]
+            if self.record["end"] == col.HELD:
+                doubts.append(words_of_folds(state, columns))
+            message = "; ".join(filter(None, doubts))
         message = message_of(message, scene, columns, WORDS[status])
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)
+        if state["ringing"] >= 0.0:  # listened to: not by undamped methods
+            statistics["unresolved_ringing_N"] = float(columns["unresolved_N"].max(initial=state["ringing"]))
         if self.started is not None:
             for name, number in statistics_of(self.started.state(), 0.0).items():
                 statistics[name] -= number if name in COUNTED else 0
         more = profiles, tangent, self._budget(), self.final_state(), self.began
         return Trajectory(scene, WORDS[status], message, columns, statistics, *more)
+
+    def _coarse_at_rest(self) -> str:
+        """Says that a line which is bent at rest has another tension at the top on a finer grid, or nothing."""
+        scene, nodes = self.scene, FINER * (self.scene.tether.nodes - 1) + 1
+        if self.started is not None or self.turn_at_rest < BENT:
+            return ""
+        finer = Run(scene.model_copy(update={"tether": scene.tether.model_copy(update={"nodes": nodes})}), 1.0)
+        given, better = self.top_at_rest_N, finer.top_at_rest_N
+        if finer.state["status"] != OK or abs(given - better) <= NOTED * max(abs(given), abs(better)):
+            return ""
+        return f"at rest the top bears {given:.4g} N on this grid and {better:.4g} N on {nodes} nodes: add tether.nodes"
+
+    def _steps_too_long(self, columns: dict[str, np.ndarray]) -> str:
+        """Says what steps twice as long do to the largest tension, of one-stage methods in steps of one length."""
+        scene, solver = self.scene, self.scene.solver
+        if self.record["method"] != col.ONE_STAGE or solver.courant is not None:
+            return ""
+        twice = solver.model_copy(update={"step_s": 2 * float(self.record["fixed_step"])})
+        longer = Run(scene.model_copy(update={"solver": twice}), self.duration_s, self.started)
+        longer.advance(longer.goal)
+        largest_N = float(columns["tension_top_high_N"].max())
+        other_N = float(longer.output.samples[: longer.goal, col.TOP_HIGH].max())
+        error_N = abs(other_N - largest_N) / (1 if solver.integrator == "backward-euler" else 3)  # 2^order - 1
+        if longer.state["status"] != OK or error_N <= NOTED * abs(largest_N):
+            return ""
+        return (
+            f"the largest tension, {largest_N:.4g} N, holds to {error_N:.2g} N, because it is {other_N:.4g} N in steps "
+            "twice as long: shorten solver.step_s"
+        )
 
     def _waves_on_element(self) -> str:
         """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
@@ -243,19 +276,19 @@ class Idle(Run):
         self.state["status"] = OK
 
 
+BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
+FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 KEPT = ("output", "profile")  # what is kept evenly in time, as in the names of RECORD
 COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases")
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from
     "steps": "steps", "rejected_steps": "rejected", "newton_iterations": "newton", "newton_failures": "failures",
     "loop_releases": "releases", "max_turn_rad": "max_turn", "min_strain": "min_strain", "end_time_s": "t",
-    "unresolved_ringing_N": "ringing",
 }  # fmt: skip
 
 
 def statistics_of(state: np.void, wall_s: float) -> dict[str, int | float]:
-    """What a run has done, and how long (s) that has taken; ringing where it was listened to: not by other methods."""
-    found = {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
-    return {name: number for name, number in found.items() if name != "unresolved_ringing_N" or number >= 0.0}
+    """What a run has done, and how long (s) that has taken."""
+    return {name: state[field].item() for name, field in STATISTICS.items()} | {"wall_s": wall_s}
 
 
 def sample_count(duration_s: float, step_s: float) -> int:
@@ -277,7 +310,7 @@ def columns_of(samples: np.ndarray, heading: float) -> dict[str, np.ndarray]:
         square = along**2 + z**2
         angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
     angle = np.unwrap(np.arctan2(along, z))
-    measured = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.LOWEST
+    measured = col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.LOWEST, col.MISSED
     others = (samples[:, at] for at in measured)
     found = t, x, y, z, r, radius_rate, angle, angle_rate, *others
     return {name: np.array(values) for name, values in zip(COLUMNS, found, strict=True)}

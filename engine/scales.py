@@ -83,15 +83,28 @@ def wave_beyond(record: np.void, length: float, top_m: float) -> float:
     return (drag + float(record["Rw"] + record["ma"]) * omega * speed) * (length / 2 - 1 / k)
 
 
-def begins_with_a_blow(end: End) -> bool:
-    """Does the velocity of a held end jump at t = 0? A harmonic motion without a ramp begins at its full speed."""
+def jumps_of(end: End) -> list[tuple[float, float, float]]:
+    """Jumps of the velocity at which a held end is moved: time (s), size (m/s), time (s) over which it is spread.
+
+    A harmonic motion without a ramp begins at its full speed. A table that goes on as it begins, or ends as it went on,
+    does so with the velocity that the parabola through three rows has there: a jump if it is twice as large as
+    any within. The table spreads it between two rows (`physics.ends.table_of`).
+    """
     motion = end.motion
-    return (
-        motion is not None
-        and motion.law == "harmonic"
-        and motion.ramp_s == 0
-        and abs(math.cos(motion.phase_rad)) > 1e-6
-    )
+    if motion is None or motion.law == "circular":
+        return []
+    if motion.law == "harmonic":
+        if motion.ramp_s > 0 or abs(math.cos(motion.phase_rad)) <= 1e-6:
+            return []
+        return [(0.0, end_speed(end) * abs(math.cos(motion.phase_rad)), 0.0)]
+    times, places = np.asarray(motion.time_s), np.asarray(motion.displacement_m)
+    if len(times) < 3:
+        return []  # a way from rest to rest
+    speeds = np.linalg.norm(np.gradient(places, times, axis=0, edge_order=2), axis=1)
+    changes = np.diff(np.diff(places, axis=0) / np.diff(times)[:, None], axis=0)
+    within = np.linalg.norm(changes, axis=1).max()
+    ends = (times[0], speeds[0], times[1] - times[0]), (times[-1], speeds[-1], times[-1] - times[-2])
+    return [end for end in ends if end[1] > 2 * within]
 
 
 def end_speed(end: End) -> float:

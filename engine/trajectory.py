@@ -42,6 +42,7 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "tension_top_high_N": ("N", "largest tension at the upper end over all steps since the previous sample"),
     "loop_releases": ("1", "loops of slack tether released since t = 0"),
     "line_lowest_m": ("m", "height of the lowest node of the tether above the anchor"),
+    "unresolved_N": ("N", "axial ringing that steps and grid did not resolve since the previous sample"),
 }
 TEXTS = ("title", "scene", "status", "message", "statistics")  # attributes of a file that are part of the run
 BEGAN = "began"  # one that only some files have
@@ -267,8 +268,9 @@ def _restored(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> Trajector
     if scene.output.energy:
         energy = EnergyBudget(*(arrays.get(name, none) for name, *_ in _abouts(EnergyBudget, "energy_").values()))
     tangent = _growth(scene, arrays)
-    unknown = dict.fromkeys(("loop_releases", "line_lowest_m"), np.zeros(len(arrays["time_s"])))  # of older files
-    columns = {name: (unknown | arrays)[name] for name in COLUMNS}
+    unknown = np.zeros(len(arrays["time_s"]))
+    of_older_files = dict.fromkeys(("loop_releases", "line_lowest_m", "unresolved_N"), unknown)
+    columns = {name: (of_older_files | arrays)[name] for name in COLUMNS}
     statistics = json.loads(texts["statistics"])
     more = profiles, tangent, energy, state_of_file(scene, arrays), texts.get(BEGAN, "")
     return Trajectory(scene, texts["status"], texts["message"], columns, statistics, *more)

@@ -135,7 +135,7 @@ class Record:
             low, high = min(state["low"], top[7]), max(state["high"], top[7])
             offplane = np.abs(self.across @ at[:3]).max()
             self.rows.append(
-                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min()]
+                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min(), 0.0]
             )  # as `engine.record` has them
             state["low"] = state["high"] = top[7]
         for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):

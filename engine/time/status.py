@@ -14,10 +14,7 @@ WORDS = dict(
     )
 )
 
-UNRESOLVED = (  # of a run that is ok
-    "{what} not resolved by steps of up to {step:.2g} s: tensions hold to {tension:.2g} N; lower {key}"
-)
-WAVES_ON_ELEMENT = (
+WAVES_ON_ELEMENT = (  # of a run that is ok
     "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
     "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )

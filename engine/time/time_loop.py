@@ -194,7 +194,8 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
         top = row[n - 1, col.TENSION]
         out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
-        out[col.RELEASES], out[col.LOWEST] = state.releases, lowest
+        out[col.RELEASES], out[col.LOWEST], out[col.MISSED] = state.releases, lowest, max(state.ringing, 0.0)
+        state.ringing = min(state.ringing, 0.0)
         state.low, state.high = top, top
         state.samples += 1
     while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:

@@ -79,8 +79,6 @@ def warnings(sweep: Sweep) -> Notice:
     higher_m = max((run["max_buoy_height_above_water_m"] for run in out), default=0.0) - scene.buoy.diameter_m
     unread = [run for run in runs if run.fault]
     first = {run["status"]: run for run in reversed(runs) if not run.ok}
-    ringing = [run for run in runs if run["unresolved_ringing_N"] > 0.0]
-    rung_N = max((run["unresolved_ringing_N"] for run in ringing), default=0.0)
     strain = sweep.modes.static_strain if sweep.modes else -1.0
     dry_m = scene.anchor.position_m[2] + scene.tether.length_m * (1.0 + strain)
     dry_m += 0.5 * scene.buoy.diameter_m - scene.water.depth_m
@@ -94,8 +92,8 @@ def warnings(sweep: Sweep) -> Notice:
         (f"{unread[0].fault if unread else ''} (of the first); figures and strobed values leave such runs out", unread),
         ("loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
          "plane”", [run for run in runs if run["loop_releases"] > 0]),
-        (f"axial ringing of the line is not resolved: tensions hold to {number(rung_N, 2)} N or better; lower "
-         "`solver.shortest_period_s`", ringing),
+        ("axial ringing of the line is not resolved; column message says how far tensions hold, and when",
+         [run for run in runs if "not resolved" in (run["message"] or "")]),
         (f"largest tensions hold to no better than {percent(_COARSE)} (column ± T_max)",
          [run for run in runs if run["tension_top_max_error_N"] > _COARSE * run["tension_top_max_N"]]),
         ("nothing is known of the error of the largest tension (column ± T_max)",

@@ -101,12 +101,7 @@ def batched(items: Sequence, most: int) -> list[Sequence]:
 
 def _failed(keys: Sequence[Quantity], rows) -> Notice:
     failed = [row for row in rows if row["status"] != "ok"]
-    less = [
-        row
-        for row in rows
-        if row not in failed
-        and (float(row.get("unresolved_ringing_N") or 0.0) > 0.0 or "largest tension" in str(row["message"]))
-    ]
+    less = [row for row in rows if row not in failed and "largest tension" in str(row["message"])]
     lines = [": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less]
     for place, words in _EXCURSIONS.items():
         if count := sum(place in str(row["message"]) for row in rows):

@@ -1,0 +1,93 @@
+"""Law: what a run says of its tensions is so: how far they hold, when, where a motion jumps, what a grid lacks."""
+
+import numpy as np
+import pytest
+
+from engine.run import Run
+from engine.scales import jumps_of
+from engine.trust import errors_of_ringing
+from tests.engine.lines import DRY, STILL, held, line, linear, ran
+
+RINGING_N, LENGTH_M, EA = 500.0, 20.0, 1e8
+TIMES = np.linspace(0.0, 4.0, 101)
+SLACK = held(8.0, -3.0)
+
+
+def away(ringing_N, stiffness_N):
+    """Overrides of a buoy that begins to heave with this swing of tension."""
+    return {"start.buoy_displacement_m": [0.0, 0.0, -ringing_N * LENGTH_M / stiffness_N], "output.step_s": 0.01}
+
+
+def moved(displacement_m, times=TIMES):
+    """Overrides of a taut dry held line whose upper end goes that way (n,) along the line."""
+    rows = [[0.0, 0.0, float(z - displacement_m[0])] for z in displacement_m]
+    return held(0.0, 20.1, motion={"law": "table", "time_s": list(times), "displacement_m": rows}) | DRY
+
+
+@pytest.mark.parametrize("drag", [0.0, 20.0])
+def test_lost_ringing_would_die_away_as_resolved_ringing_does(drag):
+    quiet = {"buoy.drag": drag, "tether.drag_normal": 0.0, "tether.drag_tangential": 0.0}
+    scene = line(STILL, away(RINGING_N, 1e6), quiet, tension=linear(1e6))
+    columns = ran(scene, duration_s=20.0).columns
+    time_s, lost_N = columns["time_s"], np.zeros(len(columns["time_s"]))
+    lost_N[0] = RINGING_N
+    foretold = errors_of_ringing(Run(scene, 1.0).record, scene, time_s, lost_N)
+    late = slice(-200, None)  # more than a period
+    swing = columns["tension_top_high_N"][late].max() - columns["tension_top_low_N"][late].min()
+    assert foretold[late].mean() == pytest.approx(swing / 2, rel=0.15)
+    assert (swing < RINGING_N) == (drag > 0.0)
+
+
+def test_the_error_that_is_told_is_that_of_the_tension_that_is_printed():
+    """Ringing that is damped at once: its first swing is seen, all of the rest is not."""
+    run = ran(line(STILL, away(RINGING_N, EA), {"solver.shortest_period_s": 1.0}, tension=linear(EA)), duration_s=5.0)
+    most = run.columns["tension_top_high_N"].argmax()
+    largest, when = run.columns["tension_top_high_N"][most], run.columns["time_s"][most]
+    assert f"the largest tension, {largest:.4g} N at t = {when:.4g} s" in run.message
+
+
+def test_a_small_part_of_the_largest_tension_is_not_told():
+    run = ran(line(STILL, away(60.0, EA), {"solver.shortest_period_s": 1.0}, tension=linear(EA)), duration_s=5.0)
+    assert run.statistics["unresolved_ringing_N"] > 20.0 and run.message == ""
+
+
+def test_a_table_jumps_where_its_samples_begin_or_end_in_motion():
+    omega, amplitude = 2 * np.pi, 0.01
+    sine, cosine = (amplitude * wave(omega * TIMES) for wave in (np.sin, np.cos))
+    cut = TIMES[: 1 + 80 + 5]  # ends where a cosine is fastest, nearly
+    found = jumps_of(line(moved(sine)).end)
+    assert [(t, speed) for t, speed, _ in found] == [
+        (0.0, pytest.approx(omega * amplitude, rel=0.05)),
+        (4.0, pytest.approx(omega * amplitude, rel=0.05)),
+    ]
+    assert jumps_of(line(moved(cosine)).end) == []
+    assert [t for t, *_ in jumps_of(line(moved(cosine[: len(cut)], cut)).end)] == [cut[-1]]
+    assert jumps_of(line(moved([0.0, 0.1, 0.1, 0.0], [0.0, 1.0, 2.0, 3.0])).end) == []
+
+
+@pytest.mark.parametrize("wave, told", [(np.sin, True), (np.cos, False)])
+def test_a_given_motion_that_jumps_is_told_and_a_smooth_one_is_not(wave, told):
+    run = ran(line(moved(0.05 * wave(2 * np.pi * TIMES))), duration_s=4.5)
+    assert ("the velocity of end.motion jumps by" in run.message) == told
+    assert not told or ("at t = 0 s" in run.message and "at t = 4 s" in run.message)
+
+
+@pytest.mark.parametrize("nodes, told", [(3, True), (21, False)])
+def test_a_grid_too_coarse_at_rest_is_told(nodes, told):
+    run = ran(line(DRY, SLACK, nodes=nodes), duration_s=0.1)
+    fine = ran(line(DRY, SLACK, nodes=321), duration_s=0.1).columns["tension_top_N"][0]
+    off = abs(run.columns["tension_top_N"][0] / fine - 1)
+    assert (off > 0.05) == told == ("at rest" in run.message)
+
+
+def test_steps_too_long_for_the_largest_tension_are_told():
+    """A buoy that begins to heave: backward Euler damps its first swing, by half as much in steps half as long."""
+    heaving = away(1900.0, 3e6) | {"solver.integrator": "backward-euler"}
+    said = "in steps twice as long"
+    coarse, fine = (
+        ran(line(STILL, heaving, {"solver.step_s": step_s}, tension=linear(3e6)), duration_s=1.0)
+        for step_s in (0.05, 0.0005)
+    )
+    largest = [run.columns["tension_top_high_N"].max() for run in (coarse, fine)]
+    assert largest[0] < 0.95 * largest[1]
+    assert said in coarse.message and said not in fine.message
