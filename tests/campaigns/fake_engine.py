@@ -101,6 +101,7 @@ def sines(
         "tension_top_low_N": force - 10.0,
         "tension_top_high_N": force + 10.0,
         "loop_releases": np.where(t > 0.5 * t[-1], releases, 0.0),
+        "unresolved_N": np.zeros_like(t),
         "line_lowest_m": np.zeros_like(t),
     }
     statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
