@@ -121,16 +121,23 @@ class PeriodMap:
         return state.with_numbers(**begin, first=0, samples=1, low=row[0, col.TOP], high=row[0, col.TOP])
 
     def history(self, points: Sequence[np.ndarray], value: float) -> dict[str, np.ndarray]:
-        """Columns of a trajectory (`engine.trajectory.COLUMNS`) over the periods that begin at points of an orbit."""
-        parts = []
-        for z, image in zip(points, self.frozen(points, value), strict=True):
+        """Columns of a trajectory (`engine.trajectory.COLUMNS`) over the periods that begin at points of an orbit.
+
+        The extremes between the last sample and the strobe at the end of a period are those of the next first sample.
+        """
+        parts, at_ends = [], []
+        for number, (z, image) in enumerate(zip(points, self.frozen(points, value), strict=True)):
             image(z, value)
             run = self._run(value)
-            parts.append(run.output.samples[1 : self.samples_of(run.scene) + 1].copy())
-        # the last sample, at the strobe, is the first one too, with the extremes of the steps before it
-        samples = np.roll(np.concatenate(parts), 1, axis=0)
-        samples[:, col.TIME] = np.arange(len(samples)) * float(run.record["output_step"])
-        return columns_of(samples, heading_of(run.scene))
+            count = self.samples_of(run.scene)
+            part = run.output.samples[:count].copy()
+            part[:, col.TIME] += number * run.scene.waves.period_s
+            parts.append(part)
+            at_ends.append(run.output.samples[count, [col.TOP_LOW, col.TOP_HIGH]].copy())
+        for part, (low, high) in zip(parts, [at_ends[-1], *at_ends[:-1]], strict=True):
+            part[0, col.TOP_LOW] = min(part[0, col.TOP_LOW], low)
+            part[0, col.TOP_HIGH] = max(part[0, col.TOP_HIGH], high)
+        return columns_of(np.concatenate(parts), heading_of(run.scene))
 
     def _run(self, value: float) -> Idle:
         """Arrays of the scene of a value; the last ones are kept."""

@@ -113,8 +113,11 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
 
 
 def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
-    """A folder in which workers say how far they are: in that of the campaign, which drops what a kill leaves there."""
-    return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=plan.how.out.absolute())
+    """A folder in which workers say how far they are: in that of the campaign, which drops what a kill leaves there.
+
+    Workers that send their results need not see the campaign's folder: theirs is a temporary one.
+    """
+    return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=None if plan.sends else plan.how.out.absolute())
 
 
 def _compiled(place: Path, task: tuple[int, dict]) -> None:

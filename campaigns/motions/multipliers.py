@@ -4,16 +4,20 @@ A run near a stable orbit shows the orbit, not how fast perturbations die out al
 orbit is one. Newton's method on the map over a wave period (`engine.period_map`) finds it to 1e-9 from the last state.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
-from analysis.orbits import Orbit
 from campaigns.columns import Column
-from engine.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from analysis.orbits import Orbit
+    from engine.trajectory import Trajectory
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
@@ -65,6 +69,8 @@ def orbit_under(trajectory: Trajectory, period: int, iterations: int = 20) -> Or
 
     Raises ArithmeticError, with the end of a sentence, where Newton's method finds none in so many iterations.
     """
+    import numpy as np
+
     from analysis.orbits import NoImage, find_orbit, scatter_of
     from engine.scene import scene_from_toml
 

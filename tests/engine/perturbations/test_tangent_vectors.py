@@ -193,6 +193,7 @@ def test_through_a_loop_release():
 NODES, SPEED = 5, (0.8, 0.1)
 SCENE = {
     "waves": None,
+    "water.depth_m": 60.0,  # the soft line is twice as long at rest
     "current": {"law": "uniform", "velocity_mps": [SPEED[0], 0.0, SPEED[1]]},
     "tether.tension": {"law": "linear", "stiffness_N": 2e3},
     "buoy.drag": 4.0,

@@ -64,4 +64,4 @@ def test_a_line_that_hangs_still_is_not_warned_of_its_bend():
     """Ends that almost meet: the lowest element turns by more than FOLD, and statics has its tension right."""
     scene = STILL | held(0.02, 0.0) | {"tether.bending_stiffness_Nm2": 0.01}
     run = simulate(load_scene("tethered_buoy", scene), duration_s=2.0)
-    assert run.status == "ok" and run.statistics["max_turn_rad"] > FOLD and run.message == ""
+    assert run.status == "ok" and run.statistics["max_turn_rad"] > FOLD and "folds" not in run.message

@@ -238,7 +238,7 @@ def test_between_steps_that_damp_the_waves_of_a_held_line_its_tension_swings_no_
         simulate(load_scene("tethered_buoy", changes | {"solver.rtol": rtol, "output.profiles": True}), duration_s=2.0)
         for rtol in (0.03, 1e-4)
     )
-    assert loose.message == "" and loose.statistics["steps"] < 0.5 * tight.statistics["steps"]
+    assert "solver" not in loose.message and loose.statistics["steps"] < 0.5 * tight.statistics["steps"]
     for name in ("tension_top_N", "tension_top_high_N"):
         assert loose.columns[name].max() == pytest.approx(tight.columns[name].max(), rel=0.05)
     assert np.abs(loose.profiles.tension_N - tight.profiles.tension_N)[5:].max() < 1.5
