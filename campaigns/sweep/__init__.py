@@ -187,7 +187,7 @@ def measures(order: Order) -> Measures:
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     sources, settings = (*ROW_SOURCES, "campaigns/sweep/__init__.py"), settings_of(order)
-    settings["asked"] = order.own.transient
+    settings["asked"] = getattr(order.own, "transient", None)  # campaigns of orbits have no such option
     return Measures(columns, partial(sweep_row, **settings), sources, settings)
 
 
