@@ -158,23 +158,20 @@ def random_items(study: Study) -> Iterator[Item]:
     for row in sorted(study.random, key=lambda row: (row["kind"] != "valid", row["outcome"] != "ok")):
         named = row["kind"], row["outcome"], row["status"] or EMPTY, row["meaning"]
         walls.setdefault(named, []).append(value(row, "wall_s"))
-    rows = tuple(
-        (*named, str(len(values)), number(median(values), 2), number(max(values), 3)) for named, values in walls.items()
-    )
+    rows = []
+    for named, values in walls.items():
+        rows.append((*named, str(len(values)), number(median(values), 2), number(max(values), 3)))
     columns = heads("scenes", "outcome", "ended", "meaning", ("count", ""), ("median", "s"), ("slowest", "s"))
-    yield Table(columns, rows, "Outcomes of random scenes. From `fuzz.csv`.", small=True)
+    yield Table(columns, tuple(rows), "Outcomes of random scenes. From `fuzz.csv`.", small=True)
 
 
 def unexplained_items(study: Study) -> list[Item]:
     """A warning with all that nobody expected, or a note that there is nothing of the kind."""
-    lines = [
-        f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip()
-        for row in study.judged("unexplained")
-    ]
-    lines += [
-        f"random {row['kind']} scene {row['number']}: {row['outcome']}, {row['message'][:300]}"
-        for row in study.unsound()
-    ]
+    lines = []
+    for row in study.judged("unexplained"):
+        lines.append(f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip())
+    for row in study.unsound():
+        lines.append(f"random {row['kind']} scene {row['number']}: {row['outcome']}, {row['message'][:300]}")
     if lines:
         return [Notice("warning", "Unexplained", tuple(lines))]
     return [Notice("note", "Nothing unexplained", ("Every case ended as expected, or with a reason given below.",))]
