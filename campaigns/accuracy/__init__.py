@@ -47,7 +47,7 @@ def done(order: Order):
 
     Returns times and summary.
     """
-    from campaigns.accuracy import jobs, pieces
+    from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
     from campaigns.machinery.folder import made_by, write_table
     from campaigns.machinery.plan import Plan
@@ -68,8 +68,6 @@ def done(order: Order):
         made |= summary.made
         timing = {name: timing[name] + phase_timing[name] for name in timing}
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
-    if ours:
-        pieces.keep(out, own.quick)
     return timing, replace(summary, computed=len(made), found=len(summary.rows) - len(made))
 
 

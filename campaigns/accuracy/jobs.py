@@ -18,7 +18,7 @@ import numpy as np
 
 from campaigns.accuracy import plan
 from campaigns.accuracy.peers.record import nothing
-from campaigns.accuracy.plan import BEST, BY_NAME, LONG_PERIODS, PEERS, PERIOD_S, Effort, Peer, Point
+from campaigns.accuracy.plan import BEST, BY_NAME, PEERS, Effort, Peer, Point
 from campaigns.accuracy.rows import kept_samples, point_row
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job
@@ -71,9 +71,9 @@ def job_of(
     **labels: str,
 ) -> Job:
     """A run, held against samples of its reference and of ours; made, simulate: as of `Job`; labels: more of them."""
-    length_s = LONG_PERIODS * PERIOD_S if point.kind == "long" else BY_NAME[point.work].duration_s
     describe = partial(point_row, work_name=point.work, reference=reference, ours=ours)
-    settings = {"duration_s": length_s, "simulate": simulate, "describe": describe, "made": made}
+    duration_s = BY_NAME[point.work].duration_s
+    settings = {"duration_s": duration_s, "simulate": simulate, "describe": describe, "made": made}
     return Job(asdict(point) | labels, scene, **settings)
 
 
@@ -81,7 +81,7 @@ def engine_job(point: Point, known: Samples) -> Job:
     """The job of one of the engine's points."""
     reference = known.get((point.work, "grid" if point.kind == "tolerance" else "reference"))
     scene, made = BY_NAME[point.work].made(point.changes()), f"{point.kind}-{point.round}"
-    return job_of(point, scene, made, None if point.kind == "long" else reference)
+    return job_of(point, scene, made, reference)
 
 
 def side_by_side(ours: list[Job], peers: list[Job], rounds: int) -> list[Job]:

@@ -7,9 +7,9 @@ Errors, over the even samples of a run:
     strain   mean over line and time of |strain - exact strain|, per cent of the static strain
 
 The buoy is that of Table 1. The pendulum is a rope of its diameter, softer and shorter, with 2 kg at its lower end, in
-air, pushed along and across: smooth, in three dimensions, and what every peer of rods can do. The breaking line is that
-of section 4.1 without gravity on an even grid: it stays straight, so that the exact solution in one dimension
-(`campaigns.breaking_line.theory`) is the reference.
+air, pushed along and across: smooth, in three dimensions. The breaking line is that of section 4.1 without gravity on
+an even grid: it stays straight, so that the exact solution in one dimension (`campaigns.breaking_line.theory`) is the
+reference.
 
 kind of a run, in the order of the table:
 
@@ -17,7 +17,6 @@ kind of a run, in the order of the table:
     point       timed: error against run time, in rounds that take turns
     time        steps halved on one grid             space    grids doubled, one step or tolerance
     tolerance   tolerances of one grid               grid     what errors of tolerances are taken against
-    long        how long refined runs stay together
     both        elements and steps halved, at a Courant number of one
 
 Near a snap the error of a loose setting is partly luck: every round takes another tolerance or step, `FACTORS` times
@@ -103,8 +102,6 @@ STRETCHING = 1.0
 EXACT_NEWTON = {"solver.newton_tolerance": 1e-20, "solver.max_newton_iterations": 50}
 TIGHT_NEWTON = {"solver.newton_tolerance": 1e-6}  # of timed points with fixed steps: their error is that of the step
 LONGEST_STEP_S = 2.0  # where errors over tolerances are shown: the shipped 0.1 s would decide, not the tolerance
-LONG_PERIODS = 24
-LONG = ((161, 1e-4), (161, 1e-6), (161, 1e-5), (321, 1e-5), (641, 1e-5))  # neighbours differ in one of the two
 TIME_NODES = {BUOY: 21, "pendulum": 11}  # grids on which orders in time are measured
 SPACE_NODES = {BUOY: 11, "pendulum": 6}  # the coarsest grids of orders in space
 FIRST_STEPS = {4: 100, 2: 200, 1: 1600}  # per period, of a series in time, by order
@@ -167,7 +164,7 @@ class Effort:
     """How much is run.
 
     nodes: by scene, or by work where it has its own. steps: per period of the work, likewise. whole: with the paper's
-    scheme and the long runs.
+    scheme.
     """
 
     works: Sequence[str]
@@ -208,14 +205,12 @@ def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
 
 def series(work: Work, effort: Effort) -> list[Point]:
     """All of a work that is not timed."""
-    long = LONG if effort.whole and work.name == "violent" else ()
     tolerances = [(method, TOLERANCE_NODES, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
     orders = {"both": in_both} if work.measure == STRAIN else {"time": in_time, "space": in_space}
     kinds = {
         "check": [(BEST, nodes, "rtol", rtol) for nodes, rtol in work.checks],
         **{kind: settings(work, effort) for kind, settings in orders.items()},
         "tolerance": tolerances if work.reference is not None else [],
-        "long": [(BEST, nodes, "rtol", rtol) for nodes, rtol in long],
     }
     return [Point(work.name, kind, *setting) for kind, settings in kinds.items() for setting in settings]
 

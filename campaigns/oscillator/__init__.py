@@ -1,4 +1,4 @@
-"""Eq. (33), the snap oscillator: section, exponents, orbit diagrams, basins, periodic orbits, grazing, and a report.
+"""Eq. (33), the snap oscillator: section, exponents, orbit diagrams, periodic orbits, and a report.
 
     python -m campaigns.oscillator                            the paper's figure 19(b), in about a minute
     python -m campaigns.oscillator --effort 0.02              the same with a fiftieth of the work
@@ -64,23 +64,23 @@ def _work():
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """The exponent in words, attractors and grazing, as far as these parts have results."""
+    """The exponent in words, where that part has a result; the force up to which the line stays taut."""
+    from analysis.oscillator import SnapOscillator, grazing_force
     from campaigns.answers import known
 
-    of = {row["part"]: row for row in rows if row["status"] == "ok"}
-    exponents, basins, grazing = (of.get(part, {}) for part in ("exponents", "basins", "grazing"))
-    value, error = (known(exponents, f"lambda_1_bits_{name}") for name in ("per_period", "error"))
-    word = "chaotic" if value > 2 * error else "regular" if value < -2 * error else "neither shown chaotic nor regular"
     sentences = []
-    if exponents:
+    exponents = next((row for row in rows if row["part"] == "exponents" and row["status"] == "ok"), None)
+    if exponents is not None:
+        value, error = known(exponents, "lambda_1_bits_per_period"), known(exponents, "lambda_1_bits_error")
+        word = "neither shown chaotic nor regular"
+        if value > 2 * error:
+            word = "chaotic"
+        elif value < -2 * error:
+            word = "regular"
         sentences.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
-    if basins:
-        share = 100.0 * known(basins, "aperiodic_share")
-        sentences.append(
-            f"Periodic attractors: {known(basins, 'attractors'):.0f}; {share:.1f} % of the starts end in none."
-        )
-    if known(grazing, "grazing_force") > 0.0:
-        sentences.append(f"The line stays taut up to a force of F = {known(grazing, 'grazing_force'):.4f}.")
+    force = grazing_force(SnapOscillator(**order.own.changes)).force
+    if force > 0.0:
+        sentences.append(f"The line stays taut up to a force of F = {force:.4f}.")
     return sentences
 
 

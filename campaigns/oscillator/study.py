@@ -19,7 +19,6 @@ import xarray
 from analysis.compiled import source_hash
 from analysis.oscillator import (
     SnapOscillator,
-    grazing_force,
     search_periodic_orbits,
     snap_basins,
     snap_diagram,
@@ -29,7 +28,6 @@ from analysis.oscillator import (
     strobed_states,
     strobed_states_within,
 )
-from analysis.oscillator.attractors import PAPER_BOX
 from analysis.oscillator.growth import random_starts
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.figure_data import attribute_of, store
@@ -52,9 +50,6 @@ COLUMNS = (
     Column("section_dimension", "", "D", "Kaplan-Yorke dimension of the section", 4),
     Column("section_dimension_error", "", "error", "its standard error", 4),
     Column("slack_fraction", "", "χ", "share of the time in which the tether is slack", 3),
-    Column("attractors", "", "attractors", "periodic attractors found", 0),
-    Column("aperiodic_share", "", "aperiodic", "share of the starts that do not settle on a periodic attractor", 3),
-    Column("grazing_force", "", "F", "forcing at which the taut motion first goes slack", 10),
     Column("starts", "", "starts", "motions followed", 0),
     Column("elsewhere", "", "elsewhere", "starts left out because they settled on a periodic attractor", 0),
     Column("periods", "", "periods", "forcing periods of each motion", 0),
@@ -145,24 +140,14 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
-def basins(o: SnapOscillator, order: Namespace) -> Result:
-    """Where a grid of starts ends, and the shares."""
-    columns, rows = (_scaled(n, order.effort**0.5, 8) for n in (120, 75))
-    basins_found = snap_basins(o, start_grid(columns, rows), 3000)
-    arrays = dict(vars(basins_found)) | {"label": basins_found.label.reshape(rows, columns), "box": np.array(PAPER_BOX)}
-    arrays |= {f"orbit_{number + 1}": orbit for number, orbit in enumerate(arrays.pop("orbits"))}
-    row = {"starts": columns * rows, "periods": arrays.pop("periods"), "attractors": len(basins_found.orbits)}
-    return arrays, row | {"aperiodic_share": float(basins_found.shares[-1])}
-
-
 def orbits(o: SnapOscillator, order: Namespace) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
     guesses = _scaled(400, order.effort, 20)
-    basin = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
+    basins = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
     starts = np.concatenate([strobed_states(o, START, guesses, 1000), start_grid(12, 8)])
     table, points = [], []
     for period in range(1, LONGEST_ORBIT + 1):
-        known = [orbit[:1] for orbit in basin.orbits if len(orbit) == period]
+        known = [orbit[:1] for orbit in basins.orbits if len(orbit) == period]
         for orbit in search_periodic_orbits(o, period, np.concatenate([*known, starts])):
             m = orbit.multipliers[np.argsort(-np.abs(orbit.multipliers), kind="stable")]
             table.append([period, *m.view(float), orbit.residual, len(points)])
@@ -171,28 +156,11 @@ def orbits(o: SnapOscillator, order: Namespace) -> Result:
     return arrays, {"points": len(table), "starts": len(starts)}
 
 
-def grazing(o: SnapOscillator, order: Namespace) -> Result:
-    """The forcing below which the taut motion never goes slack; random starts just below and just above it."""
-    grazing_point = grazing_force(o)
-    arrays = {
-        "grazing": np.array([grazing_point.force, grazing_point.time, grazing_point.clearance, grazing_point.velocity])
-    }
-    count = _scaled(200, order.effort, 20)
-    if np.isfinite(grazing_point.force):
-        near = [grazing_point.force * factor for factor in (0.999, 1.001)]
-        length = {"transient_periods": 2000, "periods": 100, "points": 1}
-        slack = snap_diagram(o, "force", near, count=count, **length, seed=SEED).slack_fraction
-        arrays["slack_below"], arrays["slack_above"] = slack
-    return arrays, {"grazing_force": grazing_point.force, "starts": count, "transient": 2000, "periods": 100}
-
-
 PARTS = {
     "section": section,
     "history": history,
     "exponents": exponents,
     "orbits": orbits,
-    "basins": basins,
-    "grazing": grazing,
     "diagram-force": partial(diagram, "force"),
     "diagram-frequency": partial(diagram, "frequency"),
 }

@@ -1,4 +1,4 @@
-"""Stiff and extreme scenes, random scenes, one-step maps, and what each part of a scene costs: a table and a report.
+"""Stiff and extreme scenes, and random scenes, each run to a verdict: a table and a report.
 
     python -m campaigns.stability                     everything, in about eight minutes on two cores
     python -m campaigns.stability --quick             the cases that matter most, a few random scenes: half a minute

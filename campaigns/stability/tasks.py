@@ -2,7 +2,7 @@
 
 A task's result is a JSON record, kept beside the runs under a key of what it is and a hash of every source that shapes
 it. Files written: table.csv (a row a case, and one for each kind of random scenes), fuzz.csv (a row a random scene),
-step_maps.json, scene_shares.json, scene.toml (the scene from which cases start).
+scene.toml (the scene from which cases start).
 """
 
 import hashlib
@@ -19,14 +19,13 @@ from campaigns.machinery.folder import (
     kept_row,
     made_by,
     trajectory_path,
-    write_json,
     write_table,
 )
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import stage
 from campaigns.machinery.runner import ENGINE
-from campaigns.stability import cases, fuzz, random_scenes, scene_shares, step_maps
+from campaigns.stability import cases, fuzz, random_scenes
 from campaigns.stability.cases import all_cases, drift_case
 from engine import load_scene
 from engine.atomic import write_atomic
@@ -39,8 +38,7 @@ CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}
 class Task:
     """One piece of work.
 
-    kind: "case" (what: a Case), "map" (the name of a line), "shares" (whether few rounds do), "drawn" (kind of scenes,
-    seed, count), or "random" (the same, first and last number).
+    kind: "case" (what: a Case), "drawn" (kind of scenes, seed, count), or "random" (the same, first and last number).
     """
 
     kind: str
@@ -58,33 +56,34 @@ def planned(order) -> list[Task]:
     for kind, size in CHUNK.items():
         for first in range(0, order.fuzz, size):
             tasks.append(Task("random", (kind, order.seed, order.fuzz, first, min(first + size, order.fuzz))))
-    return [*tasks, *(Task("map", name) for name in step_maps.LINES)]
+    return tasks
 
 
 def result(out: Path, maker: str, task: Task) -> dict:
     """The result of a task as it is kept, or as it is made now and kept."""
-    found = kept_row(out, task.key(), maker)
-    if found is None:
-        fuzz.load_kernels()
-        found = _made(out, maker, task)
-        ways = [row.get(name) for row in found.get("rows", [found]) for name in ("run_status", "outcome")]
-        if "crash" not in ways:  # by the system perhaps, for want of memory: tried again with the next call
-            keep_row(out, task.key(), maker, found)
-    return found
+    stored = kept_row(out, task.key(), maker)
+    if stored is not None:
+        return stored
+    fuzz.load_kernels()
+    record = _computed(out, maker, task)
+    rows = record.get("rows", [record])
+    crashed = any("crash" in (row.get("run_status"), row.get("outcome")) for row in rows)
+    if not crashed:  # by the system perhaps, for want of memory: tried again with the next call
+        keep_row(out, task.key(), maker, record)
+    return record
 
 
-def _made(out: Path, maker: str, task: Task) -> dict:
+def _computed(out: Path, maker: str, task: Task) -> dict:
     if task.kind == "case":
         return cases.case_row(task.what, trajectory_path(out, task.key()))
-    if task.kind == "map":
-        return step_maps.of_line(task.what)
-    if task.kind == "shares":
-        return scene_shares.measured(task.what)
     kind, seed, count, *part = task.what
     if task.kind == "drawn":
         return {"scenes": random_scenes.drawn(kind, seed, count)}
     drawn = list(enumerate(result(out, maker, Task("drawn", (kind, seed, count)))["scenes"]))[slice(*part)]
-    return {"rows": [{"kind": kind, "number": number, **fuzz.judged(kind, raw)} for number, raw in drawn]}
+    rows = []
+    for number, raw in drawn:
+        rows.append({"kind": kind, "number": number, **fuzz.judged(kind, raw)})
+    return {"rows": rows}
 
 
 def done(order) -> tuple[dict[str, float], Summary]:
@@ -94,34 +93,38 @@ def done(order) -> tuple[dict[str, float], Summary]:
     """
     out, maker = order.how.out, made_by({}, *SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
-    tasks, shares = planned(order), Task("shares", order.quick)
+    tasks = planned(order)
     results = {task.key(): kept_row(out, task.key(), maker) for task in tasks}
     missing = [task for task in tasks if results[task.key()] is None]
     start = time.perf_counter()
-    if missing or kept_row(out, shares.key(), maker) is None:
+    if missing:
         with stage(ENGINE):
             fuzz.load_kernels()
     timing = {"compile_s": time.perf_counter() - start}
     start = time.perf_counter()
-    kinds = [kind for kind in CHUNK if order.fuzz]
+    drawn = {}
     with stage("drawing random scenes"):
-        drawn = {kind: result(out, maker, Task("drawn", (kind, order.seed, order.fuzz)))["scenes"] for kind in kinds}
+        if order.fuzz:
+            for kind in CHUNK:
+                drawn[kind] = result(out, maker, Task("drawn", (kind, order.seed, order.fuzz)))["scenes"]
     try:
         with (
             opened("loky", max(1, min(order.how.jobs, len(missing)))) as execute,
-            stage("cases", len(tasks), "tasks", lambda: sum(one is not None for one in [*results.values()])),
+            stage("cases", len(tasks), "tasks", lambda: len(tasks) - [*results.values()].count(None)),
         ):
-            for task, one in execute(partial(result, out.absolute(), maker), missing) if missing else ():
-                results[task.key()] = one
+            if missing:
+                for task, finished in execute(partial(result, out.absolute(), maker), missing):
+                    results[task.key()] = finished
     except PoolBroken as broken:
         raise CampaignStopped(f"a worker process ended: {broken}; finished tasks are kept") from broken
-    # alone on the machine, at the end: it takes times
-    with stage("what each part of a scene costs"):
-        write_json(out / "scene_shares.json", result(out, maker, shares))
-    write_json(out / "step_maps.json", {task.what: results[task.key()] for task in tasks if task.kind == "map"})
-    rows = [results[task.key()] | {"run_key": task.key()} for task in tasks if task.kind == "case"]
-    random = [row for task in tasks if task.kind == "random" for row in results[task.key()]["rows"]]
-    rows += [_of_kind(order, kind, drawn[kind], [row for row in random if row["kind"] == kind]) for kind in kinds]
+    rows, random = [], []
+    for task in tasks:
+        if task.kind == "case":
+            rows.append(results[task.key()] | {"run_key": task.key()})
+        else:
+            random += results[task.key()]["rows"]
+    for kind, scenes in drawn.items():
+        rows.append(_of_kind(order, kind, scenes, [row for row in random if row["kind"] == kind]))
     write_table(out / "fuzz.csv", fuzz.COLUMNS, random)
     write_table(out / "table.csv", cases.COLUMNS, rows)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
@@ -131,8 +134,8 @@ def done(order) -> tuple[dict[str, float], Summary]:
 def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
     """The row of all random scenes of a kind: outcomes counted, and the smallest unsound scene where there is one."""
     counts = Counter(row["outcome"] for row in rows)
-    unsound = sum(many for word, many in counts.items() if word not in fuzz.SOUND)
-    message = ", ".join(f"{word} {many}" for word, many in sorted(counts.items()))
+    unsound = sum(count for outcome, count in counts.items() if outcome not in fuzz.SOUND)
+    message = ", ".join(f"{outcome} {count}" for outcome, count in sorted(counts.items()))
     if unsound:
         known = {json.dumps(raw): row["outcome"] for raw, row in zip(drawn, rows, strict=True)}
 
@@ -140,8 +143,8 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
             outcome = known.get(json.dumps(raw)) or fuzz.judged(kind, raw)["outcome"]
             return outcome not in fuzz.SOUND
 
-        found = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
-        message += f"; the smallest scene of this kind that is unsound: {json.dumps(found)}"
+        smallest = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
+        message += f"; the smallest scene of this kind that is unsound: {json.dumps(smallest)}"
     verdict = cases.UNEXPLAINED if unsound else cases.OK
     return {
         "part": "fuzz", "group": "random", "case": f"{len(rows)} {kind} scenes", "how": "outcomes", "verdict": verdict,

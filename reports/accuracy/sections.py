@@ -1,21 +1,19 @@
-"""Sections of the accuracy report: a work's diagram and tables, measured orders, how far a motion can be predicted."""
+"""Sections of the accuracy report: a work's diagram and tables, measured orders."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from ..figures.curves import Curve, Panel, curves
 from ..figures.work_precision import work_precision
 from ..parts.columns import Quantity, table_of
-from ..parts.content import Bullets, Figure, Heading, Item, Table, Text, heads
+from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
-from ..parts.wording import EMPTY, count, decimals, number
+from ..parts.wording import count, number
 
 OURS, PEER = "point", "peer"
 _WORDS = {
@@ -61,7 +59,6 @@ class Study:
     settings: tuple[Setting, ...]
     orders: tuple[dict, ...]
     order_columns: dict[str, Quantity]
-    costs: dict | None
 
     def unit(self, work: str) -> str:
         """Unit of the errors of a work."""
@@ -69,12 +66,12 @@ class Study:
 
     def timed(self, work: str, method: str = "", peer: bool | None = None) -> list[Setting]:
         """Settings of a work that ended as asked in every round, of one method, of ours or of other codes."""
-        settings = [
-            setting
-            for setting in self.settings
-            if setting.work == work and setting.failed == 0 and math.isfinite(setting.error)
-        ]
-        return [setting for setting in settings if method in ("", setting.method) and peer in (None, setting.peer)]
+        chosen = []
+        for setting in self.settings:
+            ended = setting.failed == 0 and math.isfinite(setting.error)
+            if ended and setting.work == work and method in ("", setting.method) and peer in (None, setting.peer):
+                chosen.append(setting)
+        return chosen
 
 
 def read_study(directory: str | Path) -> Study:
@@ -84,11 +81,9 @@ def read_study(directory: str | Path) -> Study:
     if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
-    costs = folder.directory / "costs.json"  # not there without the engine's own runs
-    files = read_files(directory, wanted | ({"costs.json": "cost of each piece"} if costs.exists() else {}))
-    rows, settings = folder.table, tuple(_settings(folder.table))
+    files = read_files(directory, wanted)
     orders, columns = (files[name] for name in wanted)
-    return Study(folder, works, rows, settings, tuple(orders), columns, files.get("costs.json"))
+    return Study(folder, works, folder.table, tuple(_settings(folder.table)), tuple(orders), columns)
 
 
 def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
@@ -115,7 +110,6 @@ ERRORS = {
     "strain": "Error: mean over line and time of |ε − ε exact|, in per cent of the static strain; exact: "
     "characteristics with a fitted shock, in one dimension.",
 }
-PARTED_M = 0.01  # a difference in r that matters
 TOLERANCE = "tolerance"
 EXCEPTIONS = (
     "Exceptions have a cause each. A method of order 4 falls short in waves, where its differences are below 1e-4 mm: "
@@ -136,28 +130,16 @@ def per_period(study: Study, work: str) -> tuple[float, str]:
 
 def shipped(study: Study, work: str) -> Setting | None:
     """The shipped setting of the buoy on a work, or None."""
-    named = (
-        setting
-        for setting in study.timed(work)
-        if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED
-    )
-    return next(named, None)
+    for setting in study.timed(work):
+        if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED:
+            return setting
+    return None
 
 
 def within(settings: list[Setting], level: float) -> Setting | None:
     """The cheapest setting whose median error is within the level."""
-    return min((setting for setting in settings if setting.error <= level), key=lambda one: one.wall_s, default=None)
-
-
-def level_answer(study: Study, work: str) -> str:
-    """One sentence: what is cheapest at each error level on a work, over all our methods; "" for none."""
-    (factor, time_unit), unit = per_period(study, work), study.unit(work)
-    parts = [
-        f"{level:g} {unit} in {number(factor * setting.wall_s, 3)} {time_unit} ({setting.method}, {setting.named})"
-        for level in LEVELS[unit][:3]
-        if (setting := within(study.timed(work, peer=False), level))
-    ]
-    return f"{study.works[work]['title']}: {'; '.join(parts)}." if parts else ""
+    accurate = [setting for setting in settings if setting.error <= level]
+    return min(accurate, key=lambda setting: setting.wall_s, default=None)
 
 
 def work_items(study: Study, work: str) -> Iterator[Item]:
@@ -166,8 +148,8 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
     smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
     yield Heading(entry["title"], 2)
     yield Text(f"{ERRORS[entry['measure']]} {smooth}")
-    own = [row for row in study.rows if row["work"] == work]
-    if references := [row for row in own if row["kind"] in ("reference", "check")]:
+    references = [row for row in study.rows if row["work"] == work and row["kind"] in ("reference", "check")]
+    if references:
         caption = (
             "The reference, and runs that check how far it is converged. Timed settings on the grid of the reference "
             "show their error in time alone. From `table.csv`."
@@ -178,7 +160,6 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
         yield Text("No timed run ended as asked.")
         return
     yield _diagram(study, work)
-    yield _levels(study, work)
     failed = [setting for setting in study.settings if setting.work == work and setting.failed]
     if failed:
         rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
@@ -192,12 +173,14 @@ def _diagram(study: Study, work: str) -> Figure:
     series = []
     for name in names:
         members = [setting for setting in timed if setting.method == name and setting.error < WORST]
-        time, error = (np.array([getattr(setting, column) for setting in members]) for column in ("wall_s", "error"))
-        series.append((name, factor * time, np.maximum(error, 1e-12), any(setting.peer for setting in members)))
+        time = factor * np.array([setting.wall_s for setting in members])
+        error = np.maximum([setting.error for setting in members], 1e-12)
+        is_peer = any(setting.peer for setting in members)
+        series.append((name, time, error, is_peer))
     ring = shipped(study, work)
     marked = (factor * ring.wall_s, ring.error) if ring else None
     picture = work_precision(series, f"stepping time ({unit})", f"error ({error_unit})", marked)
-    best = min(timed, key=lambda one: one.error)
+    best = min(timed, key=lambda setting: setting.error)
     seen = (
         f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
         f"{error_unit}, has {best.method} ({best.named}) in {number(factor * best.wall_s, 3)} {unit}"
@@ -209,23 +192,6 @@ def _diagram(study: Study, work: str) -> Figure:
         f"Seen: {seen}. From `error` and `wall_s` of `table.csv`."
     )
     return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
-
-
-def _levels(study: Study, work: str) -> Table:
-    (factor, unit), error_unit = per_period(study, work), study.unit(work)
-    levels = LEVELS[error_unit]
-    rows = []
-    for name in dict.fromkeys(setting.method for setting in study.timed(work)):
-        cheapest_at = [within(study.timed(work, name), level) for level in levels]
-        first = next((setting for setting in cheapest_at if setting is not None), None)
-        cells = [decimals(factor * setting.wall_s, 2) if setting else EMPTY for setting in cheapest_at]
-        rows.append((name, *cells, f"{first.named}: {number(first.error, 2)} {error_unit}" if first else EMPTY))
-    columns = heads("method", *((f"≤ {level:g} {error_unit}", unit) for level in levels), "at the first level reached")
-    caption = (
-        "Stepping time of the cheapest setting tried whose median error is within the level; nothing is "
-        "interpolated; a dash: none of the settings tried. From `table.csv`."
-    )
-    return Table(columns, tuple(rows), caption, small=True)
 
 
 def order_items(study: Study) -> Iterator[Item]:
@@ -257,33 +223,8 @@ def order_items(study: Study) -> Iterator[Item]:
 
 def smooth_series(study: Study) -> tuple[int, int]:
     """Series on smooth works: how many are as theory says, and how many there are."""
-    smooth = [row["within"] for row in study.orders if row["kind"] != TOLERANCE and not row["rough"] and row["within"]]
-    return smooth.count("1"), len(smooth)
-
-
-def predictability_items(study: Study) -> Iterator[Item]:
-    """How long refined runs of the violent work stay together."""
-    long = [row for row in study.rows if row["kind"] == "long" and row["status"] == "ok"]
-    loaded = [(row, run) for row in long if (run := study.folder.trajectory(row)[0]) is not None]
-    if len(loaded) < 2:
-        return
-    time_s = loaded[0][1].columns["time_s"]
-    lines, sentences = [], []
-    for (first, a), (second, b) in pairwise(loaded):
-        names = [f"{number(row['nodes'])} nodes and rtol {row['setting']:g}" for row in (first, second)]
-        difference, named = np.abs(a.columns["radius_m"] - b.columns["radius_m"]), " against ".join(names)
-        lines.append(Curve(time_s, np.maximum(np.maximum.accumulate(difference), 1e-12), named))
-        beyond = time_s[difference > PARTED_M]
-        parting = f"apart at t = {beyond[0]:.0f} s" if len(beyond) else f"together to the end, {time_s[-1]:.0f} s"
-        sentences.append(f"{named}: {parting}.")
-    yield Heading("Predictability of the violent work")
-    yield Text(
-        f"Refined runs count as apart where r differs by {number(1e3 * PARTED_M)} mm. Past the time at which the two "
-        "finest grids part only statistics of the motion may be compared, not its course."
-    )
-    yield Bullets(tuple(sentences))
-    caption = "Largest difference in r so far between runs that differ in one thing, violent work. From `radius_m`."
-    alt = f"Differences between refined runs over time on a log scale. {' '.join(sentences)}"
-    labels = ("time (s)", "largest difference in $r$ so far (m)")
-    panel = Panel(lines, *labels, log="y", level=PARTED_M, settings={"ylim": (1e-9, None)})
-    yield Figure(curves([[panel]], 2.8, "lower right"), caption, alt)
+    verdicts = []
+    for row in study.orders:
+        if row["kind"] != TOLERANCE and not row["rough"] and row["within"]:
+            verdicts.append(row["within"])
+    return verdicts.count("1"), len(verdicts)

@@ -41,8 +41,7 @@ def report(directory: str | Path) -> Report:
     ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
     items = [
         *section_items("breaking_line", "Question"),
-        *_section("The answer in numbers", table("answer"), text=f"{ended} {verdicts}"),
-        *_section("The cases", table("cases"), *_warnings(lines)),
+        *_section("The cases", table("cases"), *_warnings(lines), text=ended),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
         *_section("At the fixed end", figures.folds_figure(lines)),

@@ -39,11 +39,8 @@ SERIES = (
 )  # fmt: skip
 ENERGIES = (
     "kinetic_J", "kinetic_largest_J", "strain_J", "gravity_J", "bending_J", "end_work_J", "end_work_theory_J",
-    "viscous_J", "scheme_space_J", "scheme_time_J", "remainder_J", "lost_at_arrival_J", "lost_at_arrival_theory_J",
-)  # fmt: skip
-ANSWER = (
-    "case", "end_speed_mps", "end_speed_error", "front_speed_mps", "front_speed_theory_mps", "shock_birth_theory_m",
-    "shock_offset_largest_m", "x_min_m", "end_work_J", "remainder_largest_J",
+    "viscous_J", "scheme_space_J", "scheme_time_J", "remainder_J", "remainder_largest_J", "lost_at_arrival_J",
+    "lost_at_arrival_theory_J",
 )  # fmt: skip
 DOUBLED = (
     "case", "nodes", "end_speed_mps", "front_speed_mps", "recoil_m", "x_min_m", "vertical_m", "steepest_tilt_rad",
@@ -54,7 +51,6 @@ COST = (
 )  # fmt: skip
 OF_RUNS = {  # table -> its columns; kinds of run; what a run must have; caption
     # It must have a number in that column, or its case a run of that kind; "": failed runs are shown too.
-    "answer": (ANSWER, ("case",), "", "The cases in short; energies in shares of the strain energy stored at first."),
     "cases": (CASES, ("case",), "", "The cases of `table.csv`; primes: fracture in 50 ms."),
     "speeds": (
         SPEEDS,

@@ -1,4 +1,4 @@
-"""Lateral motion over time on a logarithmic axis (the paper's figure 20), over push and depth; shapes of the rope."""
+"""Lateral motion over time on a logarithmic axis (the paper's figure 20), and over the depth; shapes of the rope."""
 
 from dataclasses import dataclass
 
@@ -45,22 +45,6 @@ def lateral_histories(panels: list[tuple[str, list[History]]], kind: str = "svg"
         x_label = r"$t/T_i$ (wave periods)" if len(rows) == len(panels) - 1 else ""
         rows.append([Panel(lines, x_label, label, log="y", settings=limits, **further)])
     return curves(rows, 0.7 + 2.3 * len(panels), "below", "x", kind)
-
-
-def seed_histories(panels: list[tuple[str, str, list[tuple[float, np.ndarray, np.ndarray]]]]) -> Picture:
-    """Two columns of panels (title, axis label, curves): each curve is (push, t/T_i, values), darker for less."""
-    from matplotlib import colormaps
-
-    pushes = sorted({push for _, _, series in panels for push, _, _ in series})
-    shades = {push: colormaps["cividis"](0.9 * k / max(len(pushes) - 1, 1)) for k, push in enumerate(pushes)}
-    drawn = []
-    for title, label, series in panels:
-        lines = []
-        for push, periods, values in series:
-            seen, name = values > 0, f"push {push:.0e} m/s".replace("e-0", "e-")
-            lines.append(Curve(periods[seen], values[seen], name, colour=shades[push]))
-        drawn.append(Panel(lines, r"$t/T_i$ (wave periods)", label, title, log="y"))
-    return curves([drawn[k : k + 2] for k in range(0, len(drawn), 2)], 0.9 + 2.1 * (len(drawn) // 2), "below")
 
 
 def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]]], label: str) -> Picture:

@@ -1,15 +1,13 @@
-"""Pictures of eq. (33): its section with zooms, a history, the errors of its exponent, basins and orbit diagrams."""
+"""Pictures of eq. (33): its section with zooms, a history, the errors of its exponent, orbit diagrams."""
 
 import numpy as np
 
 from ..parts.content import Picture
-from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, GREEN, INK, SOFT, VERMILION
 from .curves import Curve, Panel, curves
 from .orbit_diagram import Column, orbit_diagram
 
 STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
-_COLOURS = (VERMILION, ORANGE, GREEN, PURPLE, BLUE)
-_APERIODIC = "#dbe9f4"
 
 
 def oscillator_section(states: np.ndarray, boxes: np.ndarray, orbit: np.ndarray | None) -> Picture:
@@ -72,33 +70,6 @@ def oscillator_errors(convergence: np.ndarray, of_start: np.ndarray) -> Picture:
     log = "xy" if (scatter > 0).all() else "x"  # starts on one periodic orbit may agree to the last bit
     right = Panel([observed, law], r"starts averaged, $k$", "scatter of the mean (nats per time)", log=log)
     return curves([[running_panel, right]], 2.8, "upper right")
-
-
-def oscillator_basins(
-    label: np.ndarray, box, names: list[str], orbits: list[np.ndarray], section: np.ndarray
-) -> Picture:
-    """Label of each start (rows, columns) of a grid over the box, names of all labels (the last is aperiodic), strobed
-    points of each periodic attractor, and points (m, 2) of the section to show where the other one lies."""
-    from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
-
-    colours = [*_COLOURS, SKY, _APERIODIC]  # attractors beyond the fifth share the last colour but one
-    image = np.where(label == len(names) - 1, len(colours) - 1, np.minimum(label, len(_COLOURS)))
-    with sheet(4.3) as figure:
-        axes = figure.subplots()
-        axes.grid(False)
-        axes.imshow(
-            image, origin="lower", extent=box, aspect="auto", interpolation="nearest",
-            cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
-        )  # fmt: skip
-        axes.plot(*section.T, ",", color=INK)
-        for orbit in orbits[:6]:
-            axes.plot(*orbit.T, "o", markersize=3.5, color="white", markeredgecolor=INK, markeredgewidth=0.8)
-        keys = [Patch(facecolor=colour, label=name) for colour, name in zip(colours, names[:-1], strict=False)]
-        keys.append(Patch(facecolor=_APERIODIC, label=names[-1]))
-        figure.legend(handles=keys, loc="outside upper left", ncols=3)
-        axes.set(xlabel=STATE[0], ylabel=STATE[1], xlim=box[:2], ylim=box[2:])
-        return picture_of(figure, "png")
 
 
 def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, marks) -> Picture:

@@ -17,7 +17,6 @@ _LOOKS = {  # method: colour, mark
     "scipy BDF": (VERMILION, "*"),
     "MoorDyn": (INK, "P"),
     "CableDyn": (SOFT, "<"),
-    "PyElastica": (INK, "h"),
 }
 _OTHER = (SOFT, ".")
 DASHED = (", shock viscosity", ", stretched grid")

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from analysis.oscillator import SnapOscillator, grazing_force
+
 from ..figures.oscillator import (
     oscillator_diagram,
     oscillator_errors,
@@ -18,7 +20,7 @@ from ..parts.content import Figure, Heading, Item, Notice, Report, Text, sub
 from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
 from ..parts.wording import count, number, percent
-from .sections import NUMBERS, Study, basin_items, grazing_items, method_items, orbit_items, read_study
+from .sections import NUMBERS, Study, attracting_orbit, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
 
@@ -26,39 +28,23 @@ LAMBDA_1 = "λ" + sub("1")
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [*section_items("oscillator", "Question"), Heading("The answer in numbers"), *_answer(study)]
-    if study.faults:
+    items: list[Item] = []
+    if study.faults:  # before the first heading: on the first page, after the answer
         missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
         items.append(Notice("warning", "Parts without results", missing))
+    items += section_items("oscillator", "Question")
     for part, (title, section) in SECTIONS.items():
         arrays = study.arrays.get(part)
-        missing = [Text(f"The part `{part}` has no results: {study.faults.get(part)}.")]
-        items += [Heading(title), *(missing if arrays is None else section(study, arrays))]
+        items.append(Heading(title))
+        if arrays is None:
+            items.append(Text(f"The part `{part}` has no results: {study.faults.get(part)}."))
+        else:
+            items += section(study, arrays)
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
     method = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
     return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *method))
-
-
-def _answer(study: Study) -> list[Item]:
-    """The numbers of the parts that gave some, in one row."""
-    rows = (study.rows.get(part, {}) for part in ("grazing", "basins", "exponents"))
-    numbers = {name: entry for row in rows for name, entry in row.items() if entry}
-    value, error = study.exponent
-    word = "chaotic" if study.chaotic else "regular" if value < -2 * error else "neither shown to be"
-    text = (
-        f"Chaotic means that {LAMBDA_1} is positive by more than two standard errors: nearby motions part "
-        f"exponentially. Regular means that it is negative by as much. The motion is {word}."
-    )
-    shown = (
-        ("lambda_1_nats_per_time", "lambda_1_error"),
-        ("lambda_1_bits_per_period", "lambda_1_bits_error"),
-        "attractors",
-        "aperiodic_share",
-        "grazing_force",
-    )
-    return [Text(text), table_of(study.columns, shown, [numbers], "The answer in numbers, from `table.csv`.")]
 
 
 def _section(study: Study, arrays: dict) -> list[Item]:
@@ -68,9 +54,8 @@ def _section(study: Study, arrays: dict) -> list[Item]:
         f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. From the part "
         "`section`."
     )
-    orbit = study.arrays.get("basins", {}).get("orbit_1")
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
-    items: list[Item] = [Figure(oscillator_section(states, boxes, orbit), caption, alt)]
+    items: list[Item] = [Figure(oscillator_section(states, boxes, attracting_orbit(study)), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
     if zooms and study.chaotic:  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
@@ -124,9 +109,10 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> l
     if not np.isfinite(arrays["section"]).any():
         return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
     values, largest, errors = arrays["values"], arrays["exponents"][..., 0], arrays["errors"]
-    grazing = study.number("grazing", "grazing_force")
     marks = [(study.oscillator[key], "as run")]
-    marks += [(grazing, "grazing")] if key == "force" and math.isfinite(grazing) else []
+    grazing = grazing_force(SnapOscillator(**study.oscillator)).force
+    if key == "force" and math.isfinite(grazing):
+        marks.append((grazing, "grazing"))
     curves = (arrays[name] for name in ("section", "exponents", "errors", "slack_fraction"))
     chaotic = int((largest - 2 * errors > 0).any(axis=1).sum())
     top = number(float(np.nanmax(largest)), 3), number(float(values[int(np.nanargmax(largest.max(axis=1)))]))
@@ -156,7 +142,5 @@ SECTIONS = {  # part of the study: heading, what is said of its arrays
         "Orbit diagram over the frequency",
         partial(_diagram, symbol="ω", key="frequency", label=r"forcing frequency $\omega$ (–)"),
     ),
-    "basins": ("Coexisting attractors", basin_items),
     "orbits": ("Periodic orbits", orbit_items),
-    "grazing": ("Grazing", grazing_items),
 }

@@ -1,4 +1,4 @@
-"""What the report on eq. (33) reads and says: coexisting attractors, periodic orbits, grazing, the equation itself."""
+"""What the report on eq. (33) reads, and what it says of periodic orbits and of the equation itself."""
 
 import math
 from dataclasses import dataclass
@@ -8,9 +8,8 @@ import numpy as np
 
 from analysis.oscillator import SnapOscillator
 
-from ..figures.oscillator import oscillator_basins
 from ..parts.columns import Quantity, value
-from ..parts.content import Figure, Item, Table, Text, heads
+from ..parts.content import Item, Table, Text, heads
 from ..parts.folder import PARTS as FILES
 from ..parts.folder import FolderError, read_files
 from ..parts.sections import section_items
@@ -26,7 +25,7 @@ NUMBERS = {  # symbol, what it is, source of the usual value
 }
 
 
-PARTS = ("section", "history", "exponents", "orbits", "basins", "grazing", "diagram-force", "diagram-frequency")
+PARTS = ("section", "history", "exponents", "orbits", "diagram-force", "diagram-frequency")
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,31 +89,13 @@ def read_study(directory: str | Path) -> Study:
     return Study(directory, files["provenance.json"], files["columns.csv"], rows, arrays, oscillator, faults)
 
 
-def basin_items(study: Study, arrays: dict) -> list[Item]:
-    """Which starts end where, with the shares of the starts."""
-    shares = arrays["shares"]
-    orbits = [arrays[f"orbit_{index + 1}"] for index in range(len(shares) - 1)]
-    names = [f"period {len(orbit)}" for orbit in orbits] + ["aperiodic"]
-    rows = tuple(
-        (name, decimals(100.0 * share, 2), decimals(100.0 * error, 2))
-        for name, share, error in zip(names, shares, arrays["errors"], strict=True)
-        if share > 0
-    )
-    columns = heads("the motion ends on", ("share of the starts", "%"), ("error", "%"))
-    settled = arrays["settled"][arrays["settled"] >= 0]
-    late = f" The last start that settled did so after {int(settled.max())} periods." if len(settled) else ""
-    caption = (
-        f"Where a grid of {arrays['label'].size} starts ends within {study.rows['basins']['periods']} periods. Dots: "
-        f"strobed points of the periodic attractors; black: the section.{late} From the part `basins`."
-    )
-    text = (
-        "A start counts as settled when Newton's method, begun from its strobed state, finds a stable periodic orbit "
-        "that the start's own motion then approaches. The rest is aperiodic: on the chaotic attractor, or on its way."
-    )
-    alt = f"Basins of attraction of {len(orbits)} periodic orbits over displacement and velocity."
-    section = study.arrays.get("section", {}).get("section", np.empty((0, 2)))[:20000]
-    figure = Figure(oscillator_basins(arrays["label"], tuple(arrays["box"]), names, orbits, section), caption, alt)
-    return [Text(text), figure, Table(columns, rows, "Shares of the starts, with one standard error.")]
+def attracting_orbit(study: Study) -> np.ndarray | None:
+    """Strobed points (p, 2) of the first stable orbit of the part `orbits`; None where it has none."""
+    arrays = study.arrays.get("orbits", {})
+    for period, real1, imag1, real2, imag2, _, first in arrays.get("table", ()):
+        if max(math.hypot(real1, imag1), math.hypot(real2, imag2)) < 1.0:
+            return arrays["points"][int(first) : int(first) + int(period)]
+    return None
 
 
 def orbit_items(study: Study, arrays: dict) -> list[Item]:
@@ -148,29 +129,6 @@ def _complex(value: complex) -> str:
     if value.imag == 0.0:
         return number(value.real, 6)
     return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
-
-
-def grazing_items(study: Study, arrays: dict) -> list[Item]:
-    """The threshold of slack, and what random starts do at it."""
-    force, time, clearance, velocity = arrays["grazing"]
-    if not math.isfinite(force):
-        usual = "without lift the tether is slack at any forcing, and without damping no taut motion attracts"
-        return [Text(f"There is no threshold: {usual}.")]
-    text = (
-        "The threshold is the forcing at which the periodic motion that is always taut touches γ = 0. Below it that "
-        "motion has no slack. Random starts that are slack below the threshold are on another attractor."
-    )
-    rows = [
-        ("forcing F", f"{force:.15g}"),
-        ("least displacement γ at F", f"{clearance:.1e}"),
-        ("velocity at that time", f"{velocity:.1e}"),
-        ("time after the strobe", number(time, 6)),
-    ]
-    for share, name in (("0.999", "slack_below"), ("1.001", "slack_above")):
-        slack = arrays[name] > 0
-        rows.append((f"starts that are slack at {share} F", f"{int(slack.sum())} of {len(slack)}"))
-    caption = "Grazing. Slack: at some time in the last 100 of 2100 periods. From the part `grazing`."
-    return [Text(text), Table(heads("what", ("value", "")), tuple(rows), caption)]
 
 
 def method_items(study: Study) -> list[Item]:

@@ -10,7 +10,7 @@ from ..parts.sections import section_items
 from ..parts.wording import count, listed, number
 from ..sweep.quantities import further
 from . import sections
-from .runs import BODIES, VARIED, Run, Study, read_study
+from .runs import VARIED, Run, Study, of_bodies, read_study
 
 _RUNS = (
     *VARIED[:-1], "periods", "status", "buoy_motion", "rope_motion", "max_turn_rad", "loop_releases",
@@ -21,8 +21,8 @@ _MEASURED = (
     "burst_median_m burst_max_m first_burst_period first_burst_m rise_nats rise_periods lateral_late_m "
     "share_of_inplane early_gain_s"
 ).split()
-_PLACED = {f"{body}_{name}" for body in BODIES for name in _MEASURED}
-_PLACED |= {*VARIED, "inplane_m", "bow_inplane_m", "bow_lateral_m"}
+# columns for which this report has chosen a place, or none: those stand in table.csv alone
+_PLACED = {*of_bodies(*_MEASURED), *VARIED, "inplane_m", "bow_inplane_m", "bow_lateral_m"}
 _RESOLVED_RAD = 0.5 * math.pi  # in one element
 
 
@@ -32,15 +32,9 @@ def report(directory: str | Path) -> Report:
     scene = study.folder.scene
     items = [
         *section_items("out_of_plane", "Question"),
-        Heading("The answer in numbers"),
-        *sections.answer_items(study),
-        *sections.history_items(study),
+        *sections.statement_items(study),
         *sections.growth_items(study),
-        *sections.push_items(study),
         *sections.dependence_items(study),
-        *sections.direction_items(study),
-        *sections.grid_items(study),
-        *sections.shape_items(study),
         *sections.comparison_items(study),
         Heading("Warnings"),
         *_warnings(study),
@@ -53,27 +47,31 @@ def report(directory: str | Path) -> Report:
 
 def _warnings(study: Study) -> Iterator[Item]:
     pushed = [run for run in study.runs if run.pushed]
-    looped = [run for run in pushed if run["loop_releases"] > 0]
     coarse = [run["nodes"] for run in pushed if run["max_turn_rad"] > _RESOLVED_RAD]
-    turned = "an element turns by more than π/2: loops are not resolved, and bursts carry the error shown under “Grid”"
+    failed, lost, looped, turned = [], [], [], []
+    for run in study.runs:
+        if not run.ok:
+            failed.append(f"{_name(run)}: {_end(run)}.")
+        elif not study.folder.trajectory_path(run["run_key"]).exists():
+            lost.append(f"{_name(run)}: its trajectory is missing; figures leave it out.")
+    for run in pushed:
+        if run["loop_releases"] > 0:
+            looped.append(f"{_name(run)}: {count(int(run['loop_releases']), 'release')}.")
+    unresolved = "an element turns by more than π/2: loops are not resolved, and the sizes of bursts depend on the grid"
+    for nodes in sorted(set(coarse)):
+        turned.append(f"{count(coarse.count(nodes), 'run')} on {number(nodes)} nodes: {unresolved}.")
     boxes = {
-        "Runs that failed": [f"{_name(run)}: {_end(run)}." for run in study.runs if not run.ok],
-        "Runs without a trajectory": [
-            f"{_name(run)}: its trajectory is missing; figures leave it out."
-            for run in study.runs
-            if run.ok and not study.folder.trajectory_path(run["run_key"]).exists()
-        ],
-        "Loops released in three dimensions": [
-            f"{_name(run)}: {count(int(run['loop_releases']), 'release')}." for run in looped
-        ],
-        "Turns within one element": [
-            f"{count(coarse.count(nodes), 'run')} on {number(nodes)} nodes: {turned}." for nodes in sorted(set(coarse))
-        ],
+        "Runs that failed": failed,
+        "Runs without a trajectory": lost,
+        "Loops released in three dimensions": looped,
+        "Turns within one element": turned,
     }
-    yield from (Notice("warning", title, tuple(lines)) for title, lines in boxes.items() if lines)
+    for title, lines in boxes.items():
+        if lines:
+            yield Notice("warning", title, tuple(lines))
     if not any(boxes.values()):
-        said = "No run failed, no loop was released, and every turn is resolved."
-        yield Notice("note", "Nothing to warn of", (said,))
+        nothing = "No run failed, no loop was released, and every turn is resolved."
+        yield Notice("note", "Nothing to warn of", (nothing,))
 
 
 def _end(run: Run) -> str:

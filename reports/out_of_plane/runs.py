@@ -44,28 +44,26 @@ class Study:
         """Runs that ended as asked and are as the base but for `wanted`; None for a key that may have any value, in
         rising order of it."""
         keys = {**self.base, **wanted}
-        chosen = [run for run in self.runs if run.ok and all(entry in (None, run[key]) for key, entry in keys.items())]
-        return sorted(chosen, key=lambda run: tuple(run[key] for key, entry in keys.items() if entry is None))
+        fixed = {key: entry for key, entry in keys.items() if entry is not None}
+        free = [key for key in keys if key not in fixed]
+        chosen = []
+        for run in self.runs:
+            if run.ok and all(run[key] == entry for key, entry in fixed.items()):
+                chosen.append(run)
+        return sorted(chosen, key=lambda run: [run[key] for key in free])
 
     def over(self, **wanted) -> list[Run]:
         """`select` at every steepness, the small wave first."""
         return self.select(**{"steepness": None, **wanted})
 
-    def pushes(self, steepness: float) -> list[Run]:
-        """Runs that differ in the size of the push alone, on the grid that has most of them."""
-        runs = self.select(steepness=steepness, seed_mps=None, nodes=None)
-        grids = [run["nodes"] for run in runs]
-        return [run for run in runs if run["nodes"] == max(grids, key=grids.count)]
-
-    @property
-    def steepnesses(self) -> list[float]:
-        """The small and the large wave, as far as there are rows of them."""
-        return sorted({run["steepness"] for run in self.runs})
-
     def loaded(self, runs: Sequence[Run]) -> list[tuple]:
         """(run, its trajectory) of those whose trajectory is there and can be read."""
-        loaded_runs = [(run, self.folder.trajectory(run.row)[0]) for run in runs]
-        return [(run, trajectory) for run, trajectory in loaded_runs if trajectory is not None]
+        loaded = []
+        for run in runs:
+            trajectory, _ = self.folder.trajectory(run.row)
+            if trajectory is not None:
+                loaded.append((run, trajectory))
+        return loaded
 
     def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
         """A table of runs in the words of the dictionary."""
@@ -84,18 +82,21 @@ def read_study(directory: str | Path) -> Study:
 
 def of_bodies(*names: Name, bodies: Sequence[str] = BODIES) -> list[Name]:
     """Columns of the buoy, then of the rope."""
-    return [
-        f"{body}_{name}" if isinstance(name, str) else tuple(f"{body}_{part}" for part in name)
-        for body in bodies
-        for name in names
-    ]
+    columns: list[Name] = []
+    for body in bodies:
+        for name in names:
+            if isinstance(name, str):
+                columns.append(f"{body}_{name}")
+            else:
+                columns.append(tuple(f"{body}_{part}" for part in name))
+    return columns
 
 
-def envelope(trajectory, body: str, span: int = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Largest lateral distance in each `span` wave periods: (t/T_i (m,), m (m,))."""
+def envelope(trajectory, body: str) -> tuple[np.ndarray, np.ndarray]:
+    """Largest lateral distance in each wave period: (t/T_i (m,), m (m,))."""
     from analysis import envelope_of
 
     period_s = trajectory.scene.waves.period_s
     values = np.abs(trajectory.columns[DISPLACEMENT[body]])
-    time, size = envelope_of(values[np.isfinite(values)], trajectory.scene.sample_step_s(), span * period_s)
+    time, size = envelope_of(values[np.isfinite(values)], trajectory.scene.sample_step_s(), period_s)
     return time / period_s, size

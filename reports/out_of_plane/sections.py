@@ -6,7 +6,7 @@ import numpy as np
 
 from ..buoy_sweep.runs import strobed
 from ..figures.motion import section_pairs
-from ..figures.offplane_history import History, dependence, lateral_histories, rope_shapes, seed_histories
+from ..figures.offplane_history import History, dependence, lateral_histories
 from ..parts.columns import table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Text
 from ..parts.folder import read_columns, read_rows
@@ -14,30 +14,38 @@ from ..parts.judged import counted, read_statements, statements_table
 from ..parts.wording import number
 from .runs import BODIES, DISPLACEMENT, Study, envelope, of_bodies
 
-_SCALED_PERIODS = 20  # of the push figure: past the first loop at every depth
-_PLAIN_SPAN = 8  # periods: two bursts or so, so that eight curves of bursts can be told apart
-_SHAPE_OFFSETS_S = (-0.3, -0.2, -0.1, 0.0, 0.1, 0.2)
-_DIRECTIONS = ("lateral", "mirrored", "oblique", "along")
+PAIRS = "pairs.csv"
 _RATE = ("rate_bits_per_period", "rate_error")
 
 
-def answer_items(study: Study) -> Iterator[Item]:
+def statement_items(study: Study) -> Iterator[Item]:
     """The verdicts on the paper's statements and on planar runs; buoy and rope in the two runs of figure 20."""
-    judged, pairs = read_statements(study.folder.directory), read_rows(study.folder.directory / "pairs.csv")
-    good = sum("0" not in [text for name, text in row.items() if name.startswith("same_")] for row in pairs)
-    agree = f"Planar runs with loop release agree with the runs in three dimensions in {good} of {len(pairs)} pairs: "
-    agree += "range of r, section, exponent and regime of the buoy, as far as the records tell. The planar run is no "
-    agree += "substitute for the rope's shape in the loops, nor for the buoy's path once the runs have parted."
-    sentence = f"The paper's statements on figure 20: {counted(judged)}."
-    yield Bullets((sentence, *([agree] if pairs else [])))
+    judged, pairs = read_statements(study.folder.directory), read_rows(study.folder.directory / PAIRS)
+    sentences = [f"The paper's statements on figure 20: {counted(judged)}."]
+    if pairs:
+        sentences.append(_agreement(pairs))
+    yield Heading("The paper's statements on figure 20")
+    yield Bullets(tuple(sentences))
     yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
     names = of_bodies("motion", _RATE, "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m")
     yield study.table(["steepness", "depth_m", "seed_mps", *names], study.over(), "The two runs of figure 20.")
 
 
-def history_items(study: Study) -> Iterator[Item]:
+def _agreement(pairs: list[dict[str, str]]) -> str:
+    """In how many pairs the planar run agrees with the run in three dimensions."""
+    agreeing = 0
+    for pair in pairs:
+        verdicts = [verdict for name, verdict in pair.items() if name.startswith("same_")]
+        agreeing += "0" not in verdicts
+    return (
+        f"Planar runs with loop release agree with the runs in three dimensions in {agreeing} of {len(pairs)} pairs: "
+        "range of r, section, exponent and regime of the buoy, as far as the records tell. The planar run is no "
+        "substitute for the rope's shape in the loops, nor for the buoy's path once the runs have parted."
+    )
+
+
+def figure_20(study: Study) -> Iterator[Item]:
     """Figure 20: lateral motion of buoy and rope for both waves."""
-    yield Heading("Lateral motion against time (fig. 20)")
     loaded = study.loaded(study.over())
     if not loaded:
         yield Text("Neither of the two runs of figure 20 ended as asked, so it cannot be drawn.")
@@ -47,12 +55,15 @@ def history_items(study: Study) -> Iterator[Item]:
         "shows the buoy alone."
     )
     labels = {"buoy": "buoy, $|y|$ (m)", "rope": "rope, largest $|y|$ (m)"}
-    panels = [(labels[body], [_history(run, trajectory, body) for run, trajectory in loaded]) for body in BODIES]
-    first = loaded[0][0]
+    panels = []
+    for body in BODIES:
+        histories = [_history(run, trajectory, body) for run, trajectory in loaded]
+        panels.append((labels[body], histories))
+    first_run = loaded[0][0]
     caption = (
         f"Lateral motion of the buoy (fig. 20 of the paper) and of the rope after a push of "
-        f"{number(first['seed_mps'])} m/s across the waves, H = {number(first['depth_m'])} m. Thick: the largest value "
-        "in each wave period; thin: every sample; dotted: half the range of the buoy in the plane."
+        f"{number(first_run['seed_mps'])} m/s across the waves, H = {number(first_run['depth_m'])} m. Thick: the "
+        "largest value in each wave period; thin: every sample; dotted: half the range of the buoy in the plane."
     )
     yield Figure(lateral_histories(panels), caption, "Lateral motion on a logarithmic axis for both waves.")
 
@@ -64,8 +75,9 @@ def _history(run, trajectory, body: str) -> History:
 
 
 def growth_items(study: Study) -> Iterator[Item]:
-    """Growth or bursts of both waves at every depth, and the exponent across the plane of the planar runs there."""
+    """Figure 20; growth or bursts of both waves at every depth, and the exponent across the plane of planar runs."""
     yield Heading("Growth, decay or bursts")
+    yield from figure_20(study)
     yield Text(
         "A rate is given only where the logarithm of the envelope (largest |y| in four wave periods, longer than half "
         "a lateral swing; where those are too few, in one) has a straight part of at least three nats and nine points "
@@ -88,48 +100,16 @@ def growth_items(study: Study) -> Iterator[Item]:
         yield study.table(["steepness", "depth_m", across, "loop_releases"], planar, caption)
 
 
-def push_items(study: Study) -> Iterator[Item]:
-    """Size of the push: curves scaled by it, curves as they are, and the numbers."""
-    yield Heading("Size of the push")
-    if loaded := study.loaded(study.pushes(study.base["steepness"])):
-        yield _push_figure(study, loaded)
-    names = of_bodies("early_gain_s", "first_burst_m", "lateral_late_m")
-    runs = [run for steepness in study.steepnesses for run in study.pushes(steepness)]
-    caption = (
-        "The push and what becomes of it: for each body the first response by the push, which is the same for every "
-        "push as long as the response is linear, the first burst, and what is reached in the second half."
-    )
-    yield study.table(["steepness", "nodes", "seed_mps", *names, "rope_motion"], runs, caption)
-
-
-def _push_figure(study: Study, loaded) -> Figure:
-    panels = []
-    for body in BODIES:
-        scaled, plain = [], []
-        for run, trajectory in loaded:
-            periods, size = envelope(trajectory, body)
-            early, push = periods <= _SCALED_PERIODS, abs(trajectory.scene.start.buoy_velocity_mps[1])
-            scaled.append((run["seed_mps"], periods[early], size[early] / push))
-            plain.append((run["seed_mps"], *envelope(trajectory, body, _PLAIN_SPAN)))
-        panels.append((f"{body}: per push", "$|y|$/push (s)", scaled))
-        panels.append((f"{body}: as it is", "$|y|$ (m)", plain))
-    caption = (
-        f"Size of the push at kA = {number(study.base['steepness'])}, H = {number(study.base['depth_m'])} m, "
-        f"{number(loaded[0][0]['nodes'])} nodes. Left: lateral distance by the push, first {_SCALED_PERIODS} wave "
-        f"periods, the largest value in each; right: the distance itself, the largest value in each {_PLAIN_SPAN} wave "
-        "periods. From `y_m` and `offplane_m`."
-    )
-    return Figure(seed_histories(panels), caption, f"Lateral motion for {len(loaded)} sizes of the push.")
-
-
 def dependence_items(study: Study) -> Iterator[Item]:
     """Depth and bending stiffness: figure and tables."""
     large = study.select(depth_m=None, bending_stiffness_Nm2=None)
     if not large:
         return
-    small = [run for run in study.over(bending_stiffness_Nm2=None) if run not in large]
-    varied = sorted({run["bending_stiffness_Nm2"] for run in large})
-    panels = [(body, [_curve(large, body, EI) for EI in varied]) for body in BODIES]
+    small = [run for run in study.over(bending_stiffness_Nm2=None) if run["steepness"] != study.base["steepness"]]
+    stiffnesses = sorted({run["bending_stiffness_Nm2"] for run in large})
+    panels = []
+    for body in BODIES:
+        panels.append((body, [_curve(large, body, stiffness) for stiffness in stiffnesses]))
     caption = (
         f"Largest lateral distance in the second half of each run at kA = {number(study.base['steepness'])} over the "
         "depth. Filled: bursts, or neither; open: exponential decay, and what is left of it."
@@ -142,79 +122,21 @@ def dependence_items(study: Study) -> Iterator[Item]:
         "rope_burst_median_m", "rope_share_of_inplane", "slack_fraction", "loop_releases", "max_turn_rad",
     ]  # fmt: skip
     caption = "Every depth and stiffness of the large wave, every stiffness of the small one."
-    yield study.table(names, [*large, *(run for run in small if run["steepness"] != study.base["steepness"])], caption)
+    yield study.table(names, [*large, *small], caption)
 
 
 def _curve(runs, body: str, stiffness: float) -> tuple:
     chosen = [run for run in runs if run["bending_stiffness_Nm2"] == stiffness]
-    depth, late = (np.array([run[name] for run in chosen]) for name in ("depth_m", f"{body}_lateral_late_m"))
+    depth_m = np.array([run["depth_m"] for run in chosen])
+    late_m = np.array([run[f"{body}_lateral_late_m"] for run in chosen])
     decays = np.array([run[f"{body}_motion"] == "decay" for run in chosen])
-    return f"EI = {number(stiffness)} N m²", depth, late, decays
-
-
-def direction_items(study: Study) -> Iterator[Item]:
-    """Direction of the push."""
-    runs = [run for word in _DIRECTIONS for run in study.over(seed_direction=word)]
-    names = [
-        "steepness", "seed_direction", "buoy_motion", ("buoy_rate_bits_per_period", "buoy_rate_error"),
-        "buoy_early_gain_s", "buoy_lateral_max_m", "rope_motion", "rope_bursts", "rope_first_burst_m",
-        "rope_lateral_max_m", "loop_releases",
-    ]  # fmt: skip
-    caption = (
-        "Direction of the push: lateral (+y), mirrored (−y), oblique (45° between x and y), along the waves (x). The "
-        "equations are symmetric: a mirrored push mirrors the motion, and one along the waves leaves y at zero."
-    )
-    yield Heading("Direction of the push")
-    yield study.table(names, sorted(runs, key=lambda run: run["steepness"]), caption)
-
-
-def grid_items(study: Study) -> Iterator[Item]:
-    """Nodes: the first burst, the turn in an element, the rate."""
-    runs = study.over(depth_m=None, nodes=None)
-    several = {(run["steepness"], run["depth_m"]) for run in runs if run["nodes"] != study.base["nodes"]}
-    names = [
-        "steepness", "depth_m", "nodes", ("buoy_rate_bits_per_period", "buoy_rate_error"), "rope_early_gain_s",
-        "rope_first_burst_period", "rope_first_burst_m", "rope_bursts", "rope_burst_median_m", "rope_lateral_max_m",
-        "buoy_lateral_max_m", "max_turn_rad", "loop_releases", "wall_s",
-    ]  # fmt: skip
-    caption = "The grid. Loops are resolved where the largest turn within one element stays below π/2."
-    yield Heading("Grid")
-    yield study.table(names, [run for run in runs if (run["steepness"], run["depth_m"]) in several], caption)
-
-
-def shape_items(study: Study) -> Iterator[Item]:
-    """The rope at its largest lateral excursion."""
-    loaded = study.loaded(study.select(profiles=1, nodes=None))
-    if not loaded or loaded[0][1].profiles is None or not len(loaded[0][1].profiles.time_s):
-        return
-    run, trajectory = loaded[0]
-    lines = trajectory.profiles
-    widest = int(np.argmax(np.abs(lines.y_m).max(axis=1)))
-    step_s = float(lines.time_s[1] - lines.time_s[0]) if len(lines.time_s) > 1 else 1.0
-    near = dict.fromkeys(widest + round(offset / step_s) for offset in _SHAPE_OFFSETS_S)
-    node = int(np.argmax(np.abs(lines.y_m[widest])))
-    seen = (
-        f"at t = {number(float(lines.time_s[widest]), 4)} s the rope is "
-        f"{number(float(abs(lines.y_m[widest, node])), 2)} m off the plane, "
-        f"{number(float(lines.s_m[node]), 3)} m of unstretched rope from the anchor, "
-        f"while the buoy is {number(float(abs(lines.y_m[widest, -1])), 2)} m off it"
-    )
-    caption = (
-        f"The rope in a loop at kA = {number(run['steepness'])}, H = {number(run['depth_m'])} m: nodes as dots, the "
-        f"buoy as a large dot; y has an axis of its own. Seen: {seen}."
-    )
-    inside = [i for i in near if 0 <= i < len(lines.time_s)]
-    picture = rope_shapes([(f"{lines.time_s[i]:.1f} s", lines.x_m[i], lines.y_m[i], lines.z_m[i]) for i in inside])
-    yield Heading("The rope in a loop")
-    yield Figure(picture, caption, f"Shape of the rope from three sides: {seen}.")
-    names = ["steepness", "depth_m", "nodes", "bow_inplane_m", "bow_lateral_m", "rope_lateral_max_m"]
-    yield study.table(names, [run], "How far the rope bows out of the straight line between its ends.")
+    return f"EI = {number(stiffness)} N m²", depth_m, late_m, decays
 
 
 def comparison_items(study: Study) -> Iterator[Item]:
     """Planar runs with loop release and runs in three dimensions: what they are, and in what they agree."""
     yield Heading("Planar with loop release, or three dimensions?")
-    pair_rows = read_rows(study.folder.directory / "pairs.csv")
+    pair_rows = read_rows(study.folder.directory / PAIRS)
     if not pair_rows:
         yield Text("No planar run released loops and ended as asked, as its counterpart did.")
         return
@@ -233,13 +155,14 @@ def comparison_items(study: Study) -> Iterator[Item]:
     ]  # fmt: skip
     runs_of_pairs = [run for pair in pairs for run in pair]
     yield study.table(names, runs_of_pairs, "Planar runs (D = 2) and their counterparts (D = 3).")
-    columns = read_columns(study.folder.directory, "pairs.csv")
+    columns = read_columns(study.folder.directory, PAIRS)
     shown = [name for name in columns if not name.endswith("_key")]
     yield table_of(columns, shown, pair_rows, "What the runs of a pair differ in. From `pairs.csv`.")
     sections = []
     for row, pair in zip(pair_rows, pairs, strict=True):
-        runs = [strobed(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
-        sections += [(f"H = {number(value(row, 'depth_m'))} m", *runs)] if len(runs) == 2 else []
+        points = [strobed(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
+        if len(points) == 2:
+            sections.append((f"H = {number(value(row, 'depth_m'))} m", *points))
     if sections:
         caption = (
             f"Poincaré sections of planar runs with loop release and of runs in three dimensions, after "

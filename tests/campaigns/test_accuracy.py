@@ -132,7 +132,6 @@ def test_every_integrator_shows_its_order_on_smooth_works_of_the_engine(tmp_path
     shown = {(row["work"], row["method"]) for row in chosen(judged, kind="time")}
     assert shown == {(work, method) for work in ("regular-smooth", "pendulum") for method in OWN}
     assert [row for row in judged if row["within"] != "1"] == []
-    assert (out / "costs.json").exists()
 
 
 def test_an_order_that_is_off_is_not_called_right(out):

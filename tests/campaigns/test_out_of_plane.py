@@ -66,6 +66,14 @@ def test_everything_the_question_needs_is_run_once():
     assert sorted((run.depth_m, run.dimensions) for run in compared) == pairs
 
 
+def test_an_option_of_old_scripts_is_accepted_and_changes_nothing():
+    faults = []
+    plain = out_of_plane.read_order([], faults)
+    given = out_of_plane.read_order(["--no-accuracy"], faults)
+    assert faults == [] and [case.key for case in given.cases] == [case.key for case in plain.cases]
+    assert "--no-accuracy" not in out_of_plane.parser().format_help()
+
+
 def test_another_scene_becomes_the_base_of_what_is_varied():
     order = out_of_plane.read_order(["--set", "water.depth_m=23", "tether.nodes=61"], [])
     base = out_of_plane.base_of(order)
@@ -195,7 +203,7 @@ def test_the_paper_is_borne_out_where_its_large_wave_grows_to_the_size_of_the_mo
 def test_same_folder_same_report(rows, place):
     first = [path.read_bytes() for path in build(place)]
     assert [path.read_bytes() for path in build(place, again=True)] == first
-    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") >= 5
+    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 3
 
 
 @pytest.mark.slow
@@ -227,7 +235,7 @@ def test_the_campaign_on_the_engine_itself(tmp_path):
     study = read_study(out)
     assert all(run.ok for run in study.runs) and not any(run["loop_releases"] for run in study.runs if run.pushed)
     assert study.select(seed_direction="along")[0]["rope_lateral_max_m"] == 0.0
-    for steepness in study.steepnesses:
+    for steepness in (out_of_plane.SMALL, out_of_plane.LARGE):
         runs = [study.select(steepness=steepness, seed_direction=word)[0] for word in ("lateral", "mirrored")]
         y, mirrored = (Trajectory.load(trajectory_path(out, run["run_key"])).columns["y_m"] for run in runs)
         assert np.array_equal(y, -mirrored)

@@ -62,7 +62,7 @@ def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
     *before, timed = jobs.phases(tmp_path, effort, False, True)
     assert not any(job.labels["kind"].startswith("peer") for phase in before for job in phase)
     missing = [job for job in timed if job.labels.get("peer_version") == ""]
-    assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn", "PyElastica"}
+    assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn"}
     for job in missing:
         row = job.describe(job.simulate(job.scene, duration_s=1.0))
         assert row["status"] == "not-installed" and "pip install" in row["message"] and "error" not in row
