@@ -53,6 +53,11 @@ class Folder:
     scene: Scene
     columns: dict[str, Quantity]
 
+    @property
+    def completed(self) -> list[dict[str, object]]:
+        """The rows of the runs that reached their full length."""
+        return [row for row in self.table if row["status"] == "ok"]
+
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
