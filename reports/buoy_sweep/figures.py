@@ -2,8 +2,9 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,12 +19,12 @@ from ..parts.style import BLUE, INK, REGIME_COLOURS, WIDTH_IN
 from ..parts.wording import T_I, T_S, count, decimals, number, printed
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, PEAK, lines, shares_panel, tension_panel
-from .runs import PAPER_STEEPNESS, Run, Sweep
+from .runs import PAPER_STEEPNESS, Run, Sweep, rows_of
 from .tables import sweep_table
 
-TANGENT, WOLF = (
-    (f"lyapunov_{how}_bits_per_period", f"lyapunov_{how}_error") for how in ("tangent", "wolf")
-)  # the largest exponents in the table, each with its standard error
+# the largest exponents in the table, each with its standard error
+TANGENT = ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error")
+WOLF = ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error")
 _PERIOD = "period-"
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
 _CAP = "wetted cap"  # role in companions/table.csv
@@ -40,8 +41,11 @@ _DEFINED = (
 
 def exponents(sweep: Sweep) -> list[tuple[str, str]]:
     """The pairs of columns, value and error, in which some run has an exponent."""
-    rows = [run.row for run in sweep.runs if run["regime"]]
-    return [pair for pair in (TANGENT, WOLF) if np.isfinite(series(rows, pair[0])).any()]
+    pairs = []
+    for value, error in (TANGENT, WOLF):
+        if np.isfinite(_of(sweep.judged, value)).any():
+            pairs.append((value, error))
+    return pairs
 
 
 def orbit_figure(sweep: Sweep) -> Figure | None:
@@ -50,27 +54,40 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     if not drawn:
         return None
     drawn.sort(key=lambda run: (run.steepness, run.motion))
-    missing = [run.steepness for run in sweep.runs if run not in drawn]
     columns = [Column(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
-    static_N = sweep.modes.static_tension_N if sweep.modes else None
-    beyond = [Range(text, [holds(sweep, run) for run in drawn]) for text, (_, holds) in _BEYOND.items()]
-    ranges = [] if sweep.colours else [one for one in beyond if any(one.holds)]
-    marks = [(kA, "paper") for kA in PAPER_STEEPNESS if drawn[0].steepness <= kA <= drawn[-1].steepness]
-    scale, unit = (1.0 / static_N, "over static") if static_N else (1e-3, "(kN)")
-    below = [_tension(sweep, drawn, scale, unit)]
+    missing = [run.steepness for run in sweep.runs if run not in drawn]
+    first, last = drawn[0].steepness, drawn[-1].steepness
+    marks = [(kA, "paper") for kA in PAPER_STEEPNESS if first <= kA <= last]
+    static_N, scale, unit = None, 1e-3, "(kN)"
+    if sweep.modes and sweep.modes.static_tension_N:
+        static_N = sweep.modes.static_tension_N
+        scale, unit = 1.0 / static_N, "over static"
+    tension, exponent = _tension(sweep, drawn, scale, unit), _exponent_panel(sweep)
+    motions, ranges = {}, []
     if sweep.colours:
-        below = [*below, *shares_panel(sweep), *(replace(one, height=0.8) for one in _exponent_panel(sweep))]
+        below = [tension, *shares_panel(sweep)]
+        if exponent is not None:
+            below.append(replace(exponent, height=0.8))
+        for letter, colour in sweep.colours.items():
+            if letter:
+                motions[letter] = (colour, _motion_title(sweep, letter))
     else:
-        below = [_slack(drawn), *_exponent_panel(sweep), *below]
-    labels = "wave steepness kA (–)", "strobed r (m)"
-    motions = {letter: (colour, _called(sweep, letter)) for letter, colour in sweep.colours.items() if letter}
-    shown = columns, labels, below, ranges, marks, missing
-    wide, narrow = (orbit_diagram(*shown, width_in, motions) for width_in in (WIDTH_IN, NARROW_IN))
-    caption = " ".join(filter(None, _seen(sweep, drawn, static_N)))
-    words = [f"{word} {n} times" for word, n in Counter(run["regime"] for run in sweep.judged).items()]
-    told = "; ".join([*(f"motion {letter} {said}" for letter, (_, said) in motions.items()), ", ".join(words)])
-    alt = f"Orbit diagram over wave steepness: {told}; see text."
+        below = list(filter(None, (_slack(drawn), exponent, tension)))
+        ranges = _ranges(sweep, drawn)
+    shown = columns, ("wave steepness kA (–)", "strobed r (m)"), below, ranges, marks, missing
+    wide = orbit_diagram(*shown, WIDTH_IN, motions)
+    narrow = orbit_diagram(*shown, NARROW_IN, motions)
+    caption = " ".join(filter(None, _caption(sweep, drawn, static_N)))
+    alt = f"Orbit diagram over wave steepness: {_described(sweep, motions)}; see text."
     return Figure(wide, caption, alt, narrow=narrow)
+
+
+def _described(sweep: Sweep, motions: Mapping[str, tuple[str, str]]) -> str:
+    """The motions and how often each regime comes, for those who cannot see the figure."""
+    parts = [f"motion {letter} {title}" for letter, (_, title) in motions.items()]
+    counts = Counter(run["regime"] for run in sweep.judged)
+    regimes = [f"{word} {runs} times" for word, runs in counts.items()]
+    return "; ".join([*parts, ", ".join(regimes)])
 
 
 def _flies(sweep: Sweep, run: Run) -> bool:
@@ -83,39 +100,77 @@ def _loops(sweep: Sweep, run: Run) -> bool:
     return run["loop_releases"] > 0 and not run.in_space
 
 
-_BEYOND = {"whole sphere above still water": ("flies", _flies), "loops released": ("loops", _loops)}  # short, which
+class Excursion(NamedTuple):
+    """What only some runs do: in words, in one word, and whether a run does it."""
+
+    text: str
+    word: str
+    happens: Callable[[Sweep, Run], bool]
+
+    def in_any(self, sweep: Sweep, runs: Iterable[Run]) -> bool:
+        """Whether it happens in any of the runs."""
+        return any(self.happens(sweep, run) for run in runs)
 
 
-def _called(sweep: Sweep, letter: str) -> str:
-    """What the legend says of a motion: its largest tension, and in short what else some of its runs do."""
+_EXCURSIONS = (
+    Excursion("whole sphere above still water", "flies", _flies),
+    Excursion("loops released", "loops", _loops),
+)
+
+
+def _ranges(sweep: Sweep, drawn: Sequence[Run]) -> list[Range]:
+    """Where the excursions happen that some of the runs have."""
+    ranges = []
+    for excursion in _EXCURSIONS:
+        if excursion.in_any(sweep, drawn):
+            ranges.append(Range(excursion.text, [excursion.happens(sweep, run) for run in drawn]))
+    return ranges
+
+
+def _motion_title(sweep: Sweep, letter: str) -> str:
+    """A motion in the legend: its largest tension, and in a word each what else some of its runs do."""
     runs = sweep.motions[letter]
-    more = [short for short, holds in _BEYOND.values() if any(holds(sweep, run) for run in runs)]
-    return ", ".join([f"up to {number(np.nanmax(_of(runs, PEAK)) / 1e3, 3)} kN", *more])
+    parts = [f"up to {number(np.nanmax(_of(runs, PEAK)) / 1e3, 3)} kN"]
+    for excursion in _EXCURSIONS:
+        if excursion.in_any(sweep, runs):
+            parts.append(excursion.word)
+    return ", ".join(parts)
 
 
-def _seen(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
+def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
     """The caption."""
     yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the"
     if sweep.colours:
         yield "motion. Each has a bar with its regimes (numbers: periods after which it repeats)."
-        told = [f"{short}: {text}" for text, (short, holds) in _BEYOND.items() if any(holds(sweep, r) for r in drawn)]
-        yield f"{'; '.join(told).capitalize()}." if told else ""
+        words = []
+        for excursion in _EXCURSIONS:
+            if excursion.in_any(sweep, drawn):
+                words.append(f"{excursion.word}: {excursion.text}")
+        if words:
+            yield f"{'; '.join(words).capitalize()}."
+    elif sweep.judged:
+        yield "regime (numbers in the bar: periods after which it repeats)."
     else:
-        yield f"regime{' (numbers in the bar: periods after which it repeats)' if sweep.judged else ''}."
-    if beside := [run for run in drawn if run in sweep.between]:
-        longest = number(max(run.periods_done for run in beside), 3)
-        said = ", and have the colour of the motion beside them that is most alike" if sweep.colours else ""
-        yield f"{count(len(beside), 'run')} between those of the table, over {longest} periods, were not judged{said}."
-    tension = f"largest tension{f' over the static {T_S} = {number(static_N)} N' if static_N else ''}"
+        yield "regime."
+    between = [run for run in drawn if run in sweep.between]
+    if between:
+        runs, longest = count(len(between), "run"), number(max(run.periods_done for run in between), 3)
+        colour = ", and have the colour of the motion beside them that is most alike" if sweep.colours else ""
+        yield f"{runs} between those of the table, over {longest} periods, were not judged{colour}."
+    tension = "largest tension"
+    if static_N:
+        tension = f"largest tension over the static {T_S} = {number(static_N)} N"
     exponent = "largest exponent with two standard errors, where the regime needs it"
     if sweep.colours:
         yield f"Below: {tension}, with arrows to the motion that follows where one ends; shares of the fresh starts"
         yield f"(hatched: not settled); {exponent}."
     else:
         yield f"Below: time with less than 5 % of the static tension; {exponent}; {tension}."
-    left = [run for run in sweep.judged if run["regime"] in ("undecided", "transient")]
-    if sweep.judged:
-        yield f"Not decided: {sweep.at(left) if left else 'no run'}."
+    undecided = sweep.runs_with(lambda run: run["regime"] in ("undecided", "transient"))
+    if undecided:
+        yield f"Not decided: {sweep.at(undecided)}."
+    elif sweep.judged:
+        yield "Not decided: no run."
 
 
 def _slack(drawn: Sequence[Run]) -> Panel:
@@ -124,45 +179,55 @@ def _slack(drawn: Sequence[Run]) -> Panel:
 
 
 def _of(runs: Sequence[Run], column: str) -> np.ndarray:
-    return series([run.row for run in runs], column)
+    return series(rows_of(runs), column)
 
 
-def _exponent_panel(sweep: Sweep) -> list[Panel]:
-    """Exponents in the colours of the regimes; by Wolf's method where no other is known, and never where r repeats."""
-    values, errors, words = [], [], []
+def _exponent_panel(sweep: Sweep) -> Panel | None:
+    """Exponents in the colours of the regimes; by Wolf's method where no other is known, and never where r repeats.
+
+    None where no run has one.
+    """
+    y, bars, words = [], [], []
     for run in sweep.judged:
         word = _PERIOD if run["regime"].startswith(_PERIOD) else run["regime"]
-        value, error = next((pair for pair in (TANGENT, WOLF) if run.known(pair[0])), TANGENT)
-        shown = (value, error) == TANGENT or word != _PERIOD
-        values.append(run[value] if shown else math.nan)
-        errors.append(2.0 * run[error] if shown else math.nan)
+        exponent, error = math.nan, math.nan
+        if run.known(TANGENT[0]):
+            exponent, error = run[TANGENT[0]], run[TANGENT[1]]
+        elif word != _PERIOD:
+            exponent, error = run[WOLF[0]], run[WOLF[1]]
+        y.append(exponent)
+        bars.append(2.0 * error)
         words.append(word)
-    known = np.isfinite(values)
+    x, y, bars = _of(sweep.judged, "steepness"), np.array(y), np.array(bars)
+    known = np.isfinite(y)
     if not known.any():
-        return []
-    x, y, bars = _of(sweep.judged, "steepness"), np.array(values), np.array(errors)
-    colours, marks = sweep.colours or REGIME_COLOURS, dict(zip(sweep.colours, MARKS, strict=False))
-    names = np.array([run.motion for run in sweep.judged] if sweep.colours else words)
+        return None
+    names, colours = np.array(words), REGIME_COLOURS
+    if sweep.colours:
+        names, colours = np.array([run.motion for run in sweep.judged]), sweep.colours
+    marks = dict(zip(sweep.colours, MARKS, strict=False))
     lines = []
     for name in dict.fromkeys(names[known]):
-        own = known & (names == name)
-        lines.append(Curve(x[own], y[own], "", "", marks.get(name, "o"), colours[name], bars[own], 3.0))
+        points = known & (names == name)
+        lines.append(Curve(x[points], y[points], "", "", marks.get(name, "o"), colours[name], bars[points], 3.0))
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
     margin = 0.08 * float(np.ptp(y[known])) + 0.01
     limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin
-    return [Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, settings={"ylim": limits})]
+    return Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, settings={"ylim": limits})
 
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
-    several, label = bool(sweep.colours), f"largest T\n{unit}"
-    shown = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
-    shown = lines(sweep, drawn, PEAK, scale) if several else shown
-    if capped := _capped(sweep):
-        look = {"line": "", "mark": "_", "colour": INK} if several else {"colour": BLUE}  # of one motion or another
-        shown.append(Curve(_of(capped, "steepness"), scale * _of(capped, PEAK), _CAP, **look))
-    if several:
-        return tension_panel(sweep, drawn, shown, scale, label)
-    return Panel(shown, y_label=label, settings={"ylim": (0.0, None)})
+    label, capped = f"largest T\n{unit}", _capped(sweep)
+    cap_x, cap_y = _of(capped, "steepness"), scale * _of(capped, PEAK)
+    if not sweep.colours:
+        curves = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
+        if capped:
+            curves.append(Curve(cap_x, cap_y, _CAP, colour=BLUE))
+        return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
+    curves = lines(sweep, drawn, PEAK, scale)
+    if capped:
+        curves.append(Curve(cap_x, cap_y, _CAP, line="", mark="_", colour=INK))  # of one motion or another
+    return tension_panel(sweep, drawn, curves, scale, label)
 
 
 def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
@@ -173,21 +238,32 @@ def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
 def _capped(sweep: Sweep) -> list[Run]:
     """The runs with the wetted cap that ended as asked, by steepness."""
     part = part_of(sweep.folder, "companions")
-    rows = in_order(part.table if part else (), ["steepness"])
-    return [_run(sweep, row) for row in rows if row["role"] == _CAP and row["status"] == "ok"]
+    if part is None:
+        return []
+    runs = []
+    for row in in_order(part.completed, ["steepness"]):
+        if row["role"] == _CAP:
+            runs.append(_run(sweep, row))
+    return runs
 
 
 def close_up_items(sweep: Sweep) -> list[Item]:
     """Heading and figure; nothing where no run was kept with its tether."""
     part = part_of(sweep.folder, "close_up")
-    rows = [row for row in (part.table if part else ()) if row["status"] == "ok"]
-    trajectory = part.trajectory(rows[-1])[0] if rows else None
-    if trajectory is None or (snap := _snap(trajectory)) is None:
+    if part is None or not part.completed:
         return []
-    at, peak = snap.record[0][np.argmax(snap.record[1])], float(snap.record[1].max())
-    seen = f"{number(peak, 3)} N at t/{T_I} = {decimals(float(at), 2)}"
+    row = part.completed[-1]
+    trajectory, _ = part.trajectory(row)
+    if trajectory is None:
+        return []
+    snap = _snap(trajectory)
+    if snap is None:
+        return []
+    periods, tension_N = snap.record
+    place = np.argmax(tension_N)
+    seen = f"{number(float(tension_N[place]), 3)} N at t/{T_I} = {decimals(float(periods[place]), 2)}"
     caption = (
-        f"Buoy and tether at {_run(sweep, rows[-1]).named} in true proportion, at six values of "
+        f"Buoy and tether at {_run(sweep, row).named} in true proportion, at six values of "
         f"t/{T_I} (above each), and the tension at its top, at most {seen}. Thick: parts without tension; "
         "the wave is the linear one. From the profiles in `close_up/trajectories`."
     )
@@ -209,7 +285,8 @@ def _snap(trajectory) -> Snap | None:
     shown_s = _SHOWN_PERIODS * period_s
     begin = float(time_s[late][np.argmax(top[late])]) - 0.6 * shown_s
     begin = min(max(begin, 0.0), max(end_s - shown_s, 0.0))
-    inside, part = ((times >= begin) & (times <= begin + shown_s) for times in (lines.time_s, time_s))
+    inside = (lines.time_s >= begin) & (lines.time_s <= begin + shown_s)
+    part = (time_s >= begin) & (time_s <= begin + shown_s)
     x, z = lines.x_m[inside], lines.z_m[inside]
     beyond = max(3.0 * scene.buoy.diameter_m, 0.25 * float(z.max()))  # of the rope, on both sides
     across = np.linspace(x.min() - beyond, x.max() + beyond, 80)
@@ -226,8 +303,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
         return []
     caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
     names = ("regime", "periods", "transient_periods", TANGENT, WOLF)
-    told = tuple(name for name in names if isinstance(name, tuple) or name in sweep.folder.columns)
-    return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, told, sweep.judged, caption)]
+    return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, names, sweep.judged, caption)]
 
 
 def evidence_table(run: Run) -> Table | None:
@@ -238,5 +314,7 @@ def evidence_table(run: Run) -> Table | None:
     columns = heads("test", ("value", ""), ("threshold", ""), ("met", ""))
     reason = printed(run["regime_reason"].strip()) or "no reason told"
     caption = f"Evidence at {run.named}, in the order of the tests: {reason}."
-    rows = tuple((name, *(cell.replace("-", "−") for cell in cells)) for name, *cells in tests)
-    return Table(columns, rows, caption, small=True)
+    rows = []
+    for name, *cells in tests:
+        rows.append((name, *(cell.replace("-", "−") for cell in cells)))
+    return Table(columns, tuple(rows), caption, small=True)

@@ -12,7 +12,8 @@ from ..parts.content import Item, Table, heads
 from ..parts.style import SOFT
 from ..parts.wording import EMPTY, decimals, listed, number, of_kicks, ranges
 from ..sweep.motions import ends_of
-from .runs import Run, Sweep
+from ..sweep.quantities import series
+from .runs import Run, Sweep, rows_of
 
 PEAK = "tension_top_max_N"
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
@@ -21,87 +22,136 @@ _PERIOD = "period-"
 
 def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list[Curve]:
     """A column over the runs, a line for each motion, broken where a value of the table has it not; marks: judged."""
-    found = []
+    curves = []
     for place, (letter, colour) in enumerate(sweep.colours.items()):
-        own = {run.steepness: scale * run[column] for run in drawn if run.motion == letter}
-        at = sorted({*sweep.values, *own})
+        values = {}
+        for run in drawn:
+            if run.motion == letter:
+                values[run.steepness] = scale * run[column]
+        x = np.array(sorted({*sweep.values, *values}))
+        y = np.array([values.get(kA, np.nan) for kA in x])
+        judged = np.isin(x, sweep.values) & np.isin(x, list(values))
         line, mark = _LINES[place % len(_LINES)], MARKS[place % len(MARKS)]
-        found.append(Curve(np.array(at), np.array([own.get(kA, np.nan) for kA in at]), "", line, "", colour, width=1.2))
-        judged = [kA for kA in sweep.values if kA in own]
-        found.append(Curve(np.array(judged), np.array([own[kA] for kA in judged]), "", "", mark, colour, size=2.8))
-    return found
+        curves.append(Curve(x, y, "", line, "", colour, width=1.2))
+        curves.append(Curve(x[judged], y[judged], "", "", mark, colour, size=2.8))
+    return curves
 
 
 def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale: float, label: str) -> Panel:
     """The largest tension of each motion with its letter, and arrows to the motion that follows where one ends."""
+    peaks: dict[str, list[tuple[float, float]]] = {}  # letter -> steepness and largest tension along its motion
+    largest: dict[str, float] = {}  # of each motion
+    top = 0.0
+    for run in drawn:
+        if not run.known(PEAK):
+            continue
+        peak = scale * run[PEAK]
+        top = max(top, peak)
+        if run.motion in sweep.colours:
+            peaks.setdefault(run.motion, []).append((run.steepness, peak))
+            largest[run.motion] = max(peak, largest.get(run.motion, 0.0))
+    letters = [letter for letter in sweep.colours if letter in peaks]
+    calm = min(letters, key=largest.get)
     arrows, texts = [], []
-    peaks = {run: scale * run[PEAK] for run in drawn if run.known(PEAK)}
-    ways = {letter: [run for run in peaks if run.motion == letter] for letter in sweep.colours}
-    top, calm = max(peaks.values()), min(filter(None, ways.values()), key=lambda way: max(map(peaks.get, way)))
-    for letter, way in ways.items():
-        for run in way[len(way) // 2 :][:1]:
-            aside = -0.12 if way is calm else 0.26  # nothing stands below the lowest line; numbers stand above others
-            texts.append((run.steepness, peaks[run] + aside * top, letter, sweep.colours[letter]))
+    for letter in letters:
+        line = peaks[letter]
+        kA, peak = line[len(line) // 2]
+        offset = -0.12 if letter == calm else 0.26  # nothing stands below the lowest line; numbers stand above others
+        texts.append((kA, peak + offset * top, letter, sweep.colours[letter]))
     for end in ends_of(sweep.folder, "steepness"):
-        at = 0.5 * (end["steepness_with"] + end["steepness_without"])
-        own = [ways.get(end[name]) for name in ("motion", "leads_to")]
-        if all(own):
-            start, stop = (peaks[min(way, key=lambda run: abs(run.steepness - at))] for way in own)
-            colour = sweep.colours[end["motion"]]
-            arrows.append((at, start, stop, colour))
-            texts.append((at, start + math.copysign(0.12 * top, start - stop), decimals(at, 3).lstrip("0"), colour))
+        if end["motion"] not in largest or end["leads_to"] not in largest:
+            continue
+        kA = 0.5 * (end["steepness_with"] + end["steepness_without"])
+        start, stop = _nearest(peaks[end["motion"]], kA), _nearest(peaks[end["leads_to"]], kA)
+        colour = sweep.colours[end["motion"]]
+        arrows.append((kA, start, stop, colour))
+        texts.append((kA, start + math.copysign(0.12 * top, start - stop), decimals(kA, 3).lstrip("0"), colour))
     limits = {"ylim": (0.0, 1.35 * top)}
     return Panel(curves, y_label=label, settings=limits, arrows=arrows, texts=texts, height=1.5)
 
 
+def _nearest(line: Sequence[tuple[float, float]], kA: float) -> float:
+    """The value of the point of a line, (steepness, value) each, that is nearest to this steepness."""
+    _, value = min(line, key=lambda point: abs(point[0] - kA))
+    return value
+
+
 def shares_panel(sweep: Sweep) -> list[Panel]:
     """The shares of fresh starts that end in each motion, one on the other; hatched: in none. No panel without any."""
+    shares: dict[float, dict[str, float]] = {}  # steepness -> share of each motion
+    for run in sweep.runs:
+        if run.known("share"):
+            shares.setdefault(run.steepness, {})[run.motion] = run["share"]
     boxes = []
-    for kA, (left, right) in zip(sweep.values, pairwise(cell_edges(np.array(sweep.values))), strict=True):
-        own = {run.motion: run["share"] for run in sweep.runs if run.steepness == kA and run.known("share")}
-        below = 0.0
-        for letter, share in own.items():
-            boxes.append((left, right, below, below + share, sweep.colours[letter], ""))
-            below += share
-        if own and below < 1.0 - 1e-9:
-            boxes.append((left, right, below, 1.0, SOFT, "////"))
+    for kA, (low, high) in zip(sweep.values, pairwise(cell_edges(np.array(sweep.values))), strict=True):
+        if kA not in shares:
+            continue
+        total = 0.0
+        for letter, share in shares[kA].items():
+            boxes.append((low, high, total, total + share, sweep.colours[letter], ""))
+            total += share
+        if total < 1.0 - 1e-9:
+            boxes.append((low, high, total, 1.0, SOFT, "////"))
+    if not boxes:
+        return []
     axis = {"ylim": (0.0, 1.0), "yticks": (0.5,), "yticklabels": ("50",)}
-    return [Panel([], y_label="starts\n(%)", settings=axis, boxes=boxes, height=0.55)] if boxes else []
+    return [Panel([], y_label="starts\n(%)", settings=axis, boxes=boxes, height=0.55)]
 
 
 def motions_items(sweep: Sweep) -> list[Item]:
     """One row a motion: where it is, what it does, how often it is met; nothing where there is one motion."""
-    rows, told = [], [name for name in ("found_by", "confirmed") if name in sweep.folder.columns]
+    rows, word_columns = [], []
+    for name in ("found_by", "confirmed"):
+        if name in sweep.folder.columns:
+            word_columns.append(name)
     for letter in sweep.colours:
         good = [run for run in sweep.motions[letter] if run.ok and run.known(PEAK)]
         if not good or not letter:
             continue
-        peak, at = max(good, key=lambda run: run[PEAK]), {run.steepness for run in good}
-        cells = letter, ranges(sweep.values, [kA in at for kA in sweep.values]), _words(good)
-        pulls = number(peak[PEAK] / 1e3, 3), number(peak.steepness)
-        rows.append((*cells, *pulls, _span(good), *(_said(good, name) for name in told)))
-    titles = "motion", "kA", "regime", ("largest T", "kN"), ("at kA =", ""), ("kicks", "")
-    columns = heads(*titles, *(name.replace("_", " ") for name in told))
+        strongest = max(good, key=lambda run: run[PEAK])
+        places = np.isin(sweep.values, series(rows_of(good), "steepness"))
+        row = [letter, ranges(sweep.values, places), _regimes(good)]
+        row += [number(strongest[PEAK] / 1e3, 3), number(strongest.steepness), _kicks(good)]
+        for name in word_columns:
+            row.append(_words(good, name))
+        rows.append(tuple(row))
+    if not rows:
+        return []
+    titles = ["motion", "kA", "regime", ("largest T", "kN"), ("at kA =", ""), ("kicks", "")]
+    for name in word_columns:
+        titles.append(name.replace("_", " "))
     caption = "The motions. Kicks: fewest and most at a value that end in the motion, of all kicks there."
-    return [Table(columns, tuple(rows), caption, small=True)] if rows else []
+    return [Table(heads(*titles), tuple(rows), caption, small=True)]
 
 
-def _said(runs: Sequence[Run], column: str) -> str:
-    """What a column of words says of runs, each once."""
+def _words(runs: Sequence[Run], column: str) -> str:
+    """The words of a column of runs, each once."""
     words = dict.fromkeys(run[column] for run in runs if run[column])
     return listed(words) if words else EMPTY
 
 
-def _words(runs: Sequence[Run]) -> str:
+def _regimes(runs: Sequence[Run]) -> str:
     """ "period 1, 2 and 6, chaotic": the regimes of runs."""
-    found = {run["regime"] for run in runs if run["regime"]}
-    periods = sorted(int(word.removeprefix(_PERIOD)) for word in found if word.startswith(_PERIOD))
-    said = [f"period {listed(map(str, periods))}"] if periods else []
-    return ", ".join([*said, *sorted(word for word in found if not word.startswith(_PERIOD))]) or EMPTY
+    periods, words = set(), set()
+    for run in runs:
+        regime = run["regime"]
+        if regime.startswith(_PERIOD):
+            periods.add(int(regime.removeprefix(_PERIOD)))
+        elif regime:
+            words.add(regime)
+    parts = sorted(words)
+    if periods:
+        parts.insert(0, f"period {listed(map(str, sorted(periods)))}")
+    return ", ".join(parts) or EMPTY
 
 
-def _span(runs: Sequence[Run]) -> str:
+def _kicks(runs: Sequence[Run]) -> str:
     """ "2 of 8 to 4 of 8": fewest and most kicks at a value that end in the motion."""
-    kicked = sorted((run for run in runs if run.known("share")), key=lambda run: run["share"])
-    ends = dict.fromkeys(of_kicks(run.row) for run in (kicked[0], kicked[-1])) if kicked else ()
-    return " to ".join(ends) or EMPTY
+    kicked = [run for run in runs if run.known("share")]
+    if not kicked:
+        return EMPTY
+    kicked.sort(key=lambda run: run["share"])
+    fewest, most = of_kicks(kicked[0].row), of_kicks(kicked[-1].row)
+    if fewest == most:
+        return fewest
+    return f"{fewest} to {most}"

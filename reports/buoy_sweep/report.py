@@ -1,7 +1,7 @@
 """The report of `campaigns.buoy_sweep`: what is said, in which order. Everything comes from the campaign's folder."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..parts.content import Heading, Item, Notice, Report, Text
@@ -9,10 +9,10 @@ from ..parts.provenance import appendix, provenance_items
 from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, decimals, number, percent
 from ..sweep.motions import every_motion
-from ..sweep.quantities import extremes
+from ..sweep.quantities import extremes, series
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
-from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
+from .runs import PAPER_WINDOW, Run, Sweep, read_sweep, rows_of
 from .sheets import sheet_items
 from .tables import plane_items, runs_items, scene_and_modes, time_items
 
@@ -23,6 +23,7 @@ _EXTREMES = (
 _COARSE = 0.05  # of the largest tension, as in `campaigns.buoy_sweep.answer`
 _OF_THESE = "Least and greatest value in the runs that ended as asked."
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
+Limit = tuple[str, Sequence[Run]]  # what limits runs, and these runs
 _NOTHING = (
     "No run failed, no loop was released, the buoy stayed in the water, tensions hold to 5 %, and every record "
     "lasts for eq. (31)."
@@ -58,65 +59,94 @@ def report(directory: str | Path) -> Report:
 def _question(sweep: Sweep) -> list[Item]:
     columns = sweep.folder.columns
     shown = [columns[name] for name in _EXTREMES if name in columns]
-    keys = [columns[name] for name in ("steepness", *(["motion"] if sweep.colours else []))]
+    keys = [columns["steepness"]]
+    if sweep.colours:
+        keys.append(columns["motion"])
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
-        *extremes(keys, [run.row for run in sweep.good], shown, _OF_THESE),
+        *extremes(keys, rows_of(sweep.good), shown, _OF_THESE),
     ]
     if sweep.judged:
         return items
-    said = (
+    reason = (
         "No run was judged. Without `--periods` runs last as long as their regime needs; with it, 135 wave periods are "
         "the least, and perturbations have to be carried (`output.tangent_vectors`)."
     )
-    return [*items, Notice("note", "No verdict on regular or chaotic motion", (said,))]
+    return [*items, Notice("note", "No verdict on regular or chaotic motion", (reason,))]
 
 
 def warnings(sweep: Sweep) -> Notice:
     """Everything that limits what the sweep may be used for; a plain note when there is nothing."""
-    runs, scene = sweep.runs, sweep.folder.scene
-    out = [run for run in runs if run["max_buoy_height_above_water_m"] > scene.buoy.diameter_m]
-    higher_m = max((run["max_buoy_height_above_water_m"] for run in out), default=0.0) - scene.buoy.diameter_m
-    unread = [run for run in runs if run.fault]
-    first = {run["status"]: run for run in reversed(runs) if not run.ok}
+    lines = []
+    for text, runs in (*_failures(sweep), *_numerical_limits(sweep), *_physical_limits(sweep)):
+        if runs:
+            lines.append(f"{text}: {sweep.at(runs)}.")
+    if not lines:
+        return Notice("note", "Nothing to warn of", (_NOTHING,))
+    return Notice("warning", "What limits these runs", tuple(lines))
+
+
+def _failures(sweep: Sweep) -> Iterator[Limit]:
+    """The runs that ended early, one limit for each status, and those whose trajectory cannot be read."""
+    by_status: dict[str, list[Run]] = {}
+    for run in reversed(sweep.runs):
+        if not run.ok:
+            by_status.setdefault(run["status"], []).insert(0, run)
+    for status, runs in by_status.items():
+        message = runs[0]["message"] or "no message"
+        yield f"{status}; the first after {number(runs[0].periods_done, 3)} periods: {message}", runs
+    unread = sweep.runs_with(lambda run: run.fault)
+    if unread:
+        yield f"{unread[0].fault} (of the first); figures and strobed values leave such runs out", unread
+
+
+def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
+    """The runs whose loops, tensions or motions the grid and the steps do not resolve."""
+    text = (
+        "loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
+    )
+    yield f"{text}plane”", sweep.runs_with(lambda run: run["loop_releases"] > 0)
+    yield (
+        "axial ringing of the line is not resolved; column message says how far tensions hold, and when",
+        sweep.runs_with(lambda run: "not resolved" in (run["message"] or "")),
+    )
+    yield (
+        f"largest tensions hold to no better than {percent(_COARSE)} (column ± T_max)",
+        sweep.runs_with(lambda run: run["tension_top_max_error_N"] > _COARSE * run["tension_top_max_N"]),
+    )
+    yield (
+        "nothing is known of the error of the largest tension (column ± T_max)",
+        sweep.runs_with(lambda run: run.ok and not run.known("tension_top_max_error_N")),
+    )
+    yield (
+        "with smaller elements and steps the motion becomes another one (column message)",
+        sweep.runs_with(lambda run: "becomes another motion" in (run["message"] or "")),
+    )
+    yield (
+        "in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
+        sweep.runs_with(lambda run: run.in_space and run["max_turn_rad"] > _RESOLVED_RAD),
+    )
+
+
+def _physical_limits(sweep: Sweep) -> Iterator[Limit]:
+    """The runs whose buoy leaves the water, and those too short for the paper's spectrum."""
+    scene = sweep.folder.scene
     strain = sweep.modes.static_strain if sweep.modes else -1.0
     dry_m = scene.anchor.position_m[2] + scene.tether.length_m * (1.0 + strain)
     dry_m += 0.5 * scene.buoy.diameter_m - scene.water.depth_m
-    failed = [
-        (f"{status}; the first after {number(run.periods_done, 3)} periods: {run['message'] or 'no message'}",
-         [run for run in runs if run["status"] == status])
-        for status, run in first.items()
-    ]  # fmt: skip
-    kinds = (
-        *failed,
-        (f"{unread[0].fault if unread else ''} (of the first); figures and strobed values leave such runs out", unread),
-        ("loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
-         "plane”", [run for run in runs if run["loop_releases"] > 0]),
-        ("axial ringing of the line is not resolved; column message says how far tensions hold, and when",
-         [run for run in runs if "not resolved" in (run["message"] or "")]),
-        (f"largest tensions hold to no better than {percent(_COARSE)} (column ± T_max)",
-         [run for run in runs if run["tension_top_max_error_N"] > _COARSE * run["tension_top_max_N"]]),
-        ("nothing is known of the error of the largest tension (column ± T_max)",
-         [run for run in sweep.good if not run.known("tension_top_max_error_N")]),
-        ("with smaller elements and steps the motion becomes another one (column message)",
-         [run for run in runs if "becomes another motion" in (run["message"] or "")]),
-        ("in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
-         [run for run in runs if run.in_space and run["max_turn_rad"] > _RESOLVED_RAD]),
-        (f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water",
-         runs if dry_m > 0.0 else ()),
-        (f"the whole sphere rises above still water, its lowest point by up to {decimals(higher_m, 2)} m. There "
-         f"`buoy.submergence` = {scene.buoy.submergence} and `waves.above_still_water` = "
-         f"{scene.waves.above_still_water} matter", out),
-        (f"shorter than the {sum(PAPER_WINDOW)} wave periods of eq. (31) with {TAU_0} = {PAPER_WINDOW[0]} {T_I} and "
-         f"n = {PAPER_WINDOW[1]}: spectra are of the last half of the record, and hold more of the transient",
-         [run for run in sweep.good if run.periods_done < sum(PAPER_WINDOW) - 1e-6]),
-    )  # fmt: skip
-    lines = _said(sweep, kinds)
-    if not lines:
-        return Notice("note", "Nothing to warn of", (_NOTHING,))
-    return Notice("warning", "What limits these runs", lines)
-
-
-def _said(sweep: Sweep, kinds: Iterable[tuple[str, Sequence[Run]]]) -> tuple[str, ...]:
-    """One line for every kind of run of which there is one: what is said of it, and where."""
-    return tuple(f"{said}: {sweep.at(runs)}." for said, runs in kinds if runs)
+    if dry_m > 0.0:
+        yield f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water", sweep.runs
+    flying = sweep.runs_with(lambda run: run["max_buoy_height_above_water_m"] > scene.buoy.diameter_m)
+    height_m = series(rows_of(flying), "max_buoy_height_above_water_m").max(initial=0.0) - scene.buoy.diameter_m
+    yield (
+        f"the whole sphere rises above still water, its lowest point by up to {decimals(height_m, 2)} m. There "
+        f"`buoy.submergence` = {scene.buoy.submergence} and `waves.above_still_water` = "
+        f"{scene.waves.above_still_water} matter",
+        flying,
+    )
+    window = sum(PAPER_WINDOW)
+    yield (
+        f"shorter than the {window} wave periods of eq. (31) with {TAU_0} = {PAPER_WINDOW[0]} {T_I} and "
+        f"n = {PAPER_WINDOW[1]}: spectra are of the last half of the record, and hold more of the transient",
+        sweep.runs_with(lambda run: run.ok and run.periods_done < window - 1e-6),
+    )

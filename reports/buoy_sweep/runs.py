@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -16,7 +16,7 @@ from engine.natural_frequencies import Modes, natural_frequencies
 from ..figures.run_sheet import run_sheet
 from ..parts.folder import Folder, Row, part_of, read_folder
 from ..parts.wording import OMEGA_I, OMEGA_R, decimals, listed, number, ranges
-from ..sweep.quantities import colours_of, in_order
+from ..sweep.quantities import colours_of, in_order, series
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -72,7 +72,9 @@ class Run(Row):
     @property
     def named(self) -> str:
         """ "kA = 0.13", "kA = 0.13, motion B"."""
-        return f"kA = {number(self.steepness)}{f', motion {self.motion}' if self.motion else ''}"
+        if self.motion:
+            return f"kA = {number(self.steepness)}, motion {self.motion}"
+        return f"kA = {number(self.steepness)}"
 
     @property
     def in_space(self) -> bool:
@@ -103,12 +105,12 @@ class Sweep:
     @cached_property
     def good(self) -> tuple[Run, ...]:
         """The runs that reached their full length."""
-        return tuple(run for run in self.runs if run.ok)
+        return self.runs_with(lambda run: run.ok)
 
     @cached_property
     def judged(self) -> tuple[Run, ...]:
         """The runs with a regime."""
-        return tuple(run for run in self.runs if run["regime"])
+        return self.runs_with(lambda run: run["regime"])
 
     @cached_property
     def values(self) -> list[float]:
@@ -118,30 +120,53 @@ class Sweep:
     @cached_property
     def motions(self) -> dict[str, tuple[Run, ...]]:
         """The runs of each motion by its letter; {"": all} where there is one motion."""
-        letters = sorted({run.motion for run in self.runs})
-        return {letter: tuple(run for run in self.runs if run.motion == letter) for letter in letters}
+        motions: dict[str, tuple[Run, ...]] = {}
+        for run in sorted(self.runs, key=lambda run: run.motion):
+            motions[run.motion] = (*motions.get(run.motion, ()), run)
+        return motions
 
     @cached_property
     def colours(self) -> dict[str, str]:
         """The colour of each motion by its letter; {} where there is one motion."""
-        return colours_of([run.row for run in self.runs])
+        return colours_of(rows_of(self.runs))
 
     @cached_property
     def chosen(self) -> frozenset[Run]:
         """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
-        drawable = [run for run in self.runs if run.drawing]
-        good = [run for run in drawable if run.ok] or drawable
-        nearest = {min(good, key=lambda run: abs(run.steepness - kA)).steepness for kA in PAPER_STEEPNESS if good}
-        several = [run for run in good if (run.period or 0) > 1][:1]
-        return frozenset([*several, *(run for run in good if run.steepness in nearest)])
+        drawable = self.runs_with(lambda run: run.drawing)
+        good = tuple(filter(lambda run: run.ok, drawable)) or drawable
+        if not good:
+            return frozenset()
+        places, several = set(), None  # several: the first run that repeats after several periods
+        for kA in PAPER_STEEPNESS:
+            places.add(min(good, key=lambda run: abs(run.steepness - kA)).steepness)
+        chosen = set()
+        for run in good:
+            if several is None and (run.period or 0) > 1:
+                several = run
+            if run is several or run.steepness in places:
+                chosen.add(run)
+        return frozenset(chosen)
+
+    def runs_with(self, condition: Callable[[Run], object]) -> tuple[Run, ...]:
+        """The runs of the table for which the condition holds."""
+        return tuple(filter(condition, self.runs))
 
     def at(self, chosen: Iterable[Run]) -> str:
         """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined; " (A)" behind those of a motion."""
         places: dict[str, set[float]] = {}
         for run in sorted(chosen, key=lambda run: run.motion):
             places.setdefault(run.motion, set()).add(run.steepness)
-        said = ((letter, ranges(self.values, [kA in own for kA in self.values])) for letter, own in places.items())
-        return listed(f"kA = {where} ({letter})" if letter else f"kA = {where}" for letter, where in said)
+        parts = []
+        for letter, steepness in places.items():
+            text = f"kA = {ranges(self.values, np.isin(self.values, list(steepness)))}"
+            parts.append(f"{text} ({letter})" if letter else text)
+        return listed(parts)
+
+
+def rows_of(runs: Iterable[Run]) -> list[Mapping[str, object]]:
+    """The rows of the table that the runs stand in."""
+    return [run.row for run in runs]
 
 
 def read_sweep(directory: str | Path) -> Sweep:
@@ -150,29 +175,42 @@ def read_sweep(directory: str | Path) -> Sweep:
     Raises FolderError for a folder that is no finished sweep.
     """
     folder = read_folder(directory, NEEDED)
-    told = folder.provenance  # an older one may be silent: then these are the values of `campaigns.judge`
-    tolerance, longest = float(told.get("strobe_tolerance") or 0.01), int(told.get("longest_period") or 16)
-    modes, beside = natural_frequencies(folder.scene), part_of(folder, "between")
+    provenance = folder.provenance  # an older one may be silent: then these are the values of `campaigns.judge`
+    tolerance = float(provenance.get("strobe_tolerance") or 0.01)
+    longest = int(provenance.get("longest_period") or 16)
+    modes = natural_frequencies(folder.scene)
     bins = _FINE_BINS if len(folder.table) <= _MANY else _FINE_BINS // 2
-    several, drawn = colours_of(folder.table), partial(drawing, bins=bins, modes=modes)
-    rows = in_order((row if several else {**row, "motion": ""} for row in folder.table), ["steepness"])
-    runs = tuple(_read_run(folder, row, f"run-{place}", drawn) for place, row in enumerate(rows, 1))
-    between = (_read_run(beside, row) for row in (beside.table if beside else ()) if row["status"] == "ok")
-    return Sweep(folder, runs, tuple(_named(run, runs) for run in between), tolerance, longest, modes)
+    draw = partial(drawing, bins=bins, modes=modes)
+    rows = folder.table
+    if not colours_of(rows):
+        rows = [{**row, "motion": ""} for row in rows]
+    runs = []
+    for place, row in enumerate(in_order(rows, ["steepness"]), 1):
+        runs.append(_read_run(folder, row, f"run-{place}", draw))
+    between, part = [], part_of(folder, "between")
+    if part is not None:
+        for row in part.completed:
+            between.append(_named(_read_run(part, row), runs))
+    return Sweep(folder, tuple(runs), tuple(between), tolerance, longest, modes)
 
 
-def _named(run: Run, among: Sequence[Run]) -> Run:
+def _named(run: Run, judged: Sequence[Run]) -> Run:
     """A run between the values of others as one of the motion, of those beside it, whose range of r is nearest its."""
-    ends = "radius_min_m", "radius_max_m"
-    values = np.array([other.steepness for other in among])
+    values = series(rows_of(judged), "steepness")
     low, high = values[values < run.steepness].max(initial=-np.inf), values[values > run.steepness].min(initial=np.inf)
-    beside = [other for other in among if other.steepness in (low, high) and other.ok]
-    near = min(beside, key=lambda other: sum(abs(run[name] - other[name]) for name in ends), default=run)
-    return replace(run, row={**run.row, "motion": near.motion})
+    nearest, least = run, math.inf
+    for neighbour in judged:
+        if neighbour.steepness not in (low, high) or not neighbour.ok:
+            continue
+        distance_m = abs(run["radius_min_m"] - neighbour["radius_min_m"])
+        distance_m += abs(run["radius_max_m"] - neighbour["radius_max_m"])
+        if nearest is run or distance_m < least:
+            nearest, least = neighbour, distance_m
+    return replace(run, row={**run.row, "motion": nearest.motion})
 
 
-def _read_run(folder: Folder, row: dict, anchor: str = "", drawn: Callable | None = None) -> Run:
-    """drawn: what makes its drawing, None for a run that gets none."""
+def _read_run(folder: Folder, row: dict, anchor: str = "", draw: Callable | None = None) -> Run:
+    """A row with what its trajectory adds. draw: makes the drawing of its sheet, None for a run that gets none."""
     left_out = row.get("transient_periods", folder.provenance.get("transient"))
     transient = int(left_out) if left_out and math.isfinite(left_out) else 0
     trajectory, fault = folder.trajectory(row)
@@ -181,26 +219,34 @@ def _read_run(folder: Folder, row: dict, anchor: str = "", drawn: Callable | Non
     section = strobed(trajectory, transient)
     periods_done = float(trajectory.columns["time_s"][-1]) / trajectory.scene.waves.period_s
     run = Run(row, anchor, fault, transient, periods_done, section)
-    return replace(run, drawing=drawn(run, trajectory)) if drawn and periods_done >= 1.0 else run
+    if draw is None or periods_done < 1.0:
+        return run
+    return replace(run, drawing=draw(run, trajectory))
 
 
 def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) -> str:
     """All that the sheet of a run shows of its trajectory. bins: columns of its histories."""
     columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
     wave, shown = 2.0 * math.pi / period_s, {}  # shown: what only some runs have
-    if found := _spectrum(run, trajectory):
-        part = (found.angular_frequency_radps > 0.0) & (found.angular_frequency_radps <= 2.5 * wave)
-        shown["spectrum"] = found.angular_frequency_radps[part], found.amplitude[part]
+    spectrum = _spectrum(run, trajectory)
+    if spectrum is not None:
+        frequency = spectrum.angular_frequency_radps
+        part = (frequency > 0.0) & (frequency <= 2.5 * wave)
+        shown["spectrum"] = frequency[part], spectrum.amplitude[part]
     if trajectory.tangent is not None:
         growth = trajectory.tangent.growth_nats[run.transient :, :1]
-        carried = np.flatnonzero(np.isfinite(growth).all(axis=1)) if growth.size else np.empty(0, int)
+        carried = np.empty(0, int)
+        if growth.size:
+            carried = np.flatnonzero(np.isfinite(growth).all(axis=1))
         if len(carried):  # perturbations may be carried from a later period on
             so_far = np.cumsum(growth[carried, 0]) / np.arange(1, len(carried) + 1) / math.log(2.0)
             shown["exponent"] = run.transient + 1.0 + carried, so_far
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
-    marks = (*(((modes.radial_radps, OMEGA_R),) if modes else ()), (wave, OMEGA_I))
+    marks = [(wave, OMEGA_I)]
+    if modes:
+        marks.insert(0, (modes.radial_radps, OMEGA_R))
     span = f"r from {decimals(run['radius_min_m'], 2)} to {decimals(run['radius_max_m'], 2)} m"
     seen = (
         f"Tension, radius and angle over {number(run.periods_done)} wave periods at {run.named}, with section, "
@@ -227,18 +273,20 @@ def strobed(trajectory: Trajectory, transient: int) -> np.ndarray:
     """
     from analysis import poincare_section
 
-    series = {name: trajectory.columns[name] for name in ("radius_m", "radius_rate_mps")}
+    radius_m, rate_mps = trajectory.columns["radius_m"], trajectory.columns["radius_rate_mps"]
     step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-    end = int(np.logical_and.accumulate(np.isfinite([*series.values()]).all(axis=0)).sum())  # finite samples
+    finite = np.isfinite(radius_m) & np.isfinite(rate_mps)
+    end = int(np.logical_and.accumulate(finite).sum())  # finite samples
     if (end - 1) * step_s < transient * period_s:
         return np.empty((0, 2))
-    sound = {name: values[:end] for name, values in series.items()}
+    sound = {"radius_m": radius_m[:end], "radius_rate_mps": rate_mps[:end]}
     return poincare_section(sound, step_s, period_s, transient_periods=transient).points
 
 
 def spectrum_window(periods_done: float) -> tuple[int, int] | None:
     """(tau_0/T_i, n) of eq. (31): the paper's (40, 20), else the last half of a record; None below 10 periods."""
-    whole = math.floor(periods_done + 1e-6)
-    if whole >= sum(PAPER_WINDOW):
+    periods = math.floor(periods_done + 1e-6)  # whole ones
+    if periods >= sum(PAPER_WINDOW):
         return PAPER_WINDOW
-    return (whole - whole // 2, whole // 2) if whole // 2 >= _LEAST_WINDOW else None
+    half = periods // 2
+    return (periods - half, half) if half >= _LEAST_WINDOW else None

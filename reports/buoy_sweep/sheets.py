@@ -1,13 +1,14 @@
 """Every run of a sweep on a sheet of its own: what the row says, how it moved, why it is called what it is called."""
 
 import math
+from collections.abc import Sequence
 
 from ..parts.columns import plus_minus
 from ..parts.content import Explorer, ExplorerColumn, Heading, Item, Sheet, Text, link
 from ..parts.wording import EMPTY, count, number
 from ..sweep.quantities import errors_of, series
 from .figures import evidence_table, exponents
-from .runs import END_PERIODS, Run, Sweep
+from .runs import END_PERIODS, Run, Sweep, rows_of
 
 # columns that a sheet shows in its title, its drawing, its table or its message
 _ELSEWHERE = ("steepness", "motion", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
@@ -15,65 +16,81 @@ _ELSEWHERE = ("steepness", "motion", "status", "strobed_period", "regime_reason"
 
 def explorer(sweep: Sweep) -> Explorer:
     """The orbit diagram as numbers that the page's script draws; who chooses a run there sees its sheet."""
-    runs, rows = sweep.runs, [run.row for run in sweep.runs]
-    columns = tuple(
-        ExplorerColumn(
-            run.steepness,
-            tuple(run.section[:, 0]) if run.ok else (),
-            _name(run),
-            run.anchor,
-            sweep.colours.get(run.motion, ""),
-        )
-        for run in runs
-    )
-    lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(runs))]
+    columns = []
+    for run in sweep.runs:
+        points = tuple(run.section[:, 0]) if run.ok else ()
+        colour = sweep.colours.get(run.motion, "")
+        columns.append(ExplorerColumn(run.steepness, points, _name(run), run.anchor, colour))
+    rows = rows_of(sweep.runs)
+    lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(rows))]
     for column, error in exponents(sweep)[:1]:
         lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))
-    return Explorer("wave steepness kA (–)", "strobed r (m)", columns, tuple(lower))
+    return Explorer("wave steepness kA (–)", "strobed r (m)", tuple(columns), tuple(lower))
 
 
 def sheet_items(sweep: Sweep) -> list[Item]:
     """The section with the sheets, and on the page what chooses one of them."""
-    said = (
+    introduction = (
         "One sheet for each row of the table of runs. Left: top tension (with its extremes between samples), r and θ "
         f"over the whole record and its last {number(END_PERIODS)} wave periods; right: strobed section after the "
         "transient, spectrum of r (eq. (31)), and the exponent of the tangent dynamics found up to each time, where "
         "perturbations were carried. The PDF has those nearest the paper's kA = 0.016 and 0.13, and the first of a "
         "motion that repeats after several periods."
     )
-    return [Heading("Every run"), Text(said), explorer(sweep), *(_sheet(sweep, run) for run in sweep.runs)]
+    items = [Heading("Every run"), Text(introduction), explorer(sweep)]
+    for run in sweep.runs:
+        items.append(_sheet(sweep, run))
+    return items
 
 
 def _sheet(sweep: Sweep, run: Run) -> Sheet:
+    lines = []
     message = run["message"] or run.fault
-    lines, own = [f"Message: {message}."] if message else [], sweep.motions[run.motion]
-    place = own.index(run)
-    others = (one for one in sweep.runs if one.steepness == run.steepness and one is not run)
-    for said, ways in (
-        ("Next to it", (*own[max(place - 1, 0) : place], *own[place + 1 :][:1])),
-        ("At the same kA", others),
-    ):
-        if links := [link(one.named, one.anchor) for one in ways]:
-            lines.append(f"{said}: {' and '.join(links)}.")
+    if message:
+        lines.append(f"Message: {message}.")
+    motion = sweep.motions[run.motion]
+    place = motion.index(run)
+    neighbours = motion[max(place - 1, 0) : place] + motion[place + 1 : place + 2]
+    if neighbours:
+        lines.append(f"Next to it: {_links(neighbours)}.")
+    rivals = sweep.runs_with(lambda rival: rival.steepness == run.steepness and rival is not run)
+    if rivals:
+        lines.append(f"At the same kA: {_links(rivals)}.")
     return Sheet(
         run.anchor, _name(run), _facts(sweep, run), tuple(lines), run.drawing, evidence_table(run), run in sweep.chosen
     )
 
 
+def _links(runs: Sequence[Run]) -> str:
+    """The names of runs, each a link to its sheet."""
+    return " and ".join(link(run.named, run.anchor) for run in runs)
+
+
 def _name(run: Run) -> str:
-    word = run["regime"] or ("" if run.ok else run["status"])
-    return f"{run.named}, {word}" if word else run.named
+    """The run with its regime, or with the reason why it ended early."""
+    if run["regime"]:
+        return f"{run.named}, {run['regime']}"
+    if not run.ok:
+        return f"{run.named}, {run['status']}"
+    return run.named
 
 
 def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     """What the row says of the run, in the words and units of the dictionary; the period as the report found it."""
-    after = "" if run.ok else f" after {number(run.periods_done, 3)} wave periods"
-    period = count(run.period, "wave period") if run.period else f"none of 1 to {sweep.longest}"
-    facts = [("status", run["status"] + after), ("repeats after", EMPTY if run.period is None else period)]
+    status = run["status"]
+    if not run.ok:
+        status += f" after {number(run.periods_done, 3)} wave periods"
+    if run.period is None:
+        period = EMPTY
+    elif run.period == 0:
+        period = f"none of 1 to {sweep.longest}"
+    else:
+        period = count(run.period, "wave period")
+    facts = [("status", status), ("repeats after", period)]
     columns = sweep.folder.columns
     errors = errors_of(columns)
     for name, column in columns.items():
-        said = plus_minus(columns, run.row, name, errors.get(name, ""))
-        if name not in _ELSEWHERE and name not in errors.values() and said != EMPTY:
-            facts.append((column.head, f"{said} {column.unit}".strip()))
+        cell = plus_minus(columns, run.row, name, errors.get(name, ""))
+        if name not in _ELSEWHERE and name not in errors.values() and cell != EMPTY:
+            facts.append((column.head, f"{cell} {column.unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))

@@ -1,10 +1,10 @@
 """The tables of a buoy sweep: the runs, what is out of the plane, their cost, the scene."""
 
-import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..parts.columns import Name, plus_minus, table_of
+from ..parts.columns import Name, plus_minus, table_of, value_and_error
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
 from ..parts.wording import (
@@ -21,7 +21,7 @@ from ..parts.wording import (
     ranges,
 )
 from ..sweep.quantities import further, over_key, series
-from .runs import Run, Sweep
+from .runs import Run, Sweep, rows_of
 
 _RUNS = (
     "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N", "tension_top_max_N",
@@ -34,7 +34,6 @@ _PLANE = (
     "max_turn_rad", "radius_min_m", "radius_max_m", "planar_radius_min_m", "planar_radius_max_m", "regime",
     "planar_regime",
 )  # fmt: skip
-_COST = ("wall_s", "newton_iterations")
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
     "`campaigns.out_of_plane` compares planar runs that release loops with runs in three dimensions, at kA = 0.13 and "
@@ -43,59 +42,69 @@ COMPARED = (
 )
 
 
-def sweep_table(sweep: Sweep, names: tuple[Name, ...], runs: tuple[Run, ...], caption: str):
+def sweep_table(sweep: Sweep, names: Sequence[Name], runs: tuple[Run, ...], caption: str):
     """A table of runs: their steepness, a link to the sheet of the run, their motion and the columns of these names.
 
     A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns, names = sweep.folder.columns, ("steepness", "motion", *names)
-    names = tuple(
-        name for name in names
-        if _pair(name)[0] in columns and any(plus_minus(columns, run.row, *_pair(name)) != EMPTY for run in runs)
-    )  # fmt: skip
+    columns, shown = sweep.folder.columns, []
+    for name in ("steepness", "motion", *names):
+        value, error = value_and_error(name)
+        if value not in columns:
+            continue
+        cells = {plus_minus(columns, run.row, value, error) for run in runs}
+        if cells - {EMPTY}:
+            shown.append(name)
     rows = [{**run.row, "run": run} for run in runs]
-    own = {
-        "steepness": lambda row: link(number(row["steepness"]), row["run"].anchor),
-        "share": of_kicks,
-        "strobed_period": lambda row: EMPTY if row["run"].period is None else str(row["run"].period or "none"),
-    }
-    return table_of(columns, names, rows, caption, own)
+    own_cells = {"steepness": _linked_steepness, "share": of_kicks, "strobed_period": _period}
+    return table_of(columns, shown, rows, caption, own_cells)
 
 
-def _pair(name: Name) -> tuple[str, str]:
-    """The column of a value and that of its error, "" for none."""
-    return (name, "") if isinstance(name, str) else name
+def _linked_steepness(row: Mapping[str, object]) -> str:
+    """The steepness of a run as a link to its sheet."""
+    return link(number(row["steepness"]), row["run"].anchor)
+
+
+def _period(row: Mapping[str, object]) -> str:
+    """The wave periods after which a run repeats, "none" where no number fits, a dash where this is not known."""
+    period = row["run"].period
+    return EMPTY if period is None else str(period or "none")
 
 
 def runs_items(sweep: Sweep) -> list[Item]:
     """All rows of table.csv in the columns a reader asks for first."""
-    space = ("dimensions",) if any(run.in_space for run in sweep.runs) else ()
+    names = ["share", "found_by", "status", "strobed_period", *_RUNS, *further(sweep.folder.columns)]
+    if sweep.runs_with(lambda run: run.in_space):
+        names.insert(0, "dimensions")
     caption = (
         f"Every run of `table.csv`. A motion repeats after N wave periods if it does to {percent(sweep.tolerance)} of "
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
         "leads to the sheet of the run."
     )
-    names = (*space, "share", "found_by", "status", "strobed_period", *_RUNS, *further(sweep.folder.columns))
     return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
 
 
 def plane_items(sweep: Sweep) -> list[Item]:
     """What is known of motion across the plane of the waves, or nothing."""
-    shown = tuple(run for run in sweep.runs if run.in_space or run.planar_releases > 0)
-    across = [run.row for run in sweep.runs if all(math.isfinite(run[name]) for name in _ACROSS)]
+    growth_name, error_name = _ACROSS
+    shown = sweep.runs_with(lambda run: run.in_space or run.planar_releases > 0)
+    across = rows_of(sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name)))
     if not shown and not across:
         return []
-    told = sweep.folder.provenance
+    provenance = sweep.folder.provenance
+    dimensions = provenance.get("dimensions")
     words = (
-        f"Made with `--dimensions {told.get('dimensions')}`: 2 is the plane of the waves, 3 all directions, auto 3 "
+        f"Made with `--dimensions {dimensions}`: 2 is the plane of the waves, 3 all directions, auto 3 "
         "where the run in the plane released loops."
     )
-    if push := told.get("push_mps"):
+    push = provenance.get("push_mps")
+    if push:
         words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
     items: list[Item] = [Heading("Out of the plane"), Text(words)]
     if across:
-        growth, error = (sweep.folder.columns[name] for name in _ACROSS)
-        picture = over_key(across, sweep.folder.columns["steepness"], [((growth, error),)], sweep.colours)
+        columns = sweep.folder.columns
+        growth, error = columns[growth_name], columns[error_name]
+        picture = over_key(across, columns["steepness"], [((growth, error),)], sweep.colours)
         caption = (
             "Exponent of an infinitesimal perturbation across the plane, with one standard error, in planar runs that "
             f"released no loop: below zero the planar motion is stable. From `{growth.name}` and `{error.name}`."
@@ -112,29 +121,39 @@ def plane_items(sweep: Sweep) -> list[Item]:
 
 def time_items(sweep: Sweep) -> list[Item]:
     """What each run cost, and the time split of the campaign."""
-    runs, columns = [run for run in sweep.runs if run.periods_done], sweep.folder.columns
-    rows, figure = [run.row for run in runs], None
-    if np.isfinite(wall := series(rows, "wall_s")).any():
-        shown = [((columns[name], None),) for name in _COST]
-        total, done = float(np.nansum(wall)), sum(run.periods_done for run in runs)
-        newton = float(np.nansum(series(rows, "newton_iterations")))
-        seen = (
-            f"{decimals(total, 1)} s in all, {number(1e3 * total / done, 3)} ms and {number(newton / done, 3)} Newton "
-            f"iterations a wave period, {number(1e6 * total / max(newton, 1.0), 3)} µs an iteration"
-        )
-        caption = f"Cost of each run: {seen}. Crosses: runs that ended early. From `table.csv`."
-        alt = f"Wall time and Newton iterations of each run over wave steepness: {seen}."
-        figure = Figure(over_key(rows, columns["steepness"], shown, sweep.colours), caption, alt)
-    return timing_items(sweep.folder, figure)
+    return timing_items(sweep.folder, _cost_figure(sweep))
+
+
+def _cost_figure(sweep: Sweep) -> Figure | None:
+    """Time and Newton iterations of each run; None where no run tells its time."""
+    columns, rows, periods = sweep.folder.columns, [], 0.0
+    for run in sweep.runs:
+        if run.periods_done:
+            rows.append(run.row)
+            periods += run.periods_done
+    wall_s = series(rows, "wall_s")
+    if not np.isfinite(wall_s).any():
+        return None
+    total_s, newton = float(np.nansum(wall_s)), float(np.nansum(series(rows, "newton_iterations")))
+    costs = (
+        f"{decimals(total_s, 1)} s in all, {number(1e3 * total_s / periods, 3)} ms and {number(newton / periods, 3)} "
+        f"Newton iterations a wave period, {number(1e6 * total_s / max(newton, 1.0), 3)} µs an iteration"
+    )
+    caption = f"Cost of each run: {costs}. Crosses: runs that ended early. From `table.csv`."
+    alt = f"Wall time and Newton iterations of each run over wave steepness: {costs}."
+    shown = [((columns["wall_s"], None),), ((columns["newton_iterations"], None),)]
+    return Figure(over_key(rows, columns["steepness"], shown, sweep.colours), caption, alt)
 
 
 def scene_and_modes(sweep: Sweep) -> list[Item]:
     """Every parameter with its source, and the closed forms that follow."""
     modes = sweep.modes
     varied = {"waves.steepness": ranges(sweep.values, [True] * len(sweep.values))}
-    if any(run.in_space for run in sweep.runs):
-        varied["motion.dimensions"] = listed(sorted({number(run["dimensions"]) for run in sweep.runs}))
-        if push := sweep.folder.provenance.get("push_mps"):
+    if sweep.runs_with(lambda run: run.in_space):
+        dimensions = np.unique(series(rows_of(sweep.runs), "dimensions"))
+        varied["motion.dimensions"] = listed(map(number, dimensions))
+        push = sweep.folder.provenance.get("push_mps")
+        if push:
             varied["start.buoy_velocity_mps"] = f"{number(push)} across the waves in three dimensions"
     items = scene_items(sweep.folder.scene, "tethered_buoy", varied)
     if modes:

@@ -86,10 +86,10 @@ def _scene(axes, snap: Snap) -> tuple[list, object]:
     from matplotlib.patches import Circle
 
     radius = 0.5 * snap.diameter_m
-    left, right = float(snap.x_m.min()) - radius - _MARGIN_M, float(snap.x_m.max()) + radius + _MARGIN_M
+    x_min, x_max = float(snap.x_m.min()) - radius - _MARGIN_M, float(snap.x_m.max()) + radius + _MARGIN_M
     top = max(float(snap.z_m.max()) + radius, float(snap.water[1].max())) + _MARGIN_M
-    margin = max(0.0, 0.5 * (_LEAST_WIDE * top - (right - left)))  # of a panel too narrow for the numbers below it
-    axes.set(xlim=(left - margin, right + margin), ylim=(min(float(snap.z_m.min()), 0.0) - 0.3, top), aspect="equal")
+    margin = max(0.0, 0.5 * (_LEAST_WIDE * top - (x_max - x_min)))  # of a panel too narrow for the numbers below it
+    axes.set(xlim=(x_min - margin, x_max + margin), ylim=(min(float(snap.z_m.min()), 0.0) - 0.3, top), aspect="equal")
     axes.set(xlabel="$x$ (m)", ylabel="$z$ (m)")
     (surface,) = axes.plot([], [], color=SKY, linewidth=1.2)
     (rope,) = axes.plot([], [], color=BLUE, linewidth=1.0)
@@ -115,15 +115,15 @@ def _tension(snap: Snap) -> Panel:
 def line_animation(time_s, s_m, x_m, z_m, tension_N) -> Picture:
     """The GIF: shape above, tension along the line below; times (m,), places (n,), the other arrays (m, n)."""
     with sheet(3.6) as figure:
-        shape, along = figure.subplots(2, 1)
+        shape, tension = figure.subplots(2, 1)
         (curve,) = shape.plot([], [], color=BLUE, linewidth=1.2)
         (end,) = shape.plot([], [], "o", color=VERMILION, markersize=4)
         shape.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
         shape.set(xlabel="$x$ (m)", ylabel="$z$ (m)", **_limits(x_m, z_m))
-        (pull,) = along.plot([], [], color=INK, linewidth=1.0)
+        (pull,) = tension.plot([], [], color=INK, linewidth=1.0)
         ends = min(1.05e-3 * float(tension_N.min()), -20.0), 1.08e-3 * float(tension_N.max())
         words = {"xlabel": "$s$ (m), unstretched, from the fixed end", "ylabel": "$T$ (kN)"}
-        along.set(xlim=(s_m[0], s_m[-1]), ylim=ends, **words)
+        tension.set(xlim=(s_m[0], s_m[-1]), ylim=ends, **words)
         clock = shape.set_title("t = 0 ms")
 
         def show(row: int) -> None:
@@ -147,5 +147,5 @@ def line_strip(time_s: np.ndarray, x_m: np.ndarray, z_m: np.ndarray) -> Picture:
 
 
 def _limits(x_m: np.ndarray, z_m: np.ndarray) -> dict[str, tuple[float, float]]:
-    ends = {"xlim": (x_m, 0.03), "ylim": (z_m, 0.1)}
-    return {name: (at.min() - room * np.ptp(at), at.max() + room * np.ptp(at)) for name, (at, room) in ends.items()}
+    x_room, z_room = 0.03 * np.ptp(x_m), 0.1 * np.ptp(z_m)
+    return {"xlim": (x_m.min() - x_room, x_m.max() + x_room), "ylim": (z_m.min() - z_room, z_m.max() + z_room)}

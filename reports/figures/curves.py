@@ -84,23 +84,26 @@ def draw(axes, panel: Panel) -> None:
             "rasterized": curve.pixels,
             "label": curve.name or "_",
         }
-        # marks of many points: an edge would make each of them larger
-        look |= {"markeredgewidth": 0.0} if curve.filled and curve.mark in ("o", "s", "^", "D", ".") else {}
+        if curve.filled and curve.mark in ("o", "s", "^", "D", "."):
+            look["markeredgewidth"] = 0.0  # marks of many points: an edge would make each of them larger
         if curve.band is not None:
             axes.fill_between(*curve.band, color=SKY, alpha=0.5, linewidth=0)
         if curve.error is None:
             axes.plot(curve.x, curve.y, **look)
         else:
             axes.errorbar(curve.x, curve.y, curve.error, elinewidth=0.8, capsize=1.5, **look)
-    for left, right, low, high, colour, hatch in panel.boxes:
-        face, edge = ("white", colour) if hatch else (colour, "white")
+    for x_low, x_high, y_low, y_high, colour, hatch in panel.boxes:
+        face, edge = colour, "white"
+        if hatch:
+            face, edge = "white", colour
         look = {"facecolor": face, "edgecolor": edge, "hatch": hatch, "linewidth": 0.3, "align": "edge"}
-        axes.bar(left, high - low, right - left, low, **look)
+        axes.bar(x_low, y_high - y_low, x_high - x_low, y_low, **look)
     for x, start, end, colour in panel.arrows:
         arrow = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.3, "shrinkA": 0.0, "shrinkB": 0.0}
         axes.annotate("", (x, end), (x, start), arrowprops=arrow)
     for x, y, text, colour in panel.texts:
-        look = {"ha": "center", "va": "center", "fontsize": 7.5 if len(text) == 1 else 6.5, "fontweight": "bold"}
+        size = 7.5 if len(text) == 1 else 6.5
+        look = {"ha": "center", "va": "center", "fontsize": size, "fontweight": "bold"}
         axes.text(x, y, text, color=colour, path_effects=[withStroke(linewidth=2.0, foreground="white")], **look)
     for axis in panel.log:
         getattr(axes, f"set_{axis}scale")("log")
@@ -151,9 +154,10 @@ def curves(
                 axes.set_visible(False)
             for axes, panel in zip(places, panels, strict=False):
                 draw(axes, panel)
-                entries = axes.get_legend_handles_labels()
-                handles |= {name: handle for handle, name in zip(*entries, strict=True) if name not in handles}
-                if entries[1] and legend not in ("", "below", "right"):
+                panel_handles, names = axes.get_legend_handles_labels()
+                for handle, name in zip(panel_handles, names, strict=True):
+                    handles.setdefault(name, handle)
+                if names and legend not in ("", "below", "right"):
                     axes.legend(loc=legend)
         if legend == "below" and handles:
             figure.legend(handles.values(), handles, loc="outside lower center", ncols=min(len(handles), 4))
@@ -165,8 +169,10 @@ def curves(
 
 def wide_limits(values: np.ndarray, least: float = 1e-9) -> tuple[float, float]:
     """Limits about the finite values, no narrower than `least`: a settled orbit looks like the points it is."""
+    low, high = 0.0, 0.0
     finite = values[np.isfinite(values)]
-    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+    if len(finite):
+        low, high = float(finite.min()), float(finite.max())
     middle, half = 0.5 * (low + high), max(0.56 * (high - low), 0.5 * least, 1e-9 * abs(high))
     return middle - half, middle + half
 

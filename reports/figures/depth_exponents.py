@@ -1,5 +1,7 @@
 """Exponent over a parameter of the scene, a panel for each pair of conditions: curves with errors, marked by regime."""
 
+from itertools import chain
+
 import numpy as np
 
 from ..parts.content import Picture
@@ -25,34 +27,54 @@ def depth_exponents(panels: list[list[tuple[str, list[Exponents]]]], label: str,
     Its values are evenly spaced, and curves beside each other, so that marks do not hide marks; with `log` both stay
     where they are, on a logarithmic axis.
     """
-    runs = [run for row in panels for _, series in row for _, members in series for run in members]
-    values, seen = sorted({run[0] for run in runs}), {kind_of(run[3]) for run in runs}
-    ticks = {} if log else {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
-    nothing = np.empty(0)
-    key = [Curve(nothing, nothing, kind or "no verdict", "", MARKS[kind], INK) for kind in MARKS if kind in seen]
+    values, key = _places_and_key(panels)
+    axis, ticks = "x", {}
+    if not log:
+        axis, ticks = "", {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
     rows = []
     for row in panels:
         drawn = []
         for title, series in row:
             lines = []
             for k, (name, members) in enumerate(series):
-                aside = BESIDE * (k - 0.5 * (len(series) - 1))
-                at = [run[0] if log else values.index(run[0]) + aside for run in members]
-                look = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
-                lines += _drawn(name, np.array(at, dtype=float), members, *look)
-            exponent = r"$\sigma$ (bits per $T_i$)" if not drawn else ""
-            below = label if row is panels[-1] else ""
-            drawn.append(Panel([*lines, *key], below, exponent, title, "x" if log else "", 0.0, ticks))
+                at = np.array([run[0] for run in members], dtype=float)
+                if not log:
+                    at = np.searchsorted(values, at) + BESIDE * (k - 0.5 * (len(series) - 1))
+                lines += _drawn(name, at, members, COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)])
+            exponent = "" if drawn else r"$\sigma$ (bits per $T_i$)"
+            x_label = label if row is panels[-1] else ""
+            drawn.append(Panel([*lines, *key], x_label, exponent, title, axis, 0.0, ticks))
         rows.append(drawn)
     return curves(rows, 2.1 * len(rows) + 0.7, "below", "xy")
 
 
+def _places_and_key(panels: list[list[tuple[str, list[Exponents]]]]) -> tuple[list[float], list[Curve]]:
+    """The values of the parameter in all panels; what the marks mean, as curves without points for the legend."""
+    places, kinds = set(), set()
+    for _, series in chain.from_iterable(panels):
+        for _, members in series:
+            for place, _, _, regime in members:
+                places.add(place)
+                kinds.add(kind_of(regime))
+    entries, nothing = [], np.empty(0)
+    for kind, mark in MARKS.items():
+        if kind in kinds:
+            entries.append(Curve(nothing, nothing, kind or "no verdict", "", mark, INK))
+    return sorted(places), entries
+
+
 def _drawn(name: str, at: np.ndarray, runs: list, colour: str, dash: str) -> list[Curve]:
     """The line with its error bars, and the marks of its regimes."""
-    value, error = (np.array([run[k] for run in runs], dtype=float) for k in (1, 2))
-    kinds = np.array([kind_of(run[3]) for run in runs], dtype=object)
-    lines = [Curve(at, value, name, dash, "", colour, error)]
+    values, errors, kinds = [], [], []
+    for _, exponent, error, regime in runs:
+        values.append(exponent)
+        errors.append(error)
+        kinds.append(kind_of(regime))
+    values, errors, kinds = np.array(values, float), np.array(errors, float), np.array(kinds, object)
+    lines = [Curve(at, values, name, dash, "", colour, errors)]
     for kind, mark in MARKS.items():
-        if (chosen := kinds == kind).any():
-            lines.append(Curve(at[chosen], value[chosen], "", "", mark, colour, size=7.0 if mark == "*" else 4.5))
+        chosen = kinds == kind
+        if chosen.any():
+            size = 7.0 if mark == "*" else 4.5
+            lines.append(Curve(at[chosen], values[chosen], "", "", mark, colour, size=size))
     return lines

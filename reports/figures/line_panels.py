@@ -72,29 +72,33 @@ def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]
     """
     bounds = []
     for panel in panels:
-        pair = [
-            other_panel
-            for other_panel in panels
-            if column == "z_m" or (other_panel.case[0] in "12") == (panel.case[0] in "12")
-        ]
-        least, largest = (
-            min(float(other_panel.y.min()) for other_panel in pair),
-            max(float(other_panel.y.max()) for other_panel in pair),
-        )
-        below, above = (margin * (largest - least) for margin in MARGINS[column])
-        low, high = least - below, largest + above
+        least, largest, force_N = np.inf, -np.inf, 0.0
+        for neighbour in panels:
+            if column == "z_m" or _scale_of(neighbour) == _scale_of(panel):
+                least = min(least, float(neighbour.y.min()))
+                largest = max(largest, float(neighbour.y.max()))
+                force_N = max(force_N, neighbour.force_N)
+        below, above = MARGINS[column]
+        low, high = least - below * (largest - least), largest + above * (largest - least)
         if column == "tension_N":
-            force_N = max(other_panel.force_N for other_panel in pair)
             low, high = min(low, TENSIONS[0] * force_N), max(high, TENSIONS[1] * force_N)
         bounds.append((low, high))
     return bounds
 
 
+def _scale_of(panel: LinePanel) -> str:
+    """The cases that share a scale with that of the panel: "12" or "34"."""
+    return "12" if panel.case[0] in "12" else "34"
+
+
 def seen(panels: Sequence[LinePanel], column: str) -> str:
     """The least and the largest value of all panels, in words."""
-    ends = min(panel.y.min() for panel in panels), max(panel.y.max() for panel in panels)
-    low, high = (number(float(end), 2) if column == "z_m" else thousands(float(end)) for end in ends)
-    return f"{low} to {high} {QUANTITIES[column][2]}"
+    low = float(min(panel.y.min() for panel in panels))
+    high = float(max(panel.y.max() for panel in panels))
+    unit = QUANTITIES[column][2]
+    if column == "z_m":
+        return f"{number(low, 2)} to {number(high, 2)} {unit}"
+    return f"{thousands(low)} to {thousands(high)} {unit}"
 
 
 def named(case: str) -> str:

@@ -56,8 +56,9 @@ def front_speeds(strain: np.ndarray, speed_mps: np.ndarray, measured: list[tuple
     lines = [Curve(100 * strain, speed_mps, r"$\sqrt{T'/m}$", colour=INK, width=1.0)]
     for name, at, speeds in measured:
         slow = name.endswith("′")
-        mark, colour = (_SLOW if slow else _MARKS)[(int(name[0]) - 1) % 4]
-        lines.append(Curve(100 * at, speeds, name, "", mark, colour, size=6 if slow else 3.5, filled=not slow))
+        marks, size = (_SLOW, 6) if slow else (_MARKS, 3.5)
+        mark, colour = marks[(int(name[0]) - 1) % 4]
+        lines.append(Curve(100 * at, speeds, name, "", mark, colour, size=size, filled=not slow))
     return curves([[Panel(lines, "strain (%)", "speed of the contour (m/s)")]], 2.9, "lower right")
 
 

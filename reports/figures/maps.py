@@ -35,14 +35,17 @@ def maps(places: tuple[np.ndarray, np.ndarray], labels: tuple[str, str], shown: 
             words = shown_map.cells.dtype.kind in "UO"
             known = shown_map.cells != "" if words else np.isfinite(shown_map.cells)
             if words:
-                named = sorted({str(word) for word in shown_map.cells[known]})
-                free_colours = iter(_OTHERS * (1 + len(named) // len(_OTHERS)))
-                colours = [REGIME_COLOURS.get(word) or next(free_colours) for word in named]
-                numbers = np.array([[named.index(word) if word else -1 for word in row] for row in shown_map.cells])
-                norm = BoundaryNorm(np.arange(len(named) + 1) - 0.5, max(len(named), 1))
+                names = sorted(set(map(str, shown_map.cells[known])))
+                free_colours = iter(_OTHERS * (1 + len(names) // len(_OTHERS)))
+                numbers, colours, handles = np.full(shown_map.cells.shape, -1), [], []
+                for place, name in enumerate(names):
+                    colour = REGIME_COLOURS.get(name) or next(free_colours)
+                    numbers[shown_map.cells == name] = place
+                    colours.append(colour)
+                    handles.append(Patch(facecolor=colour, label=name))
+                norm = BoundaryNorm(np.arange(len(names) + 1) - 0.5, max(len(names), 1))
                 look = {"cmap": ListedColormap(colours), "norm": norm}
                 axes.imshow(np.ma.masked_less(numbers, 0), origin="lower", aspect="auto", **look)
-                handles = [Patch(facecolor=colour, label=word) for colour, word in zip(colours, named, strict=True)]
                 axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.0)
             else:
                 image = axes.imshow(

@@ -26,24 +26,28 @@ def spectrum_panels(
     lines: Sequence[Curve], highest_radps: float, labels: tuple[str, str], marks: Sequence[tuple[float, str]]
 ) -> list[Panel]:
     """Amplitudes over omega up to highest_radps, linear with named marks, and logarithmic; labels: of x and y."""
-    near = lines[0].x <= highest_radps
-    lines = [replace(line, x=line.x[near], y=line.y[near]) for line in lines]
+    shown = lines[0].x <= highest_radps
+    lines = [replace(line, x=line.x[shown], y=line.y[shown]) for line in lines]
     everything = np.concatenate([line.y for line in lines])
     limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * max(float(everything.max()), 1e-12))}
     decades = limits | {"ylim": log_limits(everything)}
+    nameless = [(at, "") for at, _ in marks]
     linear = Panel(lines, *labels, settings=limits, marks=marks)
-    return [linear, Panel(lines, labels[0], log="y", settings=decades, marks=[(at, "") for at, _ in marks])]
+    return [linear, Panel(lines, labels[0], log="y", settings=decades, marks=nameless)]
 
 
 def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:
     """Four decades at most below the peak; a spectrum of zeros keeps matplotlib's own limits."""
     peak = float(amplitude.max())
-    return (max(peak * 1e-4, float(amplitude[amplitude > 0].min()) * 0.5), peak * 3) if peak > 0 else (None, None)
+    if peak <= 0:
+        return None, None
+    least = float(amplitude[amplitude > 0].min())
+    return max(peak * 1e-4, least * 0.5), peak * 3
 
 
 def settled(series: Sequence[np.ndarray]) -> tuple[float, float]:
     """Limits that show 0 and what the curves (m,) do after their first tenth, in which they jump about."""
-    late = np.concatenate([*(bits[len(bits) // 10 :] for bits in series), np.zeros(1)])
+    late = np.concatenate([bits[len(bits) // 10 :] for bits in series] + [np.zeros(1)])
     margin = 0.15 * max(float(np.ptp(late)), 0.02)
     return float(late.min()) - margin, float(late.max()) + margin
 
@@ -54,18 +58,18 @@ def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarra
     Args: x (n,) increasing, y (n,). Returns x, y of at most 2*bins points; a shorter record comes back as it is.
     Every extreme of y is kept, which simple thinning would lose.
     """
-    index = _kept(y, bins=bins)
+    index = _extremes(y, bins)
     return x[index], y[index]
 
 
-def _kept(*curves: np.ndarray, bins: int = _BINS) -> np.ndarray:
-    """Where any of the curves, (n,) each, has its least or greatest value within one of `bins` equal spans."""
-    n = len(curves[0])
+def _extremes(values: np.ndarray, bins: int) -> np.ndarray:
+    """Where the values (n,) have their least or greatest value within one of `bins` equal spans."""
+    n = len(values)
     if n <= 2 * bins:
         return np.arange(n)
     indices: set[int] = set()
     for first, end in pairwise(np.linspace(0, n, bins + 1).astype(int)):
-        for part in (curve[first:end] for curve in curves):
-            if np.isfinite(part).any():
-                indices.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
+        part = values[first:end]
+        if np.isfinite(part).any():
+            indices.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
     return np.array(sorted(indices), dtype=int)

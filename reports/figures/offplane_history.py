@@ -39,8 +39,9 @@ def lateral_histories(panels: list[tuple[str, list[History]]], kind: str = "svg"
                 Curve(run.envelope_periods[drawn], levels[-1], run.label, dashes, colour=colour, width=1.1),
                 Curve(run.periods[[0, -1]], np.full(2, run.inplane_m), INPLANE, ":", colour=colour, width=1.0),
             ]
-        low, high = (end(np.concatenate(levels)) for end in (np.min, np.max))
-        top = np.nanmax([high, *(run.inplane_m for run in runs)])
+        all_levels = np.concatenate(levels)
+        low, high = np.min(all_levels), np.max(all_levels)
+        top = np.nanmax([high] + [run.inplane_m for run in runs])
         limits = {"ylim": (low / 10**_DECADES_BELOW, 4.0 * top), "xmargin": 0.01}
         x_label = r"$t/T_i$ (wave periods)" if len(rows) == len(panels) - 1 else ""
         rows.append([Panel(lines, x_label, label, log="y", settings=limits, **further)])
@@ -70,14 +71,16 @@ def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]], k
     """
     from matplotlib import colormaps
 
-    shades = [colormaps["viridis"](0.85 * k / max(len(moments) - 1, 1)) for k in range(len(moments))]
     panels = []
     for title, across, up in (("from the side", "x", "z"), ("along x", "y", "z"), ("from above", "x", "y")):
         lines = []
-        for (label, *places), shade in zip(moments, shades, strict=True):
-            horizontal, vertical = (places["xyz".index(letter)] for letter in (across, up))
+        for k, (label, *places) in enumerate(moments):
+            shade = colormaps["viridis"](0.85 * k / max(len(moments) - 1, 1))
+            horizontal, vertical = places["xyz".index(across)], places["xyz".index(up)]
             lines.append(Curve(horizontal, vertical, label, mark=".", colour=shade, size=2.0, width=0.8))
             lines.append(Curve(horizontal[-1:], vertical[-1:], line="", mark="o", colour=shade, size=5.0))
-        true = {"aspect": "equal", "adjustable": "datalim"} if title == "from the side" else {}
-        panels.append(Panel(lines, f"${across}$ (m)", f"${up}$ (m)", title, settings=true, ticks=4))
+        settings = {}
+        if title == "from the side":
+            settings = {"aspect": "equal", "adjustable": "datalim"}
+        panels.append(Panel(lines, f"${across}$ (m)", f"${up}$ (m)", title, settings=settings, ticks=4))
     return curves([panels], 3.6, "below", kind=kind)

@@ -26,6 +26,7 @@ _BETWEEN = "not judged"
 _HATCHES = {"quasi-periodic": "////", "chaotic": "xxxxxx", "transient": "....", "undecided": "---"}  # of words
 
 Motions = Mapping[str, tuple[str, str]]  # letter -> its colour, what the legend says of it
+Span = tuple[str, float, float]  # a word, and where on the axis it begins and ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,13 +72,23 @@ def orbit_diagram(
     """
     judged = [column for column in columns if column.word]
     at = np.array([column.at for column in columns])
-    words = {letter: _words(judged, letter) for letter in motions or [""] if judged}
-    bars = [*words.values(), *(_spans(at, column.holds, column.text) for column in ranges)]
-    bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if motions else (_BAR_IN, _MAIN_IN)
-    main_in = _MAIN_OF_ORBITS_IN if orbits else main_in
-    heights = [*([bar_in] * len(bars)), main_in, *(_LOWER_IN * column.height for column in below)]
+    words: dict[str, list[Span]] = {}  # letter, "" in a sweep of one motion -> the bar of its words
+    if judged:
+        for letter in motions or [""]:
+            words[letter] = _words(judged, letter)
+    range_bars = [_spans(at, part.holds, part.text) for part in ranges]
+    bar_in, main_in = _BAR_IN, _MAIN_IN
+    if motions:
+        bar_in, main_in = _BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN
+    if orbits:
+        main_in = _MAIN_OF_ORBITS_IN
+    bars = len(words) + len(range_bars)
+    heights = [bar_in] * bars + [main_in]
+    for panel in below:
+        heights.append(_LOWER_IN * panel.height)
     legend = _legend(judged, len(judged) < len(columns), motions, int(width_in / _NAMED))
-    legend += [[]] if orbits else []
+    if orbits:
+        legend.append([])
     top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
     height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
     with sheet(height_in, width_in) as figure:
@@ -86,23 +97,26 @@ def orbit_diagram(
             left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,
             top=1 - top_in / height_in,
         )  # fmt: skip
-        top = figure.add_subplot(grid[len(bars)])
-        lower = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars) + 1, len(heights))]
+        top = figure.add_subplot(grid[bars])
+        lower = [figure.add_subplot(grid[place], sharex=top) for place in range(bars + 1, len(heights))]
         lowest = (top, *lower)[-1]
-        places = np.concatenate([[column.at for column in columns], missing, *(column.x for column in orbits)])
+        places = np.concatenate([at, missing, *(orbit.x for orbit in orbits)])
         places = places[np.isfinite(places)]
-        span, small = float(np.ptp(places)), None if orbits else _small(columns, bool(motions))
+        small = None if orbits else _small(columns, bool(motions))
         left_in = _NUMBERS_IN if small else _EDGE_IN
-        inch = (width_in - _LEFT_IN - _RIGHT_IN - left_in - _EDGE_IN) / (span or 0.04 * abs(float(at[0])) or 0.04)
+        span = float(np.ptp(places)) or 0.04 * abs(float(at[0])) or 0.04
+        inch = (width_in - _LEFT_IN - _RIGHT_IN - left_in - _EDGE_IN) / span
         top.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)  # inch: of the parameter
-        above = [figure.add_subplot(grid[place], sharex=top) for place in range(len(bars))]
+        above = [figure.add_subplot(grid[place], sharex=top) for place in range(bars)]
         for axes, (letter, spans) in zip(above, words.items(), strict=False):
-            _told(axes, spans, inch, letter, motions[letter][0] if motions else "")
-        for place, spans in enumerate(bars[len(words) :]):
-            _range(above[len(words) + place], spans, inch)
+            colour = motions[letter][0] if motions else ""
+            _word_bar(axes, spans, inch, letter, colour)
+        for axes, spans in zip(above[len(words) :], range_bars, strict=True):
+            _range_bar(axes, spans, inch)
+        for shade, spans in zip(SHADES, range_bars, strict=False):
             for axes in (top, *lower):
-                for _, low, high in spans if place < len(SHADES) else ():
-                    axes.axvspan(low, high, color=SHADES[place], linewidth=0)
+                for _, low, high in spans:
+                    axes.axvspan(low, high, color=shade, linewidth=0)
         _points(top, columns, inch, motions)
         if orbits:
             draw(top, Panel(orbits))
@@ -124,9 +138,10 @@ def orbit_diagram(
         lowest.set_xlabel(labels[0])
         tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1, "fontsize": 6.5}
         for row, handles in enumerate(legend):
-            place = {"loc": "upper left", "bbox_to_anchor": (0.0, 1.0 - _LEGEND_IN * row / height_in)}
-            longer = {"handlelength": 1.9} if orbits and handles is legend[-1] else {}  # a dash is no dashed line
-            figure.legend(handles=handles, ncols=len(handles), **(tight | place | longer))
+            look = tight | {"loc": "upper left", "bbox_to_anchor": (0.0, 1.0 - _LEGEND_IN * row / height_in)}
+            if orbits and handles is legend[-1]:
+                look["handlelength"] = 1.9  # a dash is no dashed line
+            figure.legend(handles=handles, ncols=len(handles), **look)
         for axes in (top, *lower):  # one below the other, left of the widest numbers
             axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
         return picture_of(figure)
@@ -135,12 +150,13 @@ def orbit_diagram(
 def cell_edges(at: np.ndarray) -> np.ndarray:
     """Edges (p + 1,) of the cells of sorted values (p,), half-way to their neighbours."""
     if len(at) < 2:
-        return np.array([at[0] - 0.01 * (abs(at[0]) or 1.0), at[0] + 0.01 * (abs(at[0]) or 1.0)])
+        half = 0.01 * (abs(at[0]) or 1.0)
+        return np.array([at[0] - half, at[0] + half])
     middles = 0.5 * (at[1:] + at[:-1])
     return np.concatenate([[at[0] - (middles[0] - at[0])], middles, [at[-1] + (at[-1] - middles[-1])]])
 
 
-def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[tuple[str, float, float]]:
+def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[Span]:
     """(word, low, high) of every run of equal neighbours; a word that is no text stands for `text`, or for nothing."""
     edges, spans, first = cell_edges(at), [], 0
     for word, group in groupby(words):
@@ -151,13 +167,14 @@ def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[tuple[str, f
     return spans
 
 
-def _words(judged: Sequence[Column], motion: str) -> list[tuple[str, float, float]]:
+def _words(judged: Sequence[Column], motion: str) -> list[Span]:
     """The spans of the words of a motion; none where a value has it not."""
-    at, words_at = (
-        np.unique([column.at for column in judged]),
-        {column.at: column.word for column in judged if column.motion == motion},
-    )
-    return _spans(at, [words_at.get(value, "") for value in at])
+    words = dict.fromkeys((column.at for column in judged), "")
+    for column in judged:
+        if column.motion == motion:
+            words[column.at] = column.word
+    at = sorted(words)
+    return _spans(np.array(at), [words[value] for value in at])
 
 
 def _kind(word: str) -> str:
@@ -171,37 +188,48 @@ def _legend(judged: Sequence[Column], outside: bool, motions: Motions | None, wi
 
     if not judged:
         return []
-    named = {kind: kind.replace(_PERIOD, "periodic") for kind in dict.fromkeys(_kind(column.word) for column in judged)}
-    if motions:
-        patches = [Patch(color=colour, label=f"{letter}: {title}") for letter, (colour, title) in motions.items()]
-        rows = [patches[first : first + wide] for first in range(0, len(patches), wide)]
-        return [*rows, [Patch(**_hatched(kind, SOFT), label=name) for kind, name in named.items()]]
-    row = [Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in named.items()]
-    return [[*row, *([Patch(color=_NEUTRAL, label=_BETWEEN)] if outside else [])]]
+    names = {}
+    for column in judged:
+        kind = _kind(column.word)
+        names[kind] = kind.replace(_PERIOD, "periodic")
+    if not motions:
+        row = [Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in names.items()]
+        if outside:
+            row.append(Patch(color=_NEUTRAL, label=_BETWEEN))
+        return [row]
+    patches = [Patch(color=colour, label=f"{letter}: {title}") for letter, (colour, title) in motions.items()]
+    rows = []
+    for first in range(0, len(patches), wide):
+        rows.append(patches[first : first + wide])
+    rows.append([Patch(**_hatched(kind, SOFT), label=name) for kind, name in names.items()])
+    return rows
 
 
 def _hatched(kind: str, colour: str) -> dict[str, object]:
     """How a kind of motion looks in a colour: filled, or hatched on white."""
     hatch = _HATCHES.get(kind, "")
-    return {"facecolor": "white" if hatch else colour, "edgecolor": colour, "hatch": hatch, "linewidth": 0.5}
+    face = "white" if hatch else colour
+    return {"facecolor": face, "edgecolor": colour, "hatch": hatch, "linewidth": 0.5}
 
 
-def _told(axes, spans, inch: float, letter: str, colour: str) -> None:
+def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str) -> None:
     """Words as a bar with numbers of periods: in their colours, or hatched in that of a motion, its letter beside."""
     axes.axis("off")
     axes.set_ylim(0.0, 1.0)
     look = {"va": "center", "fontsize": 7.0}
     for word, low, high in spans:
         kind, number_text = _kind(word), word.removeprefix(_PERIOD)
-        plain = {"facecolor": colour or REGIME_COLOURS[kind], "edgecolor": "white", "linewidth": 0.7}
-        axes.axvspan(low, high, **(_hatched(kind, colour) if colour and kind in _HATCHES else plain))
+        filling = {"facecolor": colour or REGIME_COLOURS[kind], "edgecolor": "white", "linewidth": 0.7}
+        if colour and kind in _HATCHES:
+            filling = _hatched(kind, colour)
+        axes.axvspan(low, high, **filling)
         if kind == _PERIOD and (high - low) * inch > _LETTER_IN * len(number_text):
             axes.text(0.5 * (low + high), 0.45, number_text, color="white", ha="center", **look)
     if letter:
         axes.text(-0.008, 0.45, letter, transform=axes.transAxes, color=colour, ha="right", weight="bold", **look)
 
 
-def _range(axes, spans, inch: float) -> None:
+def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     """Spans as a bar of one shade, with its text once."""
     axes.axis("off")
     axes.set_ylim(0.0, 1.0)
@@ -211,11 +239,16 @@ def _range(axes, spans, inch: float) -> None:
     if not spans:
         return
     text, low, high = max(spans, key=lambda span: span[2] - span[1])
-    left, right = axes.get_xlim()
+    x_min, x_max = axes.get_xlim()
     wide = _LETTER_IN * len(text) / inch
-    place, side = (0.5 * (low + high), "center") if high - low > wide else (low, "right")
-    if side == "right" and low - left < wide:
-        place, side = (high, "left") if right - high > wide else (left, "left")
+    if high - low > wide:
+        place, side = 0.5 * (low + high), "center"
+    elif low - x_min >= wide:
+        place, side = low, "right"
+    elif x_max - high > wide:
+        place, side = high, "left"
+    else:
+        place, side = x_min, "left"
     axes.text(place, 0.45, text, ha=side, **look)
 
 
@@ -223,21 +256,29 @@ def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | Non
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
-    for word, motion in sorted({(column.word, column.motion) for column in columns}):
-        members = [column for column in columns if (column.word, column.motion) == (word, motion)]
-        x, y = (
-            np.repeat([column.at for column in members], [len(column.points) for column in members]),
-            [column.points for column in members],
-        )
-        wide, thick, alpha = (1.6, 1.1 if word.startswith(_PERIOD) else 0.45, 0.8) if word else (0.9, 0.7, 0.8)
+    groups: dict[tuple[str, str], list[Column]] = {}
+    for column in columns:
+        groups.setdefault((column.word, column.motion), []).append(column)
+    for (word, motion), members in sorted(groups.items()):
+        x, y = [], []
+        for column in members:
+            x.append(np.full(len(column.points), column.at))
+            y.append(column.points)
+        wide, thick, alpha = 1.6, 0.45, 0.8
+        if word.startswith(_PERIOD):
+            thick = 1.1
+        elif not word:
+            wide, thick = 0.9, 0.7
         if motions:
             colour, _ = motions.get(motion, (_NEUTRAL, ""))
-        elif len(members) == len(columns) and not word:
+        elif word:
+            colour = REGIME_COLOURS[_kind(word)]
+        elif len(members) == len(columns):
             colour, thick, alpha = INK, 0.45, 0.5
         else:
-            colour = REGIME_COLOURS[_kind(word)] if word else _NEUTRAL
+            colour = _NEUTRAL
         look = {"markersize": min(max(wide * room, 1.2), 6.0), "markeredgewidth": thick, "rasterized": True}
-        axes.plot(x, np.concatenate(y), "_", color=colour, alpha=alpha, **look)
+        axes.plot(np.concatenate(x), np.concatenate(y), "_", color=colour, alpha=alpha, **look)
 
 
 def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tuple[float, float], float] | None:
@@ -245,32 +286,33 @@ def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tupl
     and where in the panel there is more room for them, 0 below and 1 above; None where there are not many.
     """
     filled = [column for column in columns if len(column.points)]
-    points = {
-        at: np.concatenate([column.points for column in members])
-        for at, members in groupby(filled, key=attrgetter("at"))
-    }
-    at, least, largest = [*points], [*map(np.min, points.values())], [*map(np.max, points.values())]
+    at, least, largest = [], [], []
+    for value, members in groupby(filled, key=attrgetter("at")):
+        points = np.concatenate([column.points for column in members])
+        at.append(value)
+        least.append(np.min(points))
+        largest.append(np.max(points))
     low, high = np.minimum.accumulate(least), np.maximum.accumulate(largest)
     number = int(np.sum(high - low < _SMALL * (max(largest) - min(least)))) - several  # so that no dash is half hidden
     if number < 2 or number == len(at) or at[number - 1] - at[0] < _LEAST_WIDE * (at[-1] - at[0]):
         return None
     ends, last = (float(low[number - 1]), float(high[number - 1])), at[number - 1]
-    return (
-        [column for column in filled if column.at <= last],
-        ends,
-        float(max(largest) - ends[1] > ends[0] - min(least)),
-    )
+    members = [column for column in filled if column.at <= last]
+    above = float(max(largest) - ends[1] > ends[0] - min(least))
+    return members, ends, above
 
 
 def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: float, inch: float, motions) -> None:
     """The columns again, over the same parameter, in what is blank below or above them."""
-    (bottom, top), (left, right) = axes.get_ylim(), axes.get_xlim()
+    (bottom, top), (x_min, x_max) = axes.get_ylim(), axes.get_xlim()
     edges, room = cell_edges(np.unique([column.at for column in columns])), 0.12 * (top - bottom)
-    low, high = (ends[1] + room, top - 0.3 * room) if above else (bottom + 0.3 * room, ends[0] - room)
-    place = (0.0, (low - bottom) / (top - bottom), (edges[-1] - left) / (right - left), (high - low) / (top - bottom))
-    inner = axes.inset_axes(place)
+    low, high = bottom + 0.3 * room, ends[0] - room
+    if above:
+        low, high = ends[1] + room, top - 0.3 * room
+    width = (edges[-1] - x_min) / (x_max - x_min)
+    inner = axes.inset_axes((0.0, (low - bottom) / (top - bottom), width, (high - low) / (top - bottom)))
     _points(inner, columns, inch, motions)
-    inner.set_xlim(left, edges[-1])
+    inner.set_xlim(x_min, edges[-1])
     inner.tick_params(labelbottom=False, bottom=False, direction="in", length=2, pad=-4, labelsize=6.0)
     for label in inner.get_yticklabels():
         label.set_horizontalalignment("left")

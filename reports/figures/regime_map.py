@@ -41,8 +41,8 @@ class Cells:
             edges.append(low + span * shares)
             places.append(place.reshape(pair.shape))
         top = np.full((len(edges[1]) - 1, len(edges[0]) - 1), -1)
-        for cell, (left, right, low, high) in enumerate(np.hstack(places)):
-            top[low:high, left:right] = cell
+        for cell, (x_low, x_high, y_low, y_high) in enumerate(np.hstack(places)):
+            top[y_low:y_high, x_low:x_high] = cell
         return *edges, top
 
     def areas(self) -> np.ndarray:
@@ -101,16 +101,18 @@ def regime_maps(
         for axes in grid[:, 0]:
             axes.set_ylabel(labels[1])
         if legend:
-            handles, side = [_handle(look, text) for look, text in legend], "upper" if width_in == WIDTH_IN else "lower"
+            handles = [_handle(look, text) for look, text in legend]
+            side = "upper" if width_in == WIDTH_IN else "lower"
             figure.legend(handles=handles, loc=f"outside {side} left", ncols=entries, handlelength=1.4)
         picture = picture_of(figure, kind)
-        places = tuple(_place(axes, regime_map) for axes, regime_map in zip(grid.flat, shown, strict=False))
+        places = tuple(map(_place, grid.flat, shown))
     return picture, places
 
 
 def _place(axes, regime_map: Map) -> MapPlace:
-    left, low, across, high = axes.get_position().bounds
-    return MapPlace((left, 1.0 - low - high, across, high), (*axes.get_xlim(), *axes.get_ylim()), regime_map.page)
+    x, y, width, height = axes.get_position().bounds
+    ends = (*axes.get_xlim(), *axes.get_ylim())
+    return MapPlace((x, 1.0 - y - height, width, height), ends, regime_map.page)
 
 
 def _drawn(axes, regime_map: Map, marks) -> None:
@@ -127,8 +129,10 @@ def _drawn(axes, regime_map: Map, marks) -> None:
     small = shown[(known & regime_map.cells.dots)[shown]]
     corners = _corners(regime_map.cells.boxes[small], _DOT)
     axes.add_collection(PolyCollection(corners, facecolors=colours[small], linewidths=0, rasterized=True))
-    for hatch, hatched in zip(HATCHES, regime_map.cells.hatched.values() if regime_map.limited else (), strict=False):
-        parts = [Path(part, closed=True) for part in _corners(_runs(x, y, hatched[top] & (top >= 0)), 1.0)]
+    hatched_cells = regime_map.cells.hatched.values() if regime_map.limited else ()
+    for hatch, hatched in zip(HATCHES, hatched_cells, strict=False):
+        boxes = _runs(x, y, hatched[top] & (top >= 0))
+        parts = [Path(outline, closed=True) for outline in _corners(boxes, 1.0)]
         if parts:
             look = {"facecolor": "none", "edgecolor": INK, "hatch": hatch, "linewidth": 0.0, "hatch_linewidth": 0.35}
             axes.add_patch(PathPatch(Path.make_compound_path(*parts), **look))
@@ -141,10 +145,12 @@ def _drawn(axes, regime_map: Map, marks) -> None:
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=regime_map.title)
     axes.locator_params(nbins=6)
     axes.grid(False)
-    for values, edges, mark in zip(marks, (x, y), "^>", strict=True):
-        for value in (regime_map for regime_map in values if edges[0] <= regime_map <= edges[-1]):
-            place = (value, y[0]) if mark == "^" else (x[0], value)
-            axes.plot(*place, mark, **_MARK)
+    for value in marks[0]:
+        if x[0] <= value <= x[-1]:
+            axes.plot(value, y[0], "^", **_MARK)
+    for value in marks[1]:
+        if y[0] <= value <= y[-1]:
+            axes.plot(x[0], value, ">", **_MARK)
 
 
 _MARK = {"color": "white", "markeredgecolor": INK, "markersize": 5.5, "markeredgewidth": 0.9, "clip_on": False}
@@ -158,17 +164,23 @@ def _written(axes, regime_map: Map, x: np.ndarray, y: np.ndarray, top: np.ndarra
 
     halo = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "weight": "bold"}
     if regime_map.texts is not None:
-        at = [np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2] for edges in (x, y)]
-        rows, columns = (np.searchsorted(edges, middle) - 1 for edges, middle in zip((y, x), at[::-1], strict=True))
+        even_x, even_y = _middles(x), _middles(y)
+        rows, columns = np.searchsorted(y, even_y) - 1, np.searchsorted(x, even_x) - 1
         even = top[np.ix_(rows, columns)]
-        for text in sorted({text for text in regime_map.texts if text}):
+        for text in sorted(set(regime_map.texts) - {""}):
             regions, count = label((regime_map.texts == text)[even] & (even >= 0))
             for region in range(1, count + 1):
                 place = widest(regions == region, _LEAST)
                 if place is not None:
-                    axes.text(at[0][place[1]], at[1][place[0]], text, ha="center", va="center", fontsize=9, **halo)
+                    row, column = place
+                    axes.text(even_x[column], even_y[row], text, ha="center", va="center", fontsize=9, **halo)
     if regime_map.star is not None:
         axes.plot(*regime_map.cells.boxes[regime_map.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
+
+
+def _middles(edges: np.ndarray) -> np.ndarray:
+    """The middles of `_FINE` equal spans between the first and the last edge."""
+    return np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2]
 
 
 def _scale(figure, axes, colours, norm, ticks) -> None:
@@ -215,7 +227,12 @@ def _borders(x: np.ndarray, y: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarra
     level, upright = _runs(x, y, _differ(kinds)), _runs(y, x, _differ(kinds.T))
     across = np.concatenate([level[:, :2], upright[:, [2, 2]]])
     up = np.concatenate([level[:, [2, 2]], upright[:, :2]])
-    return tuple(np.pad(ends, ((0, 0), (0, 1)), constant_values=np.nan).ravel() for ends in (across, up))
+    return _with_gaps(across), _with_gaps(up)
+
+
+def _with_gaps(ends: np.ndarray) -> np.ndarray:
+    """The ends (m, 2) of lines, one after the other with nan behind each."""
+    return np.pad(ends, ((0, 0), (0, 1)), constant_values=np.nan).ravel()
 
 
 def _differ(kinds: np.ndarray) -> np.ndarray:

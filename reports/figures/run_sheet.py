@@ -52,8 +52,8 @@ def run_sheet(
         history = _banded(periods, low, high, bins)
         larger = _banded(periods[end], low[end], high[end], bins // 2)
         panels = Panel([history], below, name, name, settings=limits), Panel([larger], below, settings=limits), right
-        for (left, wide), panel in zip(_COLUMNS, panels, strict=True):
-            parts.append(_drawn(panel, left, wide, _TOP + row * _PITCH))
+        for (left_edge, wide), panel in zip(_COLUMNS, panels, strict=True):
+            parts.append(_drawn(panel, left_edge, wide, _TOP + row * _PITCH))
     return "".join([*parts, "</svg>"])
 
 
@@ -94,10 +94,10 @@ def _exponent(periods: np.ndarray, bits: np.ndarray) -> Panel:
     return Panel([Curve(periods, np.clip(bits, *limits))], "", title, title, level=0.0, settings={"ylim": limits})
 
 
-def _drawn(panel: Panel, left: int, wide: int, top: int) -> str:
+def _drawn(panel: Panel, left_edge: int, wide: int, top: int) -> str:
     """A panel in its place: its title alone where it has no curve; without y label no numbers stand beside it."""
     if not panel.curves:
-        return _text(left, top + 40, panel.title)
+        return _text(left_edge, top + 40, panel.title)
     curve, low = panel.curves[0], top + _HEIGHT
     (x0, x1), (y0, y1) = panel.settings.get("xlim", curve.x[[0, -1]]), panel.settings["ylim"]
     scale = np.array([wide / (x1 - x0), -_HEIGHT / (y1 - y0)])
@@ -106,24 +106,27 @@ def _drawn(panel: Panel, left: int, wide: int, top: int) -> str:
         return np.rint(_FINE * scale * (np.column_stack([x, y]) - (x0, y1))).astype(int)
 
     def path(kind: str, steps: str) -> str:
-        return f'<path class="{kind}" transform="translate({left} {top})scale({1 / _FINE:g})" d="{steps}"/>'
+        return f'<path class="{kind}" transform="translate({left_edge} {top})scale({1 / _FINE:g})" d="{steps}"/>'
 
     def across(value: float) -> int:
-        return left + round((value - x0) * scale[0])
+        return left_edge + round((value - x0) * scale[0])
 
-    parts = [f'<path class="axes" d="M{left} {top}v{_HEIGHT}h{wide}"/>', _text(left, top - 6, panel.title)]
-    parts.append(_text(left + wide // 2, low + 28, panel.x_label, "m"))
-    parts += [_text(across(value), low + 14, label, "m") for value, label in _ticks(x0, x1, 5)]
+    parts = [f'<path class="axes" d="M{left_edge} {top}v{_HEIGHT}h{wide}"/>', _text(left_edge, top - 6, panel.title)]
+    parts.append(_text(left_edge + wide // 2, low + 28, panel.x_label, "m"))
+    for value, label in _ticks(x0, x1, 5):
+        parts.append(_text(across(value), low + 14, label, "m"))
     if panel.y_label:
-        parts += [
-            _text(left - 4, low + 4 + round((value - y0) * scale[1]), label, "e") for value, label in _ticks(y0, y1, 3)
-        ]
+        for value, label in _ticks(y0, y1, 3):
+            height = low + 4 + round((value - y0) * scale[1])
+            parts.append(_text(left_edge - 4, height, label, "e"))
     for at, name in panel.marks:
         parts.append(f'<path class="mark" d="M{across(at)} {top}v{_HEIGHT}"/>' + _text(across(at) + 3, top + 10, name))
     if panel.level is not None:
         parts.append(path("zero", _steps(fine([x0, x1], [panel.level] * 2))))
     if curve.mark:  # round dots: strokes of no length
-        parts.append(path("dots", "".join(f"M{i} {j}h0" for i, j in dict.fromkeys(map(tuple, fine(curve.x, curve.y))))))
+        places = dict.fromkeys(map(tuple, fine(curve.x, curve.y)))  # each once
+        dots = "".join(f"M{i} {j}h0" for i, j in places)
+        parts.append(path("dots", dots))
     elif curve.band is None:
         sound = np.isfinite(curve.y)
         parts.append(path("line", _steps(fine(curve.x[sound], curve.y[sound]))))
@@ -138,14 +141,18 @@ def _text(x: int, y: int, words: str, anchor: str = "") -> str:
     """Words with the subscripts of `sub`: letters of Unicode's own are too small to read here; nothing for none."""
     parts, lowered = [], 0
     for style, piece in spans(words):
-        drop = _DROP if style == "sub" else 0
-        kind = ' class="s"' if drop else ""
-        parts.append(
-            f'<tspan dy="{drop - lowered}"{kind}>{escape(piece)}</tspan>' if drop or lowered else escape(piece)
-        )
-        lowered = drop
+        if style == "sub":
+            parts.append(f'<tspan dy="{_DROP - lowered}" class="s">{escape(piece)}</tspan>')
+            lowered = _DROP
+        elif lowered:
+            parts.append(f'<tspan dy="{-lowered}">{escape(piece)}</tspan>')
+            lowered = 0
+        else:
+            parts.append(escape(piece))
+    if not parts:
+        return ""
     kind = f' class="{anchor}"' if anchor else ""
-    return f'<text{kind} x="{x}" y="{y}">{"".join(parts)}</text>' if parts else ""
+    return f'<text{kind} x="{x}" y="{y}">{"".join(parts)}</text>'
 
 
 def _steps(points: np.ndarray) -> str:
@@ -154,7 +161,10 @@ def _steps(points: np.ndarray) -> str:
         return ""
     steps = np.diff(points, axis=0)
     moved = steps[np.any(steps != 0, axis=1)]
-    return f"M{points[0, 0]} {points[0, 1]}" + "".join(f"l{i}{'' if j < 0 else ' '}{j}" for i, j in moved.tolist())
+    parts = [f"M{points[0, 0]} {points[0, 1]}"]
+    for i, j in moved.tolist():
+        parts.append(f"l{i}{j}" if j < 0 else f"l{i} {j}")
+    return "".join(parts)
 
 
 def _ticks(low: float, high: float, count: int) -> list[tuple[float, str]]:

@@ -41,16 +41,13 @@ def growth_and_dimension(divergence: list[tuple[str, np.ndarray, np.ndarray]], s
 
     Args: `divergence` (name, time (n,), mean ln(distance) (n,)) each; `slopes` (delays, radius (b,), slope (b,)) each.
     """
-    known = [
-        (estimate, dash)
-        for estimate, dash in zip(divergence, ("-", "--"), strict=False)
-        if np.isfinite(estimate[2]).any()
-    ]
-    curves_of_growth = [Curve(time, curve, name, dash) for (name, time, curve), dash in known]
-    right = [
-        Curve(radius, slope, f"{delays} delays", dash, colour=INK)
-        for (delays, radius, slope), dash in zip(slopes, ("-", "--", ":"), strict=False)
-    ]
+    growth = []
+    for (name, time, distance), dash in zip(divergence, ("-", "--"), strict=False):
+        if np.isfinite(distance).any():
+            growth.append(Curve(time, distance, name, dash))
+    dimension = []
+    for (delays, radius, slope), dash in zip(slopes, ("-", "--", ":"), strict=False):
+        dimension.append(Curve(radius, slope, f"{delays} delays", dash, colour=INK))
     labels = ("radius (standard deviations)", "slope of the correlation sum")
-    growth = Panel(curves_of_growth, f"time ({unit})", "mean ln(distance) (nats)")
-    return curves([[growth, Panel(right, *labels, log="x")]], 3.0, "best")
+    panels = [Panel(growth, f"time ({unit})", "mean ln(distance) (nats)"), Panel(dimension, *labels, log="x")]
+    return curves([panels], 3.0, "best")

@@ -44,10 +44,12 @@ def work_precision(
     for name, time, error, peer in results:
         colour, mark = _LOOKS.get(name.partition(",")[0], _OTHER)
         dash = "--" if name.endswith(DASHED) else "-"
+        width = 1.6 if peer else 1.0
         lines.append(Curve(time, error, "", "", mark, colour, size=2.6, alpha=0.45))
         front = cheapest(time, error)
-        lines.append(Curve(time[front], error[front], name, dash, mark, colour, width=1.6 if peer else 1.0))
+        lines.append(Curve(time[front], error[front], name, dash, mark, colour, width=width))
     if marked is not None:
-        ring = (np.array([place]) for place in marked)
-        lines.append(Curve(*ring, "shipped setting", "", "o", INK, size=9.0, filled=False))
+        time, error = marked
+        ring = Curve(np.array([time]), np.array([error]), "shipped setting", "", "o", INK, size=9.0, filled=False)
+        lines.append(ring)
     return curves([[Panel(lines, time_label, error_label, log="xy")]], 3.7, "right")

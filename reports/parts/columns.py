@@ -48,8 +48,8 @@ class Quantity:
         A number that the places after the point would show as zero gets two significant digits instead.
         """
         if self.digits is None:
-            text = "" if entry is None or entry != entry else str(entry)
-            return text or EMPTY
+            missing = entry is None or entry != entry  # nan differs from itself
+            return EMPTY if missing else str(entry) or EMPTY
         value = number_of(entry)
         hidden = value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits
         return number(value, 2) if hidden else decimals(value, self.digits)
@@ -70,34 +70,46 @@ def table_of(
     names: Sequence[Name],
     rows: Iterable[Mapping[str, object]],
     caption: str,
-    own: Mapping[str, Callable[[Mapping[str, object]], str]] | None = None,
+    own_cells: Mapping[str, Callable[[Mapping[str, object]], str]] | None = None,
 ) -> Table:
     """A table of the named columns: heads, units, digits and the explanation of the heads from the dictionary.
 
     names: columns, or (value, standard error) to be set as "value ± error". rows: of `table.csv`. caption: what the
-    table shows, in front of the meanings. own: name -> cell of a row, in place of the entry in print.
+    table shows, in front of the meanings. own_cells: name -> cell of a row, in place of the entry in print.
     Raises KeyError for a name that the dictionary does not have.
     """
-    cells = {}
+    own_cells = own_cells or {}
+    cells, heads = {}, {}
     for name in names:
-        value, error = (name, "") if isinstance(name, str) else name
-        cells[value] = (own or {}).get(value) or partial(plus_minus, columns, value=value, error=error)
-    chosen = [columns[name] for name in cells]
-    heads = tuple(
-        Column(quantity.head, quantity.unit, "left" if quantity.digits is None else "right") for quantity in chosen
-    )
-    body = tuple(tuple(cell(row) for cell in cells.values()) for row in rows)
-    return Table(heads, body, f"{caption} {explained(columns, names)}".strip(), small=True)
+        value, error = value_and_error(name)
+        quantity = columns[value]
+        cells[value] = own_cells.get(value) or partial(plus_minus, columns, value=value, error=error)
+        align = "left" if quantity.digits is None else "right"
+        heads[value] = Column(quantity.head, quantity.unit, align)
+    body = []
+    for row in rows:
+        body.append(tuple(cell(row) for cell in cells.values()))
+    return Table(tuple(heads.values()), tuple(body), f"{caption} {explained(columns, names)}".strip(), small=True)
+
+
+def value_and_error(name: Name) -> tuple[str, str]:
+    """The column of a value and the column of its error, "" where it has none."""
+    return (name, "") if isinstance(name, str) else name
 
 
 def explained(columns: Mapping[str, Quantity], names: Sequence[Name]) -> str:
     """The heads and what they mean, in one sentence: "kA: wave steepness; r_min: least radius." """
-    chosen = (columns[name if isinstance(name, str) else name[0]] for name in names)
-    parts = [f"{quantity.head}: {quantity.meaning}" for quantity in chosen if quantity.meaning]
-    return f"{'; '.join(dict.fromkeys(parts))}." if parts else ""
+    parts: dict[str, None] = {}  # each once, in their order
+    for name in names:
+        quantity = columns[value_and_error(name)[0]]
+        if quantity.meaning:
+            parts[f"{quantity.head}: {quantity.meaning}"] = None
+    return f"{'; '.join(parts)}." if parts else ""
 
 
 def plus_minus(columns: Mapping[str, Quantity], row: Mapping[str, object], value: str, error: str) -> str:
     """ "−0.039 ± 0.003", "−0.039" where `error` is "", or a dash where there is no value."""
     text = columns[value].cell(row.get(value))
-    return text if text == EMPTY or not error else f"{text}\u00a0±\u00a0{columns[value].cell(row.get(error))}"
+    if text == EMPTY or not error:
+        return text
+    return f"{text}\u00a0±\u00a0{columns[value].cell(row.get(error))}"

@@ -98,7 +98,13 @@ class Column:
 
 def heads(*titles: str | tuple[str, str]) -> tuple[Column, ...]:
     """Columns of a table: a title alone is one of words, set left; a title with its unit or "" is one of numbers."""
-    return tuple(Column(title, align="left") if isinstance(title, str) else Column(*title) for title in titles)
+    columns = []
+    for title in titles:
+        if isinstance(title, str):
+            columns.append(Column(title, align="left"))
+        else:
+            columns.append(Column(*title))
+    return tuple(columns)
 
 
 @dataclass(frozen=True)
@@ -254,8 +260,13 @@ def spans(text: str) -> list[tuple[str, str]]:
     pieces, at = [], 0
     for match in _MARKS.finditer(text):
         pieces.append(("", text[at : match.start()]))
-        code, below, anchor, text_shown = match.groups()
-        pieces.append(("code", code) if code else ("sub", below) if below is not None else (f"#{anchor}", text_shown))
+        code, subscript, anchor, link_text = match.groups()
+        if code:
+            pieces.append(("code", code))
+        elif subscript is not None:
+            pieces.append(("sub", subscript))
+        else:
+            pieces.append((f"#{anchor}", link_text))
         at = match.end()
     pieces.append(("", text[at:]))
     return [(style, piece) for style, piece in pieces if piece]
@@ -273,8 +284,11 @@ def numbered(items: tuple[Item, ...]) -> list[dict]:
         kind = type(item).__name__.lower()
         counts[kind] += 1
         number = str(counts[kind])
-        if isinstance(item, Heading):
-            section, division = (section + 1, 0) if item.level == 1 else (section, division + 1)
-            number = f"{section}.{division}" if division else str(section)
+        if isinstance(item, Heading) and item.level == 1:
+            section, division = section + 1, 0
+            number = str(section)
+        elif isinstance(item, Heading):
+            division += 1
+            number = f"{section}.{division}"
         blocks.append({"kind": kind, "item": item, "number": number})
     return blocks

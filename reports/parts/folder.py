@@ -33,7 +33,10 @@ class FolderError(ValueError):
 
     def __init__(self, directory: Path, faults: list[str]):
         self.faults = tuple(faults)
-        super().__init__("\n".join([f"no report can be made of {directory}:", *(f"  - {fault}" for fault in faults)]))
+        lines = [f"no report can be made of {directory}:"]
+        for fault in faults:
+            lines.append(f"  - {fault}")
+        super().__init__("\n".join(lines))
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,11 @@ class Folder:
     scene: Scene
     columns: dict[str, Quantity]
 
+    @property
+    def completed(self) -> list[dict[str, object]]:
+        """The rows of the runs that reached their full length."""
+        return [row for row in self.table if row["status"] == "ok"]
+
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
@@ -58,8 +66,10 @@ class Folder:
         from engine.trajectory import Trajectory, TrajectoryError
 
         path = self.trajectory_path(row["run_key"])
+        if not path.exists() and row["status"] != "ok":
+            return None, ""
         if not path.exists():
-            return None, f"its file {path.name} is missing" if row["status"] == "ok" else ""
+            return None, f"its file {path.name} is missing"
         try:
             return Trajectory.load(path, {"run_key": row["run_key"]}), ""
         except TrajectoryError as error:
@@ -94,7 +104,7 @@ def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
     Raises FolderError naming every part that is missing or cannot be read.
     """
     directory = Path(directory)
-    parts, faults = _found(directory, PARTS, _READERS)
+    parts, faults = _readable(directory, PARTS, _READERS)
     columns, table = parts.get("columns.csv"), None
     if columns is not None and "table.csv" in parts:
         try:
@@ -108,25 +118,26 @@ def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
 
 def part_of(folder: Folder, name: str) -> Folder | None:
     """A folder of the same layout inside of a campaign's; None where it was left out or cannot be read."""
-    place = folder.directory / name
+    directory = folder.directory / name
     try:
-        columns = read_columns(place)
-        return Folder(place, folder.provenance, _table(_rows(place / "table.csv"), (), columns), folder.scene, columns)
+        columns = read_columns(directory)
+        table = _table(_rows(directory / "table.csv"), (), columns)
     except (OSError, ValueError):
         return None
+    return Folder(directory, folder.provenance, table, folder.scene, columns)
 
 
 def read_files(
-    directory: str | Path, wanted: Mapping[str, str], own: Mapping[str, Callable[[Path], object]] | None = None
+    directory: str | Path, wanted: Mapping[str, str], own_readers: Mapping[str, Callable[[Path], object]] | None = None
 ) -> dict[str, object]:
     """{name: content}: rows {column: text} of a .csv file, the object of a .json file, the scene of a .toml file, the
     `Quantity` of every column of a dictionary of columns by name, the arrays of a .nc file, text of a .txt file, the
     paths in a folder.
 
-    wanted: name of a file or folder -> what it holds. own: ending of a name -> reader in place of the usual one.
+    wanted: name of a file or folder -> what it holds. own_readers: ending of a name -> reader in place of the usual.
     Raises FolderError naming all that is missing or cannot be read.
     """
-    contents, faults = _found(Path(directory), wanted, _READERS | (own or {}))
+    contents, faults = _readable(Path(directory), wanted, _READERS | (own_readers or {}))
     if faults:
         raise FolderError(Path(directory), faults)
     return contents
@@ -150,15 +161,15 @@ def read_rows(table: Path) -> list[dict[str, str]]:
 
 
 def provenance_of(directory: str | Path) -> dict:
-    """What is told of the making of a folder, {} where nothing can be read."""
+    """The provenance.json of a folder, {} where it cannot be read."""
     try:
         return _json(Path(directory) / "provenance.json")
     except (OSError, ValueError, RecursionError):
         return {}
 
 
-def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tuple[dict[str, object], list[str]]:
-    """What can be read of the wanted, by name, and what is wrong with the rest."""
+def _readable(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tuple[dict[str, object], list[str]]:
+    """The contents of the wanted files that can be read, by name, and the faults of the others."""
     if not directory.is_dir():
         problem = "it is a file" if directory.exists() else "there is no such folder"
         return {}, [f"{problem}; give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"]
@@ -167,7 +178,8 @@ def _found(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> tupl
         path = directory / name
         reader = next(read for ending, read in readers.items() if name.endswith(ending))
         if not path.exists():
-            faults.append(f"{name} is missing ({meaning}{f'; {_OLD}' if reader is _columns else ''})")
+            hint = f"; {_OLD}" if reader is _columns else ""
+            faults.append(f"{name} is missing ({meaning}{hint})")
             continue
         try:
             contents[name] = reader(path)
@@ -188,8 +200,11 @@ def _rows(path: Path, head: tuple[str, ...] = ()) -> list[dict[str, str]]:
 
 
 def _columns(path: Path) -> dict[str, Quantity]:
-    rows = _rows(path, HEADER)
-    return {row["name"]: Quantity(**{**row, "digits": int(row["digits"]) if row["digits"] else None}) for row in rows}
+    quantities = {}
+    for row in _rows(path, HEADER):
+        digits = int(row["digits"]) if row["digits"] else None
+        quantities[row["name"]] = Quantity(**{**row, "digits": digits})
+    return quantities
 
 
 def _json(path: Path) -> dict:
@@ -226,15 +241,25 @@ _READERS = {
 }
 
 
-def _table(rows: list[dict[str, str]], needed: tuple[str, ...], told: dict[str, Quantity]) -> tuple[dict, ...]:
+def _table(rows: list[dict[str, str]], needed: tuple[str, ...], columns: dict[str, Quantity]) -> tuple[dict, ...]:
+    """The rows with numbers in the columns that have digits. Raises ValueError for missing and undeclared columns."""
     if not rows:
         raise ValueError("it has no rows")
-    if absent := [column for column in needed if column not in rows[0]]:
-        raise ValueError(f"column{'s' if len(absent) > 1 else ''} missing: {', '.join(absent)}")
-    if unknown := [name for name in rows[0] if name not in told]:
+    absent = [column for column in needed if column not in rows[0]]
+    if absent:
+        plural = "s" if len(absent) > 1 else ""
+        raise ValueError(f"column{plural} missing: {', '.join(absent)}")
+    unknown = [name for name in rows[0] if name not in columns]
+    if unknown:
         raise ValueError(f"columns.csv does not tell of all columns: {', '.join(unknown)}")
-    numbers = {name for name in rows[0] if told[name].digits is not None}
-    return tuple({name: _number(entry) if name in numbers else entry for name, entry in row.items()} for row in rows)
+    table = []
+    for row in rows:
+        entries: dict[str, object] = dict(row)
+        for name, text in row.items():
+            if columns[name].digits is not None:
+                entries[name] = _number(text)
+        table.append(entries)
+    return tuple(table)
 
 
 def _number(entry: str) -> float:

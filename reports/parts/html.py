@@ -34,8 +34,10 @@ def render_html(report: Report) -> bytes:
     environment = Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, **strictly)
     environment.globals.update(spans=spans, plain=plain, data_uri=data_uri)
     environment.globals.update(equation_svg=equation_svg, explorer_json=explorer_json, packed=packed)
-    template, blocks = environment.get_template("report.html.jinja"), numbered(report.items)
-    first = next((place for place, block in enumerate(blocks) if block["kind"] == "heading"), len(blocks))
+    template = environment.get_template("report.html.jinja")
+    blocks = numbered(report.items)
+    kinds = [block["kind"] for block in blocks]
+    first = kinds.index("heading") if "heading" in kinds else len(blocks)
     return template.render(report=report, blocks=blocks, parts=(blocks[:first], blocks[first:])).encode()
 
 
@@ -67,19 +69,22 @@ def explorer_json(explorer: Explorer) -> str:
 
     `low` and `high` are the ends of all points; in curves of one value a run not a number becomes null.
     """
-    points = [[value for value in _numbers(column.points, 8) if value is not None] for column in explorer.columns]
-    everything = [value for values in points for value in values] or [0.0]
-    low, high = min(everything), max(everything)
+    columns, every_point = [], []
+    for column in explorer.columns:
+        points = [point for point in _numbers(column.points, 8) if point is not None]
+        every_point.extend(points)
+        columns.append(asdict(replace(column, points=points)))
+    low, high = min(every_point, default=0.0), max(every_point, default=0.0)
+    lower = []
+    for label, values, errors in explorer.lower:
+        lower.append({"label": label, "values": _numbers(values), "errors": _numbers(errors)})
     content = {
         "x_label": explorer.x_label,
         "y_label": explorer.y_label,
         "low": low,
         "high": high if high > low else low + 1.0,
-        "columns": [asdict(replace(one, points=sample)) for one, sample in zip(explorer.columns, points, strict=True)],
-        "lower": [
-            {"label": label, "values": _numbers(values), "errors": _numbers(errors)}
-            for label, values, errors in explorer.lower
-        ],
+        "columns": columns,
+        "lower": lower,
     }
     # "<" would let a name end the script element that the line stands in
     return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
@@ -87,10 +92,13 @@ def explorer_json(explorer: Explorer) -> str:
 
 def packed(sheets: CellSheets) -> str:
     """The sheets of cells as JSON, deflated, in base64: a page may have thousands."""
-    return base64.b64encode(
-        zlib.compress(json.dumps(sheets.cells, separators=(",", ":"), allow_nan=False).encode(), 9)
-    ).decode()
+    text = json.dumps(sheets.cells, separators=(",", ":"), allow_nan=False)
+    return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
 def _numbers(values: Iterable[float], digits: int = 6) -> list[float | None]:
-    return [float(f"{value:.{digits}g}") if math.isfinite(value) else None for value in values]
+    """The values with so many significant digits, None for what is not finite."""
+    rounded = []
+    for value in values:
+        rounded.append(float(f"{value:.{digits}g}") if math.isfinite(value) else None)
+    return rounded

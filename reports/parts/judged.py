@@ -16,26 +16,37 @@ Judged = dict[str, str]
 def read_statements(directory: Path) -> tuple[Judged, ...]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
     rows = read_files(directory, {FILE: "the statements of the paper as judged"})[FILE]
-    if not all(tuple(row) == COLUMNS for row in rows):
-        raise FolderError(directory, [f"{FILE} cannot be read: its first line is not {','.join(COLUMNS)}"])
+    for row in rows:
+        if tuple(row) != COLUMNS:
+            raise FolderError(directory, [f"{FILE} cannot be read: its first line is not {','.join(COLUMNS)}"])
     return tuple(rows)
 
 
 def counted(rows: Iterable[Judged]) -> str:
     """How many hold, and so on: "3 hold, 1 do not hold"."""
     verdicts = [row["verdict"] for row in rows]
-    return (
-        ", ".join(f"{verdicts.count(word)} {phrase}" for word, phrase in VERDICTS.items() if word in verdicts) or "none"
-    )
+    counts = []
+    for word, phrase in VERDICTS.items():
+        if word in verdicts:
+            counts.append(f"{verdicts.count(word)} {phrase}")
+    return ", ".join(counts) or "none"
 
 
 def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     """Number, place, statement, verdict, evidence of the rows."""
-    titles = (("place", 1), ("the paper", 3), ("verdict", 3), ("the runs", 5), ("decided by, evidence", 3))
-    heads = (Column("no."), *(Column(title, align="left", share=share) for title, share in titles))
+    heads = (
+        Column("no."),
+        Column("place", align="left", share=1),
+        Column("the paper", align="left", share=3),
+        Column("verdict", align="left", share=3),
+        Column("the runs", align="left", share=5),
+        Column("decided by, evidence", align="left", share=3),
+    )
     body = []
     for row in rows:
-        verdict = f"{row['verdict']}: {row['condition']}" if row["condition"] else row["verdict"]
-        first = (row[name] for name in COLUMNS[:3])
-        body.append((*first, verdict, row["found"], f"{row['threshold']}. {row['evidence']}"))
+        verdict = row["verdict"]
+        if row["condition"]:
+            verdict = f"{verdict}: {row['condition']}"
+        evidence = f"{row['threshold']}. {row['evidence']}"
+        body.append((row["number"], row["place"], row["statement"], verdict, row["found"], evidence))
     return Table(heads, tuple(body), caption, small=True)

@@ -83,6 +83,10 @@ def _pieces(value: object) -> object:
     if isinstance(value, tuple):
         return [_pieces(entry) for entry in value]
     if is_dataclass(value):
-        shown = (field.name for field in fields(value) if not isinstance(getattr(value, field.name), Picture))
-        return {name: _pieces(getattr(value, name)) for name in shown}
+        pieces = {}
+        for field in fields(value):
+            content = getattr(value, field.name)
+            if not isinstance(content, Picture):
+                pieces[field.name] = _pieces(content)
+        return pieces
     return value

@@ -38,24 +38,32 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
     from engine import list_scenes, load_scene
     from engine.scene.reference import keys, sources
 
-    comes = shipped in list_scenes()
-    told, known = sources(shipped) if comes else {}, keys()
-    values, defaults = dict(_flat(scene.as_dict())), dict(_flat(load_scene(shipped).as_dict() if comes else {}))
-    changing = {_key(name) for name in varied}
+    default_sources, defaults = {}, {}
+    if shipped in list_scenes():
+        default_sources = sources(shipped)
+        defaults = dict(_flat(load_scene(shipped).as_dict()))
+    known, values = keys(), dict(_flat(scene.as_dict()))
+    varied_keys = set(map(_key, varied))
     rows = []
     for name in dict.fromkeys([*values, *varied]):
         if name in ("name", "title") or _key(name) not in known:  # a campaign may vary what is no key of a scene
             continue
-        source = "varied by this campaign" if _key(name) in changing else told.get(name, "default of this work")
-        if _key(name) not in changing and values[name] != defaults.get(name):
-            source = "set by the user" + (f" (default {_shown(defaults[name])})" if name in defaults else "")
-        key, shown = known[_key(name)], varied[name] if name in varied else _shown(values[name])
-        meaning = key.meaning + (f", {key.symbol}" if key.symbol else "")
-        unit = key.unit if key.unit not in ("", "1") else EMPTY
+        key = known[_key(name)]
+        if _key(name) in varied_keys:
+            source = "varied by this campaign"
+        elif values[name] == defaults.get(name):
+            source = default_sources.get(name, "default of this work")
+        elif name in defaults:
+            source = f"set by the user (default {_shown(defaults[name])})"
+        else:
+            source = "set by the user"
+        shown = varied[name] if name in varied else _shown(values[name])
+        meaning = f"{key.meaning}, {key.symbol}" if key.symbol else key.meaning
+        unit = EMPTY if key.unit in ("", "1") else key.unit
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
     columns = heads("key", "parameter", ("value", ""), "unit", "source")
-    where = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
-    return Table(columns, tuple(rows), f"{caption} {where}", small=True)
+    origin = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
+    return Table(columns, tuple(rows), f"{caption} {origin}", small=True)
 
 
 def _key(name: str) -> str:
@@ -63,27 +71,31 @@ def _key(name: str) -> str:
     return re.sub(r"\[\d+\]", "", name)
 
 
-def timing_items(folder: Folder, *more: Item | None) -> list[Item]:
-    """What the runs cost: `more`, where there is any, and the time split of a campaign; nothing for none of them."""
-    items = [item for item in more if item is not None]
-    rows = tuple(
-        (_TIMES.get(name, name.removesuffix("_s").replace("_", " ")), decimals(time, 2))
-        for name, time in _flat(folder.provenance.get("timing"))
-        if isinstance(time, (int, float))
-    )
-    caption = "Where the time of the campaign went, from `provenance.json`."
-    items += [Table(heads("part", ("wall time", "s")), rows, caption)] if rows else []
+def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
+    """What the runs cost: `costs`, where there are any, and the time split of a campaign; nothing for none of them."""
+    items = [item for item in costs if item is not None]
+    rows = []
+    for name, time in _flat(folder.provenance.get("timing")):
+        if isinstance(time, (int, float)):
+            part = _TIMES.get(name, name.removesuffix("_s").replace("_", " "))
+            rows.append((part, decimals(time, 2)))
+    if rows:
+        caption = "Where the time of the campaign went, from `provenance.json`."
+        items.append(Table(heads("part", ("wall time", "s")), tuple(rows), caption))
     return [Heading("Run times"), *items] if items else []
 
 
 def provenance_items(folder: Folder) -> list[Item]:
     """The command and everything else that provenance.json holds."""
     items: list[Item] = [Heading("Provenance")]
-    if command := folder.provenance.get("command"):
+    entries = dict(folder.provenance)
+    entries.pop("timing", None)
+    command = entries.pop("command", None)
+    if command:
         words = shlex.join(map(str, command)) if isinstance(command, list) else str(command)
         items += [Text("The command:"), Listing(words)]
-    told = {key: entry for key, entry in folder.provenance.items() if key not in ("command", "timing")}
-    if rows := tuple((f"`{key}`", _shown(entry)) for key, entry in _flat(told)):
+    rows = tuple((f"`{key}`", _shown(entry)) for key, entry in _flat(entries))
+    if rows:
         caption = "All of `provenance.json` but the command and the times."
         items.append(Table(heads("entry", "value"), rows, caption, small=True))
     return items
@@ -91,13 +103,19 @@ def provenance_items(folder: Folder) -> list[Item]:
 
 def appendix(*items: Item) -> list[Item]:
     """The last section of a report: how it was made; headings among the items divide it."""
-    below = (Heading(item.text, 2) if isinstance(item, Heading) else item for item in items)
-    return [Heading("Appendix: how this was made"), *below] if items else []
+    if not items:
+        return []
+    section: list[Item] = [Heading("Appendix: how this was made")]
+    for item in items:
+        section.append(Heading(item.text, 2) if isinstance(item, Heading) else item)
+    return section
 
 
 def _flat(section: object, prefix: str = "") -> Iterator[tuple[str, object]]:
     """(dotted key, entry) of nested sections, in their order; nothing where there is no section."""
-    for key, entry in section.items() if isinstance(section, dict) else ():
+    if not isinstance(section, dict):
+        return
+    for key, entry in section.items():
         if isinstance(entry, dict):
             yield from _flat(entry, f"{prefix}{key}.")
         else:

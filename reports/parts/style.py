@@ -24,7 +24,7 @@ BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "
 
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
-INK, SOFT, GRID = (_SETTINGS[name] for name in ("text.color", "axes.edgecolor", "grid.color"))
+INK, SOFT, GRID = _SETTINGS["text.color"], _SETTINGS["axes.edgecolor"], _SETTINGS["grid.color"]
 # of the words of the analysis, in every diagram and map; all periods share one
 REGIME_COLOURS = {
     "period-": BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
@@ -41,10 +41,11 @@ def sheet(height_in: float, width_in: float | None = None) -> Iterator[Figure]:
 
     The matplotlib settings of the caller are back when the block ends.
     """
+    layout = None if width_in else "constrained"
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
-        yield Figure(figsize=(width_in or WIDTH_IN, height_in), layout=None if width_in else "constrained")
+        yield Figure(figsize=(width_in or WIDTH_IN, height_in), layout=layout)
 
 
 def picture_of(figure: Figure, kind: str = "svg") -> Picture:
@@ -83,7 +84,8 @@ def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[i
         for artist in artists:
             artist.draw(canvas.get_renderer())
         images.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
-    sample = np.hstack([np.asarray(images[frame]) for frame in range(0, len(images), max(1, len(images) // 6))])
+    few_images = images[:: max(1, len(images) // 6)]
+    sample = np.hstack([np.asarray(image) for image in few_images])
     # not by how often a colour comes: a small red dot would turn brown
     palette = Image.fromarray(sample).quantize(MOVING_COLOURS, Image.Quantize.MAXCOVERAGE)
     first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)

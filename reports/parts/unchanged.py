@@ -22,9 +22,12 @@ _LIBRARIES = ("numpy", "matplotlib", "jinja2", "typst", "pillow")
 def is_unchanged(directory: Path) -> bool:
     """Whether every file of the last drawing is there, and what it was drawn from is the same."""
     try:
-        kept_record = json.loads((directory / FILE).read_text(encoding="utf-8"))
-        complete = all((directory / name).stat().st_size == size for name, size in kept_record["files"].items())
-        return complete and kept_record["key"] == key_of(directory, kept_record["files"])
+        drawing_record = json.loads((directory / FILE).read_text(encoding="utf-8"))
+        files = drawing_record["files"]
+        for name, size in files.items():
+            if (directory / name).stat().st_size != size:
+                return False
+        return drawing_record["key"] == key_of(directory, files)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return False
 
@@ -38,13 +41,19 @@ def record(directory: Path, pages: dict[Path, bytes]) -> bytes:
 def key_of(directory: Path, without: Iterable[str]) -> str:
     """The key; without: names of drawings in the folder."""
     left_out = {FILE, *without}
-    digest = sha256(" ".join(f"{name} {metadata.version(name)}" for name in _LIBRARIES).encode())
-    digest.update(hash_of(*(Path(__file__).parents[2] / name for name in _SOURCES), endings=_DRAWING).encode())
+    versions = [f"{name} {metadata.version(name)}" for name in _LIBRARIES]
+    digest = sha256(" ".join(versions).encode())
+    root = Path(__file__).parents[2]
+    sources = [root / name for name in _SOURCES]
+    digest.update(hash_of(*sources, endings=_DRAWING).encode())
     for path in sorted(directory.rglob("*")):
         name = str(path.relative_to(directory))
         if name in left_out or path.name == ".lock" or not path.is_file():
             continue
         state = path.stat()
         digest.update(f"{name} {state.st_size} ".encode())
-        digest.update(path.read_bytes() if path.suffix in _READ else str(state.st_mtime_ns).encode())
+        if path.suffix in _READ:
+            digest.update(path.read_bytes())
+        else:
+            digest.update(str(state.st_mtime_ns).encode())
     return digest.hexdigest()

@@ -14,7 +14,9 @@ EMPTY = "–"
 def of_kicks(row: Mapping[str, object]) -> str:
     """ "7 of 8": how many kicks end in the motion of a row; its share where their number is not known."""
     share, kicks = row.get("share", math.nan), row.get("kicks", math.nan)
-    return f"{share * kicks:.0f} of {kicks:.0f}" if math.isfinite(share * kicks) else number(share, 2)
+    if math.isfinite(share * kicks):
+        return f"{share * kicks:.0f} of {kicks:.0f}"
+    return number(share, 2)
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -62,13 +64,19 @@ def printed(sentence: str) -> str:
 
 def count(how_many: int, singular: str, plural: str = "") -> str:
     """ "1 run", "3 runs"."""
-    return f"{how_many} {singular if how_many == 1 else plural or singular + 's'}"
+    if how_many == 1:
+        return f"{how_many} {singular}"
+    return f"{how_many} {plural or singular + 's'}"
 
 
 def listed(words: Iterable[str]) -> str:
     """ "a", "a and b", "a, b and c"."""
     words = list(words)
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else "none"
+    if not words:
+        return "none"
+    if len(words) == 1:
+        return words[0]
+    return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
@@ -80,8 +88,10 @@ def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
     parts = []
     for wanted, group in groupby(zip(values, chosen, strict=True), key=itemgetter(1)):
         numbers = [number(value) for value, _ in group]
-        if wanted:
-            parts += [f"{numbers[0]} to {numbers[-1]}"] if len(numbers) > 2 else numbers
+        if wanted and len(numbers) > 2:
+            parts.append(f"{numbers[0]} to {numbers[-1]}")
+        elif wanted:
+            parts += numbers
     return listed(parts)
 
 

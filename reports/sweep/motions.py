@@ -1,6 +1,7 @@
 """The section on every motion of a sweep over one key: its starts, and where the ranges of its motions end."""
 
 from collections import Counter
+from collections.abc import Sequence
 from itertools import groupby
 from operator import itemgetter
 
@@ -10,8 +11,9 @@ from ..parts.folder import Folder, part_of
 from ..parts.wording import EMPTY, number, percent
 from .quantities import in_order
 
-_OUTCOMES = "settled", "joined", "unsettled"  # of a start
-_TOLD = (
+_UNSETTLED = "unsettled"
+_OUTCOMES = "settled", "joined", _UNSETTLED  # of a start
+_METHOD = (
     "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "
     "ends when it has settled, or when it has joined a motion that is known at that value; unsettled ones belong to no "
     "motion. A share is that of the kicks, not of the other starts."
@@ -26,30 +28,52 @@ _ENDS = (
 def ends_of(folder: Folder, key: str) -> list[dict]:
     """The ends of ranges that were found, by motion and value."""
     part = part_of(folder, "ends")
-    rows = [row for row in (part.table if part else ()) if row["status"] == "ok"]
-    return sorted(rows, key=lambda row: (row["motion"], row[f"{key}_with"]))
+    if part is None:
+        return []
+    return sorted(part.completed, key=lambda row: (row["motion"], row[f"{key}_with"]))
 
 
 def every_motion(folder: Folder, key: str, title: str) -> list[Item]:
-    """The section of starts and ends; nothing where no start was told of. key, title: of the column of its values."""
-    part = part_of(folder, "starts")
-    rows, items = part.table if part else (), []
-    if ends := ends_of(folder, key):
-        columns, exact = part_of(folder, "ends").columns, ((f"{key}_end", "error"), "kind")
-        names = ("motion", "end", f"{key}_with", f"{key}_without", *(exact if "kind" in columns else ()), "leads_to")
-        items.append(table_of(columns, names, ends, _ENDS))
-    if rows:
-        body = []
-        for at, group in groupby(in_order(rows, [key]), key=itemgetter(key)):
-            own = list(group)
-            found = Counter(row["outcome"] for row in own), Counter(row["motion"] for row in own if row["motion"])
-            into = ", ".join(f"{letter} {many}" for letter, many in sorted(found[1].items())) or EMPTY
-            body.append((number(at), str(len(own)), *(str(found[0][word]) for word in _OUTCOMES), into))
-        titles = (title, ""), ("starts", ""), *((word, "") for word in _OUTCOMES), "into motion"
-        lost = sum(row["outcome"] == _OUTCOMES[-1] for row in rows)
-        caption = (
-            f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(lost / len(rows))} "
-            "are unsettled. From `starts/table.csv`, which has every start."
-        )
-        items.append(Table(heads(*titles), tuple(body), caption, small=True))
-    return [Heading("Every motion"), Text(_TOLD), *items] if items else []
+    """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
+    items: list[Item] = []
+    ends = ends_of(folder, key)
+    if ends:
+        items.append(_ends_table(part_of(folder, "ends"), ends, key))
+    starts = part_of(folder, "starts")
+    if starts is not None:
+        items.append(_starts_table(starts.table, key, title))
+    if not items:
+        return []
+    return [Heading("Every motion"), Text(_METHOD), *items]
+
+
+def _ends_table(part: Folder, ends: list[dict], key: str) -> Table:
+    """Where the ranges of motions end, with the exact end where the table has one."""
+    names = ["motion", "end", f"{key}_with", f"{key}_without"]
+    if "kind" in part.columns:
+        names += [(f"{key}_end", "error"), "kind"]
+    return table_of(part.columns, [*names, "leads_to"], ends, _ENDS)
+
+
+def _starts_table(rows: Sequence[dict], key: str, title: str) -> Table:
+    """How many starts at each value end in which way, and in which motion."""
+    body, unsettled = [], 0
+    for value, group in groupby(in_order(rows, [key]), key=itemgetter(key)):
+        starts, outcomes, motions = 0, Counter(), Counter()
+        for row in group:
+            starts += 1
+            outcomes[row["outcome"]] += 1
+            if row["motion"]:
+                motions[row["motion"]] += 1
+        unsettled += outcomes[_UNSETTLED]
+        counts = [str(outcomes[word]) for word in _OUTCOMES]
+        reached = ", ".join(f"{letter} {motions[letter]}" for letter in sorted(motions))
+        body.append((number(value), str(starts), *counts, reached or EMPTY))
+    titles = [(title, ""), ("starts", "")]
+    for word in _OUTCOMES:
+        titles.append((word, ""))
+    caption = (
+        f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(unsettled / len(rows))} "
+        "are unsettled. From `starts/table.csv`, which has every start."
+    )
+    return Table(heads(*titles, "into motion"), tuple(body), caption, small=True)

@@ -36,21 +36,25 @@ def measured(
     A column X_..._error belongs to the column X_... before it; X_min_U and X_max_U share a panel. without: names left
     out, such as those of the varied keys.
     """
-    names = [name for name, one in columns.items() if one.digits is not None and name not in set(without)]
-    errors, found = errors_of(names), []
+    excluded = set(without)
+    names = []
+    for name, column in columns.items():
+        if column.digits is not None and name not in excluded:
+            names.append(name)
+    errors, panels = errors_of(names), []
     for name in names:
         if name.endswith("_error"):
             continue
-        known = series(rows, name)
-        if len(np.unique(known[np.isfinite(known)])) < 2:
+        values = series(rows, name)
+        if len(np.unique(values[np.isfinite(values)])) < 2:
             continue
+        pair = (columns[name], columns.get(errors.get(name)))
         least = name.replace("_max_", "_min_")
-        pair = (columns[name], columns[errors[name]] if name in errors else None)
-        if found and least != name and found[-1][-1][0].name == least:
-            found[-1] = (*found[-1], pair)
+        if panels and least != name and panels[-1][-1][0].name == least:
+            panels[-1] = (*panels[-1], pair)
         else:
-            found.append((pair,))
-    return found
+            panels.append((pair,))
+    return panels
 
 
 def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
@@ -60,16 +64,27 @@ def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
     """
     peaks: dict[str, float] = {}
     for row in in_order(rows, []):
-        peaks[row.get("motion") or ""] = max(peaks.get(row.get("motion") or "", 0.0), value(row, "tension_top_max_N"))
-    nameless, left = peaks.pop("", None), cycle(_CALM)
-    worst = max(peaks, key=peaks.get, default="")
-    colours = {letter: VERMILION if letter == worst else next(left) for letter in peaks}
-    return colours | ({} if nameless is None else {"": SOFT}) if len(peaks) > 1 else {}
+        letter = row.get("motion") or ""
+        peaks[letter] = max(peaks.get(letter, 0.0), value(row, "tension_top_max_N"))
+    nameless = peaks.pop("", None)
+    if len(peaks) < 2:
+        return {}
+    worst, calm_colours = max(peaks, key=peaks.get), cycle(_CALM)
+    colours = {}
+    for letter in peaks:
+        colours[letter] = VERMILION if letter == worst else next(calm_colours)
+    if nameless is not None:
+        colours[""] = SOFT
+    return colours
 
 
 def in_order(rows: Iterable[Mapping[str, object]], keys: Sequence[str]) -> list:
     """The rows of a table by their keys, then by motion."""
-    return sorted(rows, key=lambda row: [*(row[name] for name in keys), row.get("motion") or ""])
+
+    def place(row: Mapping[str, object]) -> list:
+        return [row[name] for name in keys] + [row.get("motion") or ""]
+
+    return sorted(rows, key=place)
 
 
 def series(rows: Iterable[Mapping[str, object]], column: str) -> np.ndarray:
@@ -81,9 +96,13 @@ def over_key(
     rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured], motions: Mapping[str, str]
 ) -> Picture:
     """`panels_over` as one picture."""
-    panels = panels_over(rows, key, shown, motions)
-    grid = [panels[first : first + PER_ROW] for first in range(0, len(panels), PER_ROW)]
+    grid = batched(panels_over(rows, key, shown, motions), PER_ROW)
     return curves(grid, 0.6 + 1.7 * len(grid), "best")
+
+
+def batched(items: Sequence, size: int) -> list[Sequence]:
+    """The items in their order, `size` of them at a time."""
+    return [items[first : first + size] for first in range(0, len(items), size)]
 
 
 def panels_over(
@@ -94,22 +113,32 @@ def panels_over(
     Runs that did not reach their full length are crosses. motions: `colours_of` the table; where there are several,
     the columns of one panel are told apart by their marks alone.
     """
-    good = np.array([row["status"] == "ok" for row in rows], dtype=bool)
-    x, panels = series(rows, key.name), []
-    of = np.array([(row.get("motion") or "") if motions else "" for row in rows])
-    for one in shown:
-        lines = []
-        *others, last = (column.label for column, _ in one)
-        label = ", ".join([*(other.rpartition(" (")[0] for other in others), last])  # the unit once, at the end
-        for (column, error), mark, colour in zip(one, "os^D", COLOURS, strict=False):
-            y, name = series(rows, column.name), column.label.rpartition(" (")[0] if len(one) > 1 else ""
-            bars = series(rows, error.name) if error else None
-            for letter, own in (motions or {"": colour}).items():
-                some, rest = (of == letter) & good, (of == letter) & ~good
-                which = (letter if mark == "o" else "") if motions else name
-                lines.append(Curve(x[some], y[some], which, "", mark, own, bars[some] if error else None, 3.0))
-                lines.append(Curve(x[rest], y[rest], "", "", "x", own, size=5.0))
-        level = 0.0 if any(error for _, error in one) else None
+    x = series(rows, key.name)
+    completed, letters = np.zeros(len(rows), bool), np.full(len(rows), "", object)
+    for place, row in enumerate(rows):
+        completed[place] = row["status"] == "ok"
+        if motions:
+            letters[place] = row.get("motion") or ""
+    panels = []
+    for pairs in shown:
+        lines, level = [], None
+        names = [column.label.rpartition(" (")[0] for column, _ in pairs]  # without units
+        for (column, error), name, mark, colour in zip(pairs, names, "os^D", COLOURS, strict=False):
+            y, bars = series(rows, column.name), None
+            if error is not None:
+                bars, level = series(rows, error.name), 0.0
+            for letter, curve_colour in (motions or {"": colour}).items():
+                title = ""
+                if motions and mark == "o":
+                    title = letter
+                elif not motions and len(pairs) > 1:
+                    title = name
+                points, crosses = (letters == letter) & completed, (letters == letter) & ~completed
+                error_bars = None if bars is None else bars[points]
+                lines.append(Curve(x[points], y[points], title, "", mark, curve_colour, error_bars, 3.0))
+                lines.append(Curve(x[crosses], y[crosses], "", "", "x", curve_colour, size=5.0))
+        last_column, _ = pairs[-1]
+        label = ", ".join([*names[:-1], last_column.label])  # the unit once, at the end
         panels.append(Panel(lines, key.label, label, level=level))
     return panels
 
@@ -121,22 +150,27 @@ def extremes(
     cells = []
     for column in shown:
         values = series(rows, column.name)
-        if np.isfinite(values).any():
-            ends = (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))])
-            found = [text for row in ends for text in (column.cell(row[column.name]), at(keys, row))]
-            cells.append((column.meaning or column.head, column.unit or EMPTY, *found))
+        if not np.isfinite(values).any():
+            continue
+        line = [column.meaning or column.head, column.unit or EMPTY]
+        for row in (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))]):
+            line += [column.cell(row[column.name]), at(keys, row)]
+        cells.append(tuple(line))
     columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
-    return [Table(columns, tuple(cells), caption, small=True)] if cells else []
+    if not cells:
+        return []
+    return [Table(columns, tuple(cells), caption, small=True)]
 
 
 def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
     """Where a row stands: "H = 21 m, kA = 0.1"; with the letter of its motion, where keys have that: "motion B"."""
-    return ", ".join(
-        f"{key.head} {row[key.name]}"
-        if key.digits is None
-        else f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip()
-        for key in keys
-    )
+    parts = []
+    for key in keys:
+        if key.digits is None:
+            parts.append(f"{key.head} {row[key.name]}")
+        else:
+            parts.append(f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip())
+    return ", ".join(parts)
 
 
 def further(columns: Mapping[str, Quantity], placed: Iterable[str] = ()) -> tuple[tuple[str, str], ...]:
@@ -144,20 +178,23 @@ def further(columns: Mapping[str, Quantity], placed: Iterable[str] = ()) -> tupl
 
     A column that a campaign declares so reaches its report. placed: names beside PLACED.
     """
-    errors, placed = errors_of(columns), PLACED.union(placed)
-    return tuple(
-        (name, errors.get(name, ""))
-        for name, column in columns.items()
-        if column.digits is not None and name not in placed and name not in errors.values()
-    )
+    errors = errors_of(columns)
+    excluded = PLACED.union(placed, errors.values())
+    pairs = []
+    for name, column in columns.items():
+        if column.digits is not None and name not in excluded:
+            pairs.append((name, errors.get(name, "")))
+    return tuple(pairs)
 
 
 def errors_of(names: Iterable[str]) -> dict[str, str]:
     """Column -> the column of its standard errors: X_error belongs to X, or X_..., where these stand before it."""
-    names, found = list(names), {}
+    names, errors = list(names), {}
     for place, name in enumerate(names):
-        if name.endswith("_error"):
-            stem = name.removesuffix("error")
-            owners = (one for one in names[:place] if f"{one}_".startswith(stem) and not one.endswith("_error"))
-            found |= dict.fromkeys(owners, name)
-    return found
+        if not name.endswith("_error"):
+            continue
+        stem = name.removesuffix("error")
+        for owner in names[:place]:
+            if f"{owner}_".startswith(stem) and not owner.endswith("_error"):
+                errors[owner] = name
+    return errors

@@ -1,6 +1,7 @@
 """The report of `campaigns.sweep`: built from the table and its dictionary of columns alone, whatever was varied."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from ..parts.folder import FolderError, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.wording import EMPTY, listed, number
 from .motions import every_motion
-from .quantities import Measured, at, colours_of, extremes, in_order, measured, over_key, series
+from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _LONGEST = 24  # letters of a cell of the tables of runs
@@ -36,45 +37,66 @@ def report(directory: str | Path) -> Report:
     keys = [folder.columns[name] for name in vary]
     rows, motions = in_order(folder.table, list(vary)), colours_of(folder.table)
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
-    each = [*keys, *([folder.columns["motion"]] if motions else [])]  # what tells one run from another
-    said = listed(f"`{key.name}`" for key in keys)
-    varied = {key.name: listed(number(value) for value in np.unique(series(rows, key.name))) for key in keys}
+    run_keys = list(keys)  # what tells one run from another
+    if motions:
+        run_keys.append(folder.columns["motion"])
+    varied, key_cells = {}, {}
+    for key in keys:
+        varied[key.name] = listed(map(number, np.unique(series(rows, key.name))))
+        key_cells[key.name] = partial(_key_cell, key.name)
     shipped = str(folder.provenance.get("scene") or folder.scene.name)
+    key_names = listed(f"`{name}`" for name in varied)
+    if len(keys) == 1:
+        (key,) = keys
+        question = f"What does the scene `{folder.scene.name}` do as {key_names} varies?"
+        figures = _panels(key, rows, shown, motions) + every_motion(folder, key.name, key.head)
+    else:
+        question = f"What does the scene `{folder.scene.name}` do as {key_names} vary?"
+        figures = _maps_of_each(keys, rows, shown, motions)
     items = [
         Heading("Question"),
-        Text(f"What does the scene `{folder.scene.name}` do as {said} {'varies' if len(keys) == 1 else 'vary'}?"),
-        *extremes(each, rows, [column for one in shown for column, _ in one], _EXTREMES),
-        *(_panels(keys[0], rows, shown, motions) if len(keys) == 1 else _maps_of_each(keys, rows, shown, motions)),
-        *(every_motion(folder, keys[0].name, keys[0].head) if len(keys) == 1 else []),
+        Text(question),
+        *extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
+        *figures,
         Heading("Warnings"),
-        _failed(each, rows),
+        _warnings(run_keys, rows),
         Heading("Table of runs"),
-        *_tables(folder.columns, keys, rows),
+        *_tables(folder.columns, key_cells, rows),
         *appendix(
             *timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE), *provenance_items(folder)
         ),
     ]
-    return Report(f"Sweep of {said.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
+    return Report(f"Sweep of {key_names.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
+
+
+def _columns_of(shown: Sequence[Measured]) -> list[Quantity]:
+    """The columns of all panels, without their errors."""
+    return [column for pairs in shown for column, _ in pairs]
 
 
 def _panels(key: Quantity, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
     items: list[Item] = []
     for part in batched(shown, _PANELS):
-        names = listed(plain(column.head) for one in part for column, _ in one)
+        names = listed(plain(column.head) for column in _columns_of(part))
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
         items.append(Figure(over_key(rows, key, part, motions), caption, f"Panels over {plain(key.head)} of {names}."))
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
 def _maps_of_each(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motions) -> list[Item]:
-    every = {f", motion {letter}": [row for row in rows if row["motion"] == letter] for letter in motions}
-    return [item for said, own in (every or {"": rows}).items() for item in _maps(keys, own, shown, said)]
+    if not motions:
+        return _maps(keys, rows, shown, "")
+    items: list[Item] = []
+    for letter in motions:
+        members = [row for row in rows if row["motion"] == letter]
+        items += _maps(keys, members, shown, f", motion {letter}")
+    return items
 
 
 def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
-    over = [series(rows, key.name) for key in keys]
-    places = tuple(np.unique(values) for values in over)
-    across, up = (np.searchsorted(*pair) for pair in zip(places, over, strict=True))
+    x, y = series(rows, keys[0].name), series(rows, keys[1].name)
+    places = np.unique(x), np.unique(y)
+    across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)
 
     def laid(values: np.ndarray, nothing: object) -> np.ndarray:
         cells = np.full((len(places[1]), len(places[0])), nothing, dtype=values.dtype)
@@ -82,45 +104,62 @@ def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str
         return cells
 
     regimes = np.array([str(row.get("regime") or "") for row in rows], dtype=object)
-    drawn = [Map("", "regime", laid(regimes, ""))] if any(regimes) else []
-    for column in (column for one in shown for column, _ in one):
+    drawn = []
+    if any(regimes):
+        drawn.append(Map("", "regime", laid(regimes, "")))
+    for column in _columns_of(shown):
         drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
     items: list[Item] = []
     for part in batched(drawn, _MAPS):
-        names = listed(one.name for one in part)
+        names = listed(drawn_map.name for drawn_map in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
         picture = maps(places, (keys[0].label, keys[1].label), part)
         items.append(Figure(picture, caption, f"Maps over two parameters of {names}{motion}."))
     return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
 
 
-def batched(items: Sequence, most: int) -> list[Sequence]:
-    """The items in their order, `most` of them at a time."""
-    return [items[first : first + most] for first in range(0, len(items), most)]
-
-
-def _failed(keys: Sequence[Quantity], rows) -> Notice:
-    failed = [row for row in rows if row["status"] != "ok"]
-    less = [row for row in rows if row not in failed and "largest tension" in str(row["message"])]
-    lines = [": ".join(filter(None, (at(keys, row), row["status"], row["message"]))) for row in failed + less]
-    for place, words in _EXCURSIONS.items():
-        if count := sum(place in str(row["message"]) for row in rows):
-            lines.append(f"In {count} of {len(rows)} runs {words} (column `message`).")
+def _warnings(keys: Sequence[Quantity], rows) -> Notice:
+    """The runs that failed, then those whose numbers hold less, then how many left the range of the model."""
+    failed, doubtful = [], []
+    for row in rows:
+        if row["status"] != "ok":
+            failed.append(row)
+        elif "largest tension" in str(row["message"]):
+            doubtful.append(row)
+    lines = []
+    for row in failed + doubtful:
+        parts = (at(keys, row), row["status"], row["message"])
+        lines.append(": ".join(filter(None, parts)))
+    for phrase, words in _EXCURSIONS.items():
+        runs = sum(phrase in str(row["message"]) for row in rows)
+        if runs:
+            lines.append(f"In {runs} of {len(rows)} runs {words} (column `message`).")
     if not lines:
         return Notice("note", "Nothing to warn of", (_SOUND,))
-    return Notice("warning", "Runs that failed" if failed else "Runs that hold less", tuple(lines))
+    if failed:
+        return Notice("warning", "Runs that failed", tuple(lines))
+    return Notice("warning", "Runs that hold less", tuple(lines))
 
 
-def _tables(columns: Mapping[str, Quantity], keys: Sequence[Quantity], rows) -> list[Table]:
-    """Every column that says something in some row, in tables that a page can hold; sentences stay in `table.csv`."""
-    own = {key.name: (lambda row, name=key.name: number(float(row[name]))) for key in keys}
+def _tables(columns: Mapping[str, Quantity], key_cells: Mapping[str, Callable], rows) -> list[Table]:
+    """Every column that says something in some row, in tables that a page can hold; sentences stay in `table.csv`.
+
+    key_cells: of the varied keys, the function of a row that gives their cell.
+    """
     names = []
     for name, column in columns.items():
         cells = {column.cell(row[name]) for row in rows}
-        if name not in own and cells != {EMPTY} and max(map(len, cells)) <= _LONGEST:
+        if name not in key_cells and cells != {EMPTY} and max(map(len, cells)) <= _LONGEST:
             names.append(name)
     parts, tables = batched(names, _COLUMNS), []
     for place, part in enumerate(parts, 1):
-        which = f", columns {place} of {len(parts)}" if len(parts) > 1 else ""
-        tables.append(table_of(columns, [*own, *part], rows, f"Every run{which}.", own))
+        caption = "Every run."
+        if len(parts) > 1:
+            caption = f"Every run, columns {place} of {len(parts)}."
+        tables.append(table_of(columns, [*key_cells, *part], rows, caption, key_cells))
     return tables
+
+
+def _key_cell(name: str, row: Mapping[str, object]) -> str:
+    """The value of a varied key in a row, with the digits that it needs."""
+    return number(float(row[name]))
