@@ -75,7 +75,7 @@ def _figure(atlas: Atlas, maps: Sequence[Map], entries, alt: str, caption: str) 
     picture, places = regime_maps(maps, atlas.labels, entries, atlas.marks, WIDTH_IN, across)
     narrow, narrow_places = regime_maps(maps, atlas.labels, entries, atlas.marks, NARROW_IN, 1)
     titles = "; ".join(regime_map.title.replace("\n", ", ") for regime_map in maps)
-    return Figure(picture, caption, f"{alt}: {titles}.", narrow=narrow, places=(*places, *narrow_places))
+    return Figure(picture, caption, f"{alt}: {titles}.", narrow=narrow, places=(places, narrow_places))
 
 
 def _regimes(atlas: Atlas) -> Table:
