@@ -53,13 +53,19 @@ def content_of(directory: str | Path):
     from .parts.folder import FolderError, provenance_of
 
     directory = Path(directory)
-    made = provenance_of(directory)
-    campaign = made.get("campaign", "buoy_sweep")  # without one, the reader of any content lists all that is wrong
-    name = campaign if campaign in CONTENTS else "sweep" if made.get("vary") else ""
+    provenance = provenance_of(directory)
+    campaign = provenance.get(
+        "campaign", "buoy_sweep"
+    )  # without one, the reader of any content lists all that is wrong
+    name = campaign
+    if campaign not in CONTENTS:
+        name = "sweep" if provenance.get("vary") else ""
     if not name:
         known = ", ".join(CONTENTS)
         fault = f"provenance.json names the campaign {campaign!r} and nothing that it varied; reports exist for {known}"
         raise FolderError(directory, [fault])
     contents = import_module(f"reports.{name}.report")
-    beside = contents.beside(directory) if hasattr(contents, "beside") else {}
-    return opened(contents.report(directory), directory, made), beside
+    beside = {}
+    if hasattr(contents, "beside"):
+        beside = contents.beside(directory)
+    return opened(contents.report(directory), directory, provenance), beside

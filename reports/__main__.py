@@ -25,11 +25,10 @@ def main(arguments: list[str] | None = None) -> int:
     from .parts.folder import FolderError
     from .parts.unchanged import is_unchanged
 
-    drawn = is_unchanged(Path(directory))
-    did = (
-        f"{directory} has not changed since its report was drawn" if drawn else f"drawing the report of {directory} ..."
-    )
-    print(did, file=sys.stderr)
+    message = f"drawing the report of {directory} ..."
+    if is_unchanged(Path(directory)):
+        message = f"{directory} has not changed since its report was drawn"
+    print(message, file=sys.stderr)
     try:
         for path in build(directory):
             print(path)

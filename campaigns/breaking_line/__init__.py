@@ -52,7 +52,8 @@ def cases(order: Order) -> Iterator[Job]:
     """
     plain = {}
     for case in order.own.cases:
-        if (scene := order.scene(_changes(order, case, {}), LENGTHS_S[case[0]])) is None:
+        scene = order.scene(_changes(order, case, {}), LENGTHS_S[case[0]])
+        if scene is None:
             return
         plain[case] = scene
     if order.faults:  # theory takes seconds, and of an odd line long, for an order that is refused
@@ -61,12 +62,16 @@ def cases(order: Order) -> Iterator[Job]:
         yield Job({"case": case, "kind": "case"}, scene, duration_s=LENGTHS_S[case[0]])
     if order.own.no_companions:
         return
-    finer = {case: {"tether.nodes": 2 * scene.tether.nodes - 1} for case, scene in plain.items()}
+    finer = {}
     for case, scene in plain.items():
-        finer[case] |= {"output.profiles_step_s": DOUBLED_STEP_S} if scene.output.profiles else {}
-    for EI in STIFFNESSES_NM2 if STIFFNESS_CASE in plain else ():
-        if EI != plain[STIFFNESS_CASE].tether.bending_stiffness_Nm2:
-            yield _run(order, STIFFNESS_CASE, "stiffness", finer[STIFFNESS_CASE] | {"tether.bending_stiffness_Nm2": EI})
+        finer[case] = {"tether.nodes": 2 * scene.tether.nodes - 1}
+        if scene.output.profiles:
+            finer[case]["output.profiles_step_s"] = DOUBLED_STEP_S
+    if STIFFNESS_CASE in plain:
+        for EI in STIFFNESSES_NM2:
+            if EI != plain[STIFFNESS_CASE].tether.bending_stiffness_Nm2:
+                changes = finer[STIFFNESS_CASE] | {"tether.bending_stiffness_Nm2": EI}
+                yield _run(order, STIFFNESS_CASE, "stiffness", changes)
     for case, scene in plain.items():
         yield from _straight(order, case, scene)
     for case in plain:
@@ -82,7 +87,8 @@ def _changes(order: Order, case: str, further: dict) -> dict[str, object]:
     """The changes of a case: its break, with both ends at one level."""
     decay = {"end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S}
     force_N = [FORCES_N[case[0]], 0.0, 0.0]
-    if (scene := order.base({**further, **decay, "end.force_N": force_N})) is not None:
+    scene = order.base({**further, **decay, "end.force_N": force_N})
+    if scene is not None:
         tether = scene.tether
         weight_N = tether.density_kgpm3 * tether.area_m2 * scene.gravity_mps2 * tether.length_m
         force_N = [*force_N[:2], 0.5 * weight_N]
@@ -96,9 +102,12 @@ def _straight(order: Order, case: str, plain: "Scene") -> Iterator[Job]:
     theory = theory_of(plain, LONGEST_S)
     if theory is None:
         return
-    step_s = min(STRAIGHT_STEP_S, BIRTH_STEPS * theory.start.time_s) if theory.shocked else STRAIGHT_STEP_S
-    kinds = [("straight", STRAIGHT_NODES)] if theory.shocked else []
-    kinds += [("series", nodes) for nodes in SERIES_NODES if case in SERIES_CASES]
+    step_s, kinds = STRAIGHT_STEP_S, []
+    if theory.shocked:
+        step_s = min(STRAIGHT_STEP_S, BIRTH_STEPS * theory.start.time_s)
+        kinds.append(("straight", STRAIGHT_NODES))
+    if case in SERIES_CASES:
+        kinds += [("series", nodes) for nodes in SERIES_NODES]
     straight = {
         "gravity_mps2": 0.0,
         "tether.grid_stretching": 0.0,
@@ -131,11 +140,18 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     from campaigns.answers import known, verdicts
     from campaigns.statements import listed
 
-    ended = [row for row in rows if row["kind"] == "case" and row["status"] == "ok"]
-    if speeds := [f"{known(row, 'end_speed_mps'):.0f} (case {row['case']})" for row in ended]:
+    speeds, errors = [], []
+    for row in rows:
+        if row["kind"] != "case" or row["status"] != "ok":
+            continue
+        speeds.append(f"{known(row, 'end_speed_mps'):.0f} (case {row['case']})")
+        error = known(row, "end_speed_error")
+        if isfinite(error):
+            errors.append(abs(error))
+    if speeds:
         yield f"The broken ends come back at {listed(speeds)} m/s."
-    if off := [abs(known(row, "end_speed_error")) for row in ended if isfinite(known(row, "end_speed_error"))]:
-        yield f"Exact theory gives {len(off)} of these speeds, within {100.0 * max(off):.2g} %."
+    if errors:
+        yield f"Exact theory gives {len(errors)} of these speeds, within {100.0 * max(errors):.2g} %."
     yield from verdicts(order.how.out, quoted=4)
 
 

@@ -26,10 +26,15 @@ DELAYED = 0.5  # of the difference of the fracture times: by so much a slow brea
 
 def values(lines: Iterable[Line], cases: Iterable[str], of: str) -> list[Check]:
     """(name, number) of the cases that have one, in their order; of: a formula over the columns."""
-    number = formula(of)
-    lines_of_cases = (find(lines, case) for case in cases)
-    numbers = [(named(line["case"]), number(line)) for line in lines_of_cases if line is not None]
-    return [(name, value) for name, value in numbers if math.isfinite(value)]
+    number, checks = formula(of), []
+    for case in cases:
+        line = find(lines, case)
+        if line is None:
+            continue
+        value = number(line)
+        if math.isfinite(value):
+            checks.append((named(line["case"]), value))
+    return checks
 
 
 def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measure:
@@ -48,11 +53,13 @@ def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
 
     def measure(results: "Results") -> Measured:
         groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
-        series = [values(results.lines, group, of) for group in groups]
-        checks = [
-            (f"{a} to {b}", later - earlier) for numbers in series for (a, earlier), (b, later) in pairwise(numbers)
-        ]
-        return Measured(checks, told([numbers for group in series for numbers in group], form))
+        checks, every_number = [], []
+        for group in groups:
+            numbers = values(results.lines, group, of)
+            every_number += numbers
+            for (first, earlier), (second, later) in pairwise(numbers):
+                checks.append((f"{first} to {second}", later - earlier))
+        return Measured(checks, told(every_number, form))
 
     return measure
 
@@ -78,8 +85,10 @@ def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Meas
 
     def measure(results: "Results") -> Measured:
         numbers = values(results.lines, FAST, of)
-        checks = [("all cases", judge(sorted(value for _, value in numbers)))] if len(numbers) > 1 else []
-        return Measured(checks, told(numbers, form) if checks else "")
+        if len(numbers) < 2:
+            return Measured([])
+        in_order = sorted(value for _, value in numbers)
+        return Measured([("all cases", judge(in_order))], told(numbers, form))
 
     return measure
 
@@ -89,10 +98,11 @@ def crossing(results: "Results") -> Measured:
     times = values(results.lines, FAST, "arrival_theory_s")
     if not times:
         return Measured()
-    seen = min(seconds for _, seconds in times), max(seconds for _, seconds in times)
+    seconds = [time_s for _, time_s in times]
+    earliest, latest = PRINTED_CROSSING_S
 
     def off(scale: float) -> float:
-        return max(abs(scale * a / b - 1.0) for a, b in zip(seen, PRINTED_CROSSING_S, strict=True))
+        return max(abs(scale * min(seconds) / earliest - 1.0), abs(scale * max(seconds) / latest - 1.0))
 
     checks = [("as printed", off(1.0)), ("a tenth of it is meant (0.055 to 0.091 s)", off(10.0))]
     return Measured(checks, told(times, ".4f"))
@@ -103,11 +113,16 @@ def vertical(results: "Results") -> Measured:
     checks, words = [], []
     places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
     for place, name in places.items():
-        series = [values(results.lines, cases, name) for cases in (FAST, SLOW)]
-        falls = [earlier - later for numbers in series for (_, earlier), (_, later) in pairwise(numbers)]
-        checks += [(place, min(falls))] if falls else []
-        words.append(told(series[0] + series[1], ".3f"))
-    return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}" if any(words) else "")
+        fast, slow = values(results.lines, FAST, name), values(results.lines, SLOW, name)
+        falls = []
+        for (_, earlier), (_, later) in (*pairwise(fast), *pairwise(slow)):
+            falls.append(earlier - later)
+        if falls:
+            checks.append((place, min(falls)))
+        words.append(told(fast + slow, ".3f"))
+    if not any(words):
+        return Measured(checks)
+    return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}")
 
 
 def same_motion(results: "Results") -> Measured:
@@ -115,13 +130,17 @@ def same_motion(results: "Results") -> Measured:
     seen, shifted, words = [], [], []
     for fast, slow in pairs(results.lines):
         late = DELAYED * (slow["breaking_time_s"] - fast["breaking_time_s"]) * fast["end_speed_mps"]
-        way = [line["recoil_120ms_m"] for line in (fast, slow)]
-        if all(map(math.isfinite, way)):
-            seen.append(abs(way[1] / way[0] - 1.0))
-            shifted.append(min(seen[-1], abs((way[1] + late) / way[0] - 1.0)))
-            ways = told(zip((named(line["case"]) for line in (fast, slow)), way, strict=True), ".2f")
-            words.append(f"{ways} + {shown(late, '.2f')}")
-    checks = [("the delay of the break is taken off", max(shifted)), ("as seen", max(seen))] if seen else []
+        fast_way, slow_way = fast["recoil_120ms_m"], slow["recoil_120ms_m"]
+        if not (math.isfinite(fast_way) and math.isfinite(slow_way)):
+            continue
+        difference = abs(slow_way / fast_way - 1.0)
+        seen.append(difference)
+        shifted.append(min(difference, abs((slow_way + late) / fast_way - 1.0)))
+        ways = told([(named(fast["case"]), fast_way), (named(slow["case"]), slow_way)], ".2f")
+        words.append(f"{ways} + {shown(late, '.2f')}")
+    if not seen:
+        return Measured([])
+    checks = [("the delay of the break is taken off", max(shifted)), ("as seen", max(seen))]
     return Measured(checks, "; ".join(words))
 
 
@@ -138,30 +157,58 @@ def dominant(results: "Results") -> Measured:
 
 def doubled(results: "Results") -> Measured:
     """The largest relative change that twice the elements bring, by case."""
-    verdicts = []
+    largest, checks = [], []
     for line in of_kind(results.lines, "case"):
         fine = find(results.lines, line["case"], "doubled")
-        measured = ("end_speed_mps", "recoil_m", "kinetic_largest_J") if fine else ()
-        off = [abs(fine[name] / line[name] - 1.0) for name in measured]
-        off = [error for error in off if math.isfinite(error)]
-        verdicts += [(named(line["case"]), max(off))] if off else []
-    return Measured([(f"case {name}", off) for name, off in verdicts], told(verdicts, ".3%"))
+        if fine is None:
+            continue
+        changes = []
+        for name in ("end_speed_mps", "recoil_m", "kinetic_largest_J"):
+            change = abs(fine[name] / line[name] - 1.0)
+            if math.isfinite(change):
+                changes.append(change)
+        if changes:
+            case = named(line["case"])
+            largest.append((case, max(changes)))
+            checks.append((f"case {case}", max(changes)))
+    return Measured(checks, told(largest, ".3%"))
 
 
 def shock_incomplete(results: "Results") -> Measured:
     """Whether no shock exists before the fixed end in cases 2 and 3."""
-    known = [find(results.lines, case) for case in ("2", "3")]
-    known = [line for line in known if line is not None and math.isfinite(line["front_speed_theory_mps"])]
-    births = [(f"case {named(line['case'])}", line["shock_birth_theory_m"]) for line in known]
-    return Measured([(name, float(math.isnan(birth))) for name, birth in births], told(births, ".1f"))
+    births, checks = [], []
+    for case in ("2", "3"):
+        line = find(results.lines, case)
+        if line is None or not math.isfinite(line["front_speed_theory_mps"]):
+            continue
+        name, birth_m = f"case {named(case)}", line["shock_birth_theory_m"]
+        births.append((name, birth_m))
+        checks.append((name, float(math.isnan(birth_m))))
+    return Measured(checks, told(births, ".1f"))
 
 
 def dissipates(results: "Results") -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
     spread, resting = SPREAD(results), RESTING(results)
     ways = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
-    checks = [(name, min(value for _, value in verdict.checks)) for name, verdict in ways.items() if verdict.checks]
-    return Measured(checks, f"{spread.told}; at rest {resting.told}" if checks else "")
+    checks = []
+    for name, measured in ways.items():
+        if measured.checks:
+            checks.append((name, min(value for _, value in measured.checks)))
+    if not checks:
+        return Measured(checks)
+    return Measured(checks, f"{spread.told}; at rest {resting.told}")
+
+
+def _spread_of_ratios(ratios: list[float]) -> float:
+    """The largest relative distance of the ratios from their mean."""
+    mean = fmean(ratios)
+    return max(abs(ratio / mean - 1.0) for ratio in ratios)
+
+
+def _least_gap(speeds: list[float]) -> float:
+    """The least relative distance of two neighbours of the speeds."""
+    return min(faster / slower - 1.0 for slower, faster in pairwise(speeds))
 
 
 SMALLER = partial(by_pair, lambda fast, slow: fast - slow)
@@ -174,9 +221,8 @@ MEASURES = {
     "smaller in slow": SMALLER,
     "larger in slow": LARGER,
     "changed in slow": CHANGED,
-    # largest relative distance of the ratios from their mean; least relative distance of two of the speeds
-    "one ratio": partial(all_cases, lambda ratios: max(abs(one / fmean(ratios) - 1.0) for one in ratios)),
-    "least gap": partial(all_cases, lambda speeds: min(b / a - 1.0 for a, b in pairwise(speeds))),
+    "one ratio": partial(all_cases, _spread_of_ratios),
+    "least gap": partial(all_cases, _least_gap),
     "crossing": crossing,
     "vertical": vertical,
     "same motion": same_motion,

@@ -30,14 +30,23 @@ def read_lines(folder: Path) -> tuple[Line, ...]:
     """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
     lines = []
     for line in read_rows(folder / "table.csv"):
-        if (run := motion_of(folder, line)) is not None:
-            theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
-            if theory is not None:
-                near, at_rest = (theory.wave_speed(share * theory.speeds.strain0) for share in (0.99, 1.0))
-                line |= {"static_strain": theory.speeds.strain0, "steepening": float(near / at_rest - 1.0)}
-            line |= from_motion(line, run.profiles) if run.profiles is not None else {}
+        run = motion_of(folder, line)
+        if run is not None:
+            line |= _from_theory(run)
+        if run is not None and run.profiles is not None:
+            line |= from_motion(line, run.profiles)
         lines.append(line)
     return over_case_4(lines)
+
+
+def _from_theory(run) -> Line:
+    """Static strain and `steepening` of a run; nothing where its law has no theory."""
+    theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
+    if theory is None:
+        return {}
+    strain = theory.speeds.strain0
+    near, at_rest = theory.wave_speed(0.99 * strain), theory.wave_speed(strain)
+    return {"static_strain": strain, "steepening": float(near / at_rest - 1.0)}
 
 
 def motion_of(folder: Path, line: Line) -> object | None:
@@ -53,32 +62,35 @@ def from_motion(line: Line, profiles: object) -> Line:
                      over the length of the line
     reached_s        when the broken end first has MOST_OF of its settled speed
     """
-    found: Line = {}
+    measures: Line = {}
     fast = profiles.speed_mps[:, -1] >= MOST_OF * line["end_speed_mps"]
     if fast.any():
-        found["reached_s"] = float(profiles.time_s[int(np.argmax(fast))])
+        measures["reached_s"] = float(profiles.time_s[int(np.argmax(fast))])
     if math.isnan(line["arrival_theory_s"]):
-        return found
+        return measures
     row = int(np.argmin(np.abs(profiles.time_s - 0.5 * line["arrival_theory_s"])))
     tension, speed, s = profiles.tension_N[row], profiles.speed_mps[row], profiles.s_m
     front_m = s[-1] - line["slack_front_speed_theory_mps"] * (profiles.time_s[row] - line["breaking_time_s"])
     if (s > front_m).any():
-        found["tension_behind"] = float(np.median(np.abs(tension[s > front_m])) / line["force_N"])
+        measures["tension_behind"] = float(np.median(np.abs(tension[s > front_m])) / line["force_N"])
     loose, moving = tension < (1.0 - FRONT) * line["force_N"], speed > FRONT * line["end_speed_mps"]
     if loose.any() and moving.any():
-        found["fronts_apart"] = float(abs(s[int(np.argmax(loose))] - s[int(np.argmax(moving))]) / s[-1])
-    return found
+        measures["fronts_apart"] = float(abs(s[int(np.argmax(loose))] - s[int(np.argmax(moving))]) / s[-1])
+    return measures
 
 
 def over_case_4(lines: Sequence[Line]) -> tuple[Line, ...]:
     """The lines, with force and front speed over those of case 4, and with what the paper prints of their tension."""
     strongest = find(lines, "4")
-    return tuple(
-        line
-        | {name: line[of] / strongest[of] if strongest else math.nan for name, of in OVER_CASE_4.items()}
-        | {name: printed[int(line["case"][0]) - 1] for name, printed in PRINTED.items()}
-        for line in lines
-    )
+    wider_lines = []
+    for line in lines:
+        further: Line = {}
+        for name, column in OVER_CASE_4.items():
+            further[name] = line[column] / strongest[column] if strongest else math.nan
+        for name, printed in PRINTED.items():
+            further[name] = printed[int(line["case"][0]) - 1]
+        wider_lines.append(line | further)
+    return tuple(wider_lines)
 
 
 def named(case: str) -> str:
@@ -93,10 +105,17 @@ def of_kind(lines: Sequence[Line], kind: str) -> list[Line]:
 
 def find(lines: Sequence[Line], case: str, kind: str = "case") -> Line | None:
     """The run of a case and kind that ended as asked, None where there is none."""
-    return next((line for line in of_kind(lines, kind) if line["case"] == case), None)
+    for line in of_kind(lines, kind):
+        if line["case"] == case:
+            return line
+    return None
 
 
 def pairs(lines: Sequence[Line]) -> list[tuple[Line, Line]]:
     """Fast and slow break of the same tension, where both ended as asked."""
-    matches = [(find(lines, fast), find(lines, slow)) for fast, slow in zip(FAST, SLOW, strict=True)]
-    return [(fast, slow) for fast, slow in matches if fast is not None and slow is not None]
+    matches = []
+    for fast_case, slow_case in zip(FAST, SLOW, strict=True):
+        fast, slow = find(lines, fast_case), find(lines, slow_case)
+        if fast is not None and slow is not None:
+            matches.append((fast, slow))
+    return matches

@@ -103,7 +103,9 @@ def end_speed_error(trajectory: Trajectory, theory: Theory) -> float:
     )
     rows = rows[:: max(1, len(rows) // COMPARED)]
     exact = [abs(theory.motion.at([theory.length_m], float(time_s))[1][0]) for time_s in times[rows]]
-    return float(np.max(np.abs(end_speeds(trajectory)[rows] / exact - 1.0))) if len(rows) else math.nan
+    if not len(rows):
+        return math.nan
+    return float(np.max(np.abs(end_speeds(trajectory)[rows] / exact - 1.0)))
 
 
 def strain_overshoot(profiles: Profiles, until_s: float) -> tuple[float, float]:
@@ -150,7 +152,9 @@ def shock_birth(profiles: Profiles, theory: Theory) -> float:
     if len(gone) < LEAST_POINTS:
         return math.nan
     slope, first = np.polyfit(gone, widths, 1)
-    return float(-first / slope) if slope < 0.0 else math.nan
+    if slope >= 0.0:
+        return math.nan
+    return float(-first / slope)
 
 
 def strain_error(profiles: Profiles, theory: Theory) -> float:
@@ -163,7 +167,9 @@ def strain_error(profiles: Profiles, theory: Theory) -> float:
     for row in rows[:: max(1, len(rows) // COMPARED)]:
         exact = theory.motion.at(s, float(profiles.time_s[row]))[0]
         errors.append(float(np.trapezoid(np.abs(profiles.strain[row] - exact), s)) / float(s[-1]))
-    return float(np.mean(errors)) if errors else math.nan
+    if not errors:
+        return math.nan
+    return float(np.mean(errors))
 
 
 def tilts(profiles: Profiles) -> np.ndarray:

@@ -11,6 +11,7 @@ exact.nc (netCDF, opens in xarray) holds, padded with nan along `point`:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import zip_longest
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
@@ -44,8 +45,12 @@ def write_results(plan: Plan, summary: Summary) -> float:
     key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
     if attribute_of(path) == key:
         return 0.0
-    runs = {line["case"]: motion_of(folder, line) for line in cases}
-    content = exact({case: run for case, run in runs.items() if run is not None and run.profiles is not None})
+    runs = {}
+    for line in cases:
+        run = motion_of(folder, line)
+        if run is not None and run.profiles is not None:
+            runs[line["case"]] = run
+    content = exact(runs)
     if content is None:
         path.unlink(missing_ok=True)
     else:
@@ -57,34 +62,44 @@ def exact(runs: dict[str, object]) -> xarray.Dataset | None:
     """The content of exact.nc, of trajectories with profiles by case; None where no case has a theory."""
     import xarray
 
-    curves, contours, theory = [], [], None
+    curves, contours, wave_speed = [], [], None
     for case, run in runs.items():
-        found = theory_of(run.scene, float(run.columns["time_s"][-1]))
-        if found is None:
+        theory = theory_of(run.scene, float(run.columns["time_s"][-1]))
+        if theory is None:
             continue
-        theory = found
-        curves += [(case, share, *theory.falling(share)) for share in (*SHARES, 0.0)]
+        wave_speed = theory.wave_speed
+        for share in (*SHARES, 0.0):
+            curves.append((case, share, *theory.falling(share)))
         path = theory.motion.shock
         if theory.shocked and len(path.time_s):
             curves.append((case, np.nan, path.time_s, path.place_m))
-        contours += [(case, *row) for row in measured_contours(run.profiles, theory)]
-    if theory is None or not contours:
+        for contour in measured_contours(run.profiles, theory):
+            contours.append((case, *contour))
+    if wave_speed is None or not contours:
         return None
-    cases, shares, *lines = zip(*curves, strict=True)
-    time_s, place_m = ((("curve", "point"), np.array([*zip_longest(*rows, fillvalue=np.nan)]).T) for rows in lines)
-    variables = {"time_s": time_s, "place_m": place_m}
+    cases, shares, times_s, places_m = zip(*curves, strict=True)
+    variables = {"time_s": (("curve", "point"), padded(times_s)), "place_m": (("curve", "point"), padded(places_m))}
     variables |= {"curve_case": ("curve", list(cases)), "share": ("curve", list(shares))}
     names = ("contour_case", "contour_strain", "contour_speed_mps", "contour_wave_mps")
     variables |= {name: ("contour", list(row)) for name, row in zip(names, zip(*contours, strict=True), strict=True)}
-    strain = np.linspace(0.0, 1.08 * max(row[1] for row in contours), WAVES)
-    variables |= {"wave_strain": ("strain", strain), "wave_mps": ("strain", theory.wave_speed(strain))}
+    _, largest_strain, _, _ = max(contours, key=lambda contour: contour[1])
+    strain = np.linspace(0.0, 1.08 * largest_strain, WAVES)
+    variables |= {"wave_strain": ("strain", strain), "wave_mps": ("strain", wave_speed(strain))}
     return xarray.Dataset(variables)
+
+
+def padded(curves: Sequence[np.ndarray]) -> np.ndarray:
+    """Curves of different lengths as one array (curve, point), nan behind the end of the shorter ones."""
+    points = list(zip_longest(*curves, fillvalue=np.nan))
+    return np.array(points).T
 
 
 def measured_contours(profiles: object, theory: Theory) -> list[tuple[float, float, float]]:
     """(strain, speed, wave speed) of each contour of SHARES that can be followed; none that a shock eats."""
     contours = []
-    for share in (share for share in SHARES if not theory.swallowed(share)):
+    for share in SHARES:
+        if theory.swallowed(share):
+            continue
         speed = contour_speed(profiles, profiles.tension_N, share * theory.force_N, theory)
         if np.isfinite(speed):
             strain = theory.strain_at(share)

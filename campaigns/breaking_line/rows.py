@@ -101,19 +101,25 @@ def breaking_row(trajectory) -> dict[str, object]:
         "nodes": scene.tether.nodes,
     }
     times, profiles, energy = trajectory.columns["time_s"], trajectory.profiles, trajectory.energy
-    theory = theory_of(scene, float(times[-1])) if len(times) and times[-1] > 0.0 else None
-    row |= _theory_columns(theory) if theory is not None else {}
+    theory = None
+    if len(times) and times[-1] > 0.0:
+        theory = theory_of(scene, float(times[-1]))
+    if theory is not None:
+        row |= _theory_columns(theory)
     if trajectory.status == "ok":
         row |= dict(zip(END_SPEEDS, measures.settled_end_speed(trajectory), strict=True))
         if theory is not None:
             row["end_speed_error"] = measures.end_speed_error(trajectory, theory)
         if profiles is not None and len(profiles.time_s) > 1:
             row["speed_largest_mps"] = profiles.speed_mps.max()
-            row |= _front_columns(profiles, theory, scene.gravity_mps2) if theory is not None else {}
+            if theory is not None:
+                row |= _front_columns(profiles, theory, scene.gravity_mps2)
             if scene.gravity_mps2 > 0.0:
                 row |= measures.recoil(profiles, COMMON_S)
-                row |= measures.spread(trajectory) if energy is not None else {}
-        row |= _energy_columns(energy, theory) if energy is not None else {}
+            if scene.gravity_mps2 > 0.0 and energy is not None:
+                row |= measures.spread(trajectory)
+        if energy is not None:
+            row |= _energy_columns(energy, theory)
     return row
 
 

@@ -45,7 +45,7 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
 
     out = order.how.out
     timing, summary = parts.run(order.own)
-    complete = ended(out) and not summary.computed and results.there(out, order.how.report)
+    complete = ended(out) and not summary.computed and results.is_there(out, order.how.report)
     if not complete:
         with stage("figures' data and statements"):
             results.write(out)

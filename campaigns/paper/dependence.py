@@ -60,8 +60,10 @@ def variants(quick: bool) -> list[tuple]:
     places += product(STEEPNESSES, depths, *treatments(), [EI])
     if not quick:
         # In small waves the line never goes slack, and EI changes nothing: one depth shows it.
-        at = [(STEEPNESSES[0], depth_m), *((STEEPNESSES[1], H) for H in STIFFNESS_DEPTHS_M)]
-        places += [(*place, *usual, EI) for place, EI in product(at, STIFFNESSES_NM2)]
+        small, large = STEEPNESSES
+        waves_and_depths = [(small, depth_m), *product([large], STIFFNESS_DEPTHS_M)]
+        for (kA, H), EI in product(waves_and_depths, STIFFNESSES_NM2):
+            places.append((kA, H, *usual, EI))
     return list(dict.fromkeys(places))
 
 
@@ -73,17 +75,20 @@ def changes(values: tuple) -> dict[str, object]:
 def parameters(quick: bool) -> dict[str, object]:
     """What the provenance says of this part."""
     above, submergence = treatments()
-    periods, transient = (QUICK_PERIODS, QUICK_TRANSIENT) if quick else (PERIODS, TRANSIENT)
-    return {
+    settings = {
         "steepness": list(STEEPNESSES),
-        "depths_m": list(QUICK_DEPTHS_M if quick else DEPTHS_M),
+        "depths_m": list(DEPTHS_M),
         "above_still_water": list(above),
         "submergence": list(submergence),
-        "stiffnesses_Nm2": [] if quick else list(STIFFNESSES_NM2),
-        "stiffness_depths_m": [] if quick else list(STIFFNESS_DEPTHS_M),
-        "periods": periods,
-        "transient": transient,
+        "stiffnesses_Nm2": list(STIFFNESSES_NM2),
+        "stiffness_depths_m": list(STIFFNESS_DEPTHS_M),
+        "periods": PERIODS,
+        "transient": TRANSIENT,
     }
+    if quick:
+        settings |= {"depths_m": list(QUICK_DEPTHS_M), "stiffnesses_Nm2": [], "stiffness_depths_m": []}
+        settings |= {"periods": QUICK_PERIODS, "transient": QUICK_TRANSIENT}
+    return settings
 
 
 def measures(order: Order) -> Measures:

@@ -58,8 +58,8 @@ class Parts:
         if name not in self._parts:
             folder = self.root / name
             try:
-                told = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
-                self._parts[name] = Part(folder, read_rows(folder / "table.csv"), told)
+                provenance = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
+                self._parts[name] = Part(folder, read_rows(folder / "table.csv"), provenance)
             except FileNotFoundError as error:
                 raise LeftOut(f"the part `{name}` is not there: {Path(error.filename).name} is missing") from None
             except (OSError, ValueError, KeyError) as error:
@@ -70,9 +70,10 @@ class Parts:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
         from engine.trajectory import TrajectoryError
 
-        row = next((row for row in part.rows if wanted.items() <= row.items()), None)
-        if row is None:
+        matching = [row for row in part.rows if wanted.items() <= row.items()]
+        if not matching:
             raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
+        row = matching[0]
         if row["status"] != "ok":
             raise LeftOut(f"the run of {label} ended early ({row['status']}: {row['message']})")
         path = trajectory_path(part.folder, row["run_key"])
@@ -114,7 +115,9 @@ class Results:
 
     def depth(self) -> float:
         """The water depth of the scene as shipped, from the first row of the dependence study; nan without one."""
-        return self.dependence[0]["depth_m"] if self.dependence else math.nan
+        if not self.dependence:
+            return math.nan
+        return self.dependence[0]["depth_m"]
 
     def usual(self) -> Row:
         """Treatments and stiffness of the scene as shipped, which leads the study."""
@@ -125,7 +128,7 @@ class Results:
         if not self.dependence:
             return []
         wanted = self.usual() | treated | {"steepness": steepness, "status": "ok"}
-        rows = [row for row in self.dependence if all(row[key] == entry for key, entry in wanted.items())]
+        rows = [row for row in self.dependence if wanted.items() <= row.items()]
         return sorted(rows, key=lambda row: row["depth_m"])
 
 
@@ -133,15 +136,19 @@ def read_results(directory: str | Path) -> Results:
     """Read the folder of `campaigns.paper`; never raises for a part."""
     from engine.trajectory import TrajectoryError
 
-    parts, numbers, found = Parts(Path(directory)), {}, {}
-    whole_tables = (
-        lambda *_: {"lines": read_lines(parts.root / "breaking_line")},
-        lambda *_: {"sweep": parts.part("sweep").rows},
-    )
-    for reader in (*whole_tables, _buoy, _doubled, _dependence, _plane, _oscillator):
+    parts, numbers, fields = Parts(Path(directory)), {}, {}
+    for reader in (_lines, _sweep, _buoy, _doubled, _dependence, _plane, _oscillator):
         with contextlib.suppress(LeftOut, OSError, ValueError, KeyError, TrajectoryError):
-            found |= reader(parts, numbers)
-    return Results(**found, numbers=numbers)
+            fields |= reader(parts, numbers)
+    return Results(**fields, numbers=numbers)
+
+
+def _lines(parts: Parts, numbers: dict) -> dict:
+    return {"lines": read_lines(parts.root / "breaking_line")}
+
+
+def _sweep(parts: Parts, numbers: dict) -> dict:
+    return {"sweep": parts.part("sweep").rows}
 
 
 def _buoy(parts: Parts, numbers: dict) -> dict:
@@ -157,10 +164,14 @@ def _buoy(parts: Parts, numbers: dict) -> dict:
         numbers |= scales(scene, modes, SMALL, LARGE)
     rows = {row["steepness"]: dict(row) for row in part.rows}
     for steepness in {SMALL, LARGE} & {*rows}:
-        if (trajectory := run_of(part.folder, rows[steepness])) is not None:
-            rows[steepness] |= snaps(trajectory, transient)
-            small = steepness == SMALL
-            numbers |= calm_measures(trajectory, modes) if small else violent_measures(trajectory, transient)
+        trajectory = run_of(part.folder, rows[steepness])
+        if trajectory is None:
+            continue
+        rows[steepness] |= snaps(trajectory, transient)
+        if steepness == SMALL:
+            numbers |= calm_measures(trajectory, modes)
+        else:
+            numbers |= violent_measures(trajectory, transient)
     return {"buoy": rows}
 
 
@@ -168,36 +179,48 @@ def _doubled(parts: Parts, numbers: dict) -> dict:
     """Rows on the coarser grid, with the rms change of r (m) on the finer one, early and over the whole record."""
     part = parts.part("doubled")
     runs = {(row["waves.steepness"], row["tether.nodes"]): run_of(part.folder, row) for row in part.rows}
-    found = []
+    coarse_nodes, fine_nodes = NODES
+    rows = []
     for row in part.rows:
-        coarse, fine = (runs.get((row["waves.steepness"], nodes)) for nodes in NODES)
-        if row["tether.nodes"] != NODES[0] or coarse is None or fine is None:
+        steepness = row["waves.steepness"]
+        coarse, fine = runs.get((steepness, coarse_nodes)), runs.get((steepness, fine_nodes))
+        if row["tether.nodes"] != coarse_nodes or coarse is None or fine is None:
             continue
         off_m = fine.columns["radius_m"] - coarse.columns["radius_m"]
         early = round(EARLY * coarse.scene.waves.period_s / coarse.scene.sample_step_s()) + 1
-        errors_m = {"error_early_m": off_m[:early], "error_m": off_m}
-        found.append(row | {name: float(np.sqrt(np.mean(values**2))) for name, values in errors_m.items()})
-    return {"doubled": tuple(found)}
+        rows.append(row | {"error_early_m": _rms(off_m[:early]), "error_m": _rms(off_m)})
+    return {"doubled": tuple(rows)}
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _dependence(parts: Parts, numbers: dict) -> dict:
     """Rows with `snaps` at the large wave, of those that differ from the first in depth and buoyancy at most."""
     folder = parts.root / "dependence"
-    rows, told = read_rows(folder / "table.csv"), read_json(parts.root / "provenance.json") or {}
-    transient = int(told.get("dependence", {}).get("transient") or 0)
+    rows, provenance = read_rows(folder / "table.csv"), read_json(parts.root / "provenance.json") or {}
+    transient = int(provenance.get("dependence", {}).get("transient") or 0)
     wanted = {key: rows[0][key] for key in ("above_still_water", "bending_stiffness_Nm2")} | {"steepness": LARGE}
-    found = []
+    rows_with_snaps = []
     for row in rows:
-        trajectory = run_of(folder, row) if wanted.items() <= row.items() else None
-        found.append(row if trajectory is None else row | snaps(trajectory, transient))
-    return {"dependence": tuple(found)}
+        trajectory = None
+        if wanted.items() <= row.items():
+            trajectory = run_of(folder, row)
+        if trajectory is not None:
+            row = row | snaps(trajectory, transient)
+        rows_with_snaps.append(row)
+    return {"dependence": tuple(rows_with_snaps)}
 
 
 def _plane(parts: Parts, numbers: dict) -> dict:
     part = parts.part("out_of_plane")
-    row = next((row for row in part.rows if row["profiles"] and row["status"] == "ok"), None)
-    trajectory = None if row is None else run_of(part.folder, row)
-    waves = buckling_waves(trajectory.profiles) if trajectory is not None and trajectory.profiles else None
+    with_profiles = [row for row in part.rows if row["profiles"] and row["status"] == "ok"]
+    trajectory, waves = None, None
+    if with_profiles:
+        trajectory = run_of(part.folder, with_profiles[0])
+    if trajectory is not None and trajectory.profiles:
+        waves = buckling_waves(trajectory.profiles)
     if waves is not None:
         numbers["buckle_waves"] = waves
     return {"plane": part.rows, "plane_large": float(part.provenance["base"]["steepness"])}

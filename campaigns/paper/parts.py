@@ -83,15 +83,18 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
     write_atomic(out / "scene.toml", (head + load_scene(dependence.SCENE).to_toml()).encode())
     table = Table(out / "table.csv", COLUMNS, list(PARTS))
     known = {*names(COLUMNS)}
-    table.rows |= {row["part"]: row for row in _rows(out) if row.keys() == known and row["part"] in PARTS}
+    for row in _rows(out):
+        if row.keys() == known and row["part"] in PARTS:
+            table.rows[row["part"]] = row
     timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
-    todo = [part for part in order.parts if not _there(table.rows.get(part), keys[part], out / part, order)]
+    todo = [part for part in order.parts if not _is_there(table.rows.get(part), keys[part], out / part, order)]
     for number, part in enumerate(todo, 1):
         with stage(f"part {number} of {len(todo)}"):
-            row = _done(part, order)
+            row = _run_part(part, order)
         table.add(part, {**row, "run_key": _ended(keys[part], out / part)})
         table.write()
-        timing |= {name: timing[name] + row[name] for name in _TIMES}
+        for name in _TIMES:
+            timing[name] += row[name]
     table.write()
     return timing, Summary(table.in_order(), len(order.parts) - len(todo), len(todo), 0.0)
 
@@ -106,8 +109,11 @@ def _rows(out: Path) -> list[dict[str, str]]:
 
 
 def _key(part: str, order: Namespace) -> str:
-    told = dependence.parameters(order.quick) if part == "dependence" else CAMPAIGNS[part][1 + order.quick]
-    return made_by({"part": part, "told": told}, *SOURCES, *of_the_page())
+    if part == "dependence":
+        settings = dependence.parameters(order.quick)
+    else:
+        settings = CAMPAIGNS[part][1 + order.quick]
+    return made_by({"part": part, "told": settings}, *SOURCES, *of_the_page())
 
 
 def _ended(key: str, out: Path) -> str:
@@ -119,7 +125,7 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _there(row: dict[str, str] | None, key: str, out: Path, order: Namespace) -> bool:
+def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Namespace) -> bool:
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
@@ -128,28 +134,31 @@ def _there(row: dict[str, str] | None, key: str, out: Path, order: Namespace) ->
     return bool(sound) and all(sound) and reported
 
 
-def _done(part: str, order: Namespace) -> dict[str, object]:
+def _run_part(part: str, order: Namespace) -> dict[str, object]:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":
         timing, summary = dependence.run(out, how.jobs, order.quick)
         command = ""
-        counts = len(summary.rows), sum(row["status"] != "ok" for row in summary.rows)
+        runs, failed = len(summary.rows), sum(row["status"] != "ok" for row in summary.rows)
     else:
         module, *chosen = CAMPAIGNS[part]
         words = [*chosen[order.quick], "--out", str(out)]
-        words += ["--jobs", str(how.jobs)] if part != "oscillator" else []
-        words += [] if how.report and not order.quick else ["--no-report"]
-        _called(part, module, words)
-        told = json.loads((out / "provenance.json").read_text(encoding="utf-8"))
-        timing, command = told["timing"], " ".join(command_line(module, words))
-        counts = told["runs"]["total"], told["runs"]["failed"]
-    row = {"part": part, "status": "ok", "command": command, "runs": counts[0], "failed": counts[1], "message": ""}
-    row |= {name: round(float(timing[name]), 3) for name in _TIMES}
+        if part != "oscillator":
+            words += ["--jobs", str(how.jobs)]
+        if order.quick or not how.report:
+            words.append("--no-report")
+        _run_campaign(part, module, words)
+        provenance = json.loads((out / "provenance.json").read_text(encoding="utf-8"))
+        timing, command = provenance["timing"], " ".join(command_line(module, words))
+        runs, failed = provenance["runs"]["total"], provenance["runs"]["failed"]
+    row = {"part": part, "status": "ok", "command": command, "runs": runs, "failed": failed, "message": ""}
+    for name in _TIMES:
+        row[name] = round(float(timing[name]), 3)
     return row | {"total_s": round(time.perf_counter() - begun, 3)}
 
 
-def _called(part: str, module: str, words: list[str]) -> None:
+def _run_campaign(part: str, module: str, words: list[str]) -> None:
     """Run a campaign in this process. What it has to say it has said itself."""
     code = importlib.import_module(module).main(words)
     if code == cli.EXIT_INTERRUPTED:

@@ -17,15 +17,21 @@ def maker() -> str:
     return made_by({}, *SOURCES, *of_the_page())
 
 
-def there(out: Path, report: bool) -> bool:
+def is_there(out: Path, report: bool) -> bool:
     """Whether all that `write` and the report leave is in the folder."""
-    files = [out / STATEMENTS, *(out / page for page in PAGES if report)]
+    files = [out / STATEMENTS]
+    if report:
+        files += [out / page for page in PAGES]
     missing = read_json(place_of(out) / LEFT_OUT)
     if not isinstance(missing, dict):
         return False
     for number in FIGURES:
-        data, *drawn = files_of(out, number)
-        files += [] if str(number) in missing else [data, *(drawn if report else [])]
+        if str(number) in missing:
+            continue
+        data, *drawings = files_of(out, number)
+        files.append(data)
+        if report:
+            files += drawings
     return all(path.exists() for path in files)
 
 

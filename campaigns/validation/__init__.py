@@ -25,7 +25,8 @@ def options(group) -> None:
 
 def read(options: Namespace, faults: list[str]) -> None:
     """The cases that they ask for."""
-    chosen = options.only or (QUICK if options.quick else CASES)
+    every_name = QUICK if options.quick else CASES
+    chosen = options.only or every_name
     options.cases = tuple(CASES[name] for name in CASES if name in chosen)
     reasons = [missing(case) for case in options.cases]
     if reasons and all(reasons):
@@ -67,22 +68,28 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     from campaigns.machinery.folder import read_rows
 
     judged = read_rows(order.how.out / "cases.csv")
-    names = {word: list(dict.fromkeys(row["case"] for row in judged if row["verdict"] == word)) for word in
-             (HOLDS, MISSES, NOT_RUN)}  # fmt: skip
-    held = [name for name in names[HOLDS] if name not in names[MISSES]]
-    yield f"{len(held)} of {len({row['case'] for row in judged})} cases hold."
-    for row in (row for row in judged if row["verdict"] == MISSES):
-        yield f"Misses: {row['case']}, {row['quantity']}: {said(row)}."
-    close = max(
-        (row for row in judged if row["verdict"] == HOLDS), key=lambda row: row["error"] / row["bar"], default=None
-    )
-    if close:
-        yield f"Nearest to its bar of those that hold: {close['case']}, {close['quantity']}: {said(close)}."
-    if names[NOT_RUN]:
-        yield f"Not run: {', '.join(names[NOT_RUN])}."
+    rows_of_verdicts: dict[str, list[dict]] = {HOLDS: [], MISSES: [], NOT_RUN: []}
+    for row in judged:
+        rows_of_verdicts.setdefault(row["verdict"], []).append(row)
+    holding, missed = rows_of_verdicts[HOLDS], rows_of_verdicts[MISSES]
+    held = _cases(holding).keys() - _cases(missed).keys()
+    yield f"{len(held)} of {len(_cases(judged))} cases hold."
+    for row in missed:
+        yield f"Misses: {row['case']}, {row['quantity']}: {error_in_words(row)}."
+    if holding:
+        nearest = max(holding, key=lambda row: row["error"] / row["bar"])
+        words = f"{nearest['case']}, {nearest['quantity']}: {error_in_words(nearest)}"
+        yield f"Nearest to its bar of those that hold: {words}."
+    if rows_of_verdicts[NOT_RUN]:
+        yield f"Not run: {', '.join(_cases(rows_of_verdicts[NOT_RUN]))}."
 
 
-def said(row: dict) -> str:
+def _cases(rows: list[dict]) -> dict[str, None]:
+    """The cases of rows, each once, in their order."""
+    return dict.fromkeys(row["case"] for row in rows)
+
+
+def error_in_words(row: dict) -> str:
     """The error of a row with its bar."""
     if row["error"] != row["error"]:
         return row["note"]

@@ -62,7 +62,11 @@ class Case:
 
     def jobs(self) -> list[Job]:
         """Its runs, in the order in which its family takes them."""
-        return [] if missing(self) else [*(peer_jobs if self.family == "peer" else own_jobs)(self)]
+        if missing(self):
+            return []
+        if self.family == "peer":
+            return list(peer_jobs(self))
+        return list(own_jobs(self))
 
 
 def all_cases() -> Iterator[Case]:
@@ -83,11 +87,15 @@ def own_jobs(case: Case) -> Iterator[Job]:
     from engine import load_scene
 
     for values in itertools.product(*case.vary.values()):
-        changes = {**case.changes, **dict(zip(case.vary, values, strict=True))}
-        scene = load_scene(case.scene, {key: None if value == "none" else value for key, value in changes.items()})
+        changes = case.changes | dict(zip(case.vary, values, strict=True))
+        words = [case.scene]
+        for key, value in changes.items():
+            words.append(f"{key.rpartition('.')[2]} {shown(value)}")
+            if value == "none":
+                changes[key] = None
+        scene = load_scene(case.scene, changes)
         length_s = case.duration_s or case.rounds * period_of(scene)
-        run = ", ".join([case.scene, *(f"{key.rpartition('.')[2]} {shown(value)}" for key, value in changes.items())])
-        yield Job({"run": run}, scene, duration_s=length_s)
+        yield Job({"run": ", ".join(words)}, scene, duration_s=length_s)
 
 
 def peer_jobs(case: Case) -> Iterator[Job]:
@@ -98,13 +106,11 @@ def peer_jobs(case: Case) -> Iterator[Job]:
 
     peer, work, setting = peer_of(case), BY_NAME[case.options["work"]], tuple(case.options["setting"])
     yield Job({"run": f"{work.name}, ours"}, work.made({**peer.ours, **case.changes}), duration_s=case.duration_s)
-    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
-    simulate, scenes = (
-        partial(other_code, peer=peer, settings=setting),
-        f"{peer.name} {version(peer)} {setting} {sources}",
-    )
+    sources = made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
+    simulate = partial(other_code, peer=peer, settings=setting)
+    maker = f"{peer.name} {version(peer)} {setting} {sources}"
     scene = scene_of(peer, work.name, setting[0])
-    yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=scenes)
+    yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=maker)
 
 
 def missing(case: Case) -> str:
@@ -113,7 +119,9 @@ def missing(case: Case) -> str:
         from campaigns.accuracy.jobs import version
 
         peer = peer_of(case)
-        return "" if version(peer) else f"not installed: pip install {peer.package}, or the extra bench of this project"
+        if not version(peer):
+            return f"not installed: pip install {peer.package}, or the extra bench of this project"
+        return ""
     return case.not_run
 
 
@@ -132,13 +140,22 @@ def period_of(scene) -> float:
 def shown(value: object) -> str:
     """A value of a scene in few letters."""
     if isinstance(value, dict):
-        return " ".join(f"{key} {shown(entry)}" for key, entry in value.items() if not isinstance(entry, list))
-    return f"{value:g}" if isinstance(value, float) and math.isfinite(value) else str(value)
+        words = []
+        for key, entry in value.items():
+            if not isinstance(entry, list):
+                words.append(f"{key} {shown(entry)}")
+        return " ".join(words)
+    if isinstance(value, float) and math.isfinite(value):
+        return f"{value:g}"
+    return str(value)
 
 
 def jobs(cases: Iterable[Case]) -> list[Job]:
     """The runs of all cases, each once: several cases may look at the same one. The longest come first."""
-    by_key = {job.key: job for case in cases for job in case.jobs()}
+    by_key = {}
+    for case in cases:
+        for job in case.jobs():
+            by_key[job.key] = job
     return sorted(by_key.values(), key=lambda job: -job.size)
 
 

@@ -51,11 +51,11 @@ def catenary(scene) -> Catenary:
     fixed = m * scene.gravity_mps2, tether.tension.stiffness_N, m, tether.length_m
     weight = fixed[0] * tether.length_m
 
-    def off(force: np.ndarray) -> np.ndarray:
+    def difference(force: np.ndarray) -> np.ndarray:
         return Catenary(np.exp(force[0]), force[1], *fixed).place(np.array([tether.length_m]))[:, 0] - end
 
-    solution, _, ok, message = fsolve(off, [np.log(weight), -0.5 * weight], xtol=1e-13, full_output=True)
-    if ok != 1 and np.abs(off(solution)).max() > 1e-9 * tether.length_m:
+    solution, _, ok, message = fsolve(difference, [np.log(weight), -0.5 * weight], xtol=1e-13, full_output=True)
+    if ok != 1 and np.abs(difference(solution)).max() > 1e-9 * tether.length_m:
         raise ValueError(f"no catenary found: {message}")
     return Catenary(float(np.exp(solution[0])), float(solution[1]), *fixed)
 
@@ -67,8 +67,12 @@ def frequencies(line: Catenary, count: int) -> np.ndarray:
     T, n = line.tension(s), len(s)
     t = np.array([np.full(n, line.H), line.V + line.w * s]) / T
     across = T / (1.0 + T / line.EA)
-    K = [[(line.EA - across) * t[i] * t[j] + (i == j) * across for j in range(2)] for i in range(2)]
-    A = np.block([[(D @ np.diag(K[i][j]) @ D)[1:-1, 1:-1] for j in range(2)] for i in range(2)])
+    blocks = [[None, None], [None, None]]
+    for i in range(2):
+        for j in range(2):
+            K = (line.EA - across) * t[i] * t[j] + (i == j) * across
+            blocks[i][j] = (D @ np.diag(K) @ D)[1:-1, 1:-1]
+    A = np.block(blocks)
     square = np.sort(-np.linalg.eigvals(A / line.m).real)
     return np.sqrt(square[:count]) / (2.0 * np.pi)
 

@@ -1,4 +1,4 @@
-"""What each family of cases compares: a function (case, runs) -> Found, runs in the order of `Case.jobs`."""
+"""What each family of cases compares: a function (case, runs) -> Outcome, runs in the order of `Case.jobs`."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -23,7 +23,7 @@ class Number(NamedTuple):
     unit: str = ""
 
 
-class Found(NamedTuple):
+class Outcome(NamedTuple):
     """numbers: quantity -> Number; curves: (name, x, ours, theirs), arrays of one length; note: what was fitted."""
 
     numbers: dict[str, Number]
@@ -71,7 +71,7 @@ def span(values: np.ndarray, unit: str) -> str:
     return f"{values.min():.2f} to {values.max():.2f} {unit}"
 
 
-def measured_history(case: Case, runs: Sequence[Trajectory]) -> Found:
+def measured_history(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension over a period against a measured one, both averaged over periods; rms as a share of their range."""
     run, period_s = runs[0], period_of(runs[0].scene)
     record = table("lindahl_history.csv")
@@ -82,16 +82,18 @@ def measured_history(case: Case, runs: Sequence[Trajectory]) -> Found:
     ours, shift_s = shifted(steady, period_s, time_s, theirs)
     error = 100.0 * rms(ours - theirs) / float(np.ptp(theirs))
     numbers = {"history, rms": Number(span(ours, "N"), span(theirs, "N"), error)}
-    return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.3f} s")
+    return Outcome(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.3f} s")
 
 
-def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Found:
+def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Mean of the maxima of the last periods against measured ones, one a run."""
     rows = {(period, radius): largest for period, radius, largest in table("lindahl_maxima.csv")}
     motions = [run.scene.end.motion for run in runs]
     theirs = np.array([rows[motion.period_s, motion.radius_m] for motion in motions])
-    highs = ((run.columns["time_s"], run.columns["tension_top_high_N"], period_of(run.scene)) for run in runs)
-    ours = np.array([mean_maximum(*high, case.options["rounds"]) for high in highs])
+    ours = np.empty(len(runs))
+    for place, run in enumerate(runs):
+        time_s, tension_N = run.columns["time_s"], run.columns["tension_top_high_N"]
+        ours[place] = mean_maximum(time_s, tension_N, period_of(run.scene), case.options["rounds"])
     difference, share = ours - theirs, 100.0 * (ours / theirs - 1.0)
     ranges = span(ours, "N"), span(theirs, "N")
     numbers = {
@@ -99,10 +101,10 @@ def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Found:
         "maxima, mean size": Number(*ranges, float(np.abs(share).mean())),
     }
     curves = []
-    for radius in dict.fromkeys(motion.radius_m for motion in motions):
-        of_radius = np.array([motion.radius_m == radius for motion in motions])
-        period = np.array([motion.period_s for motion in motions])[of_radius]
-        curves.append((f"radius {radius:g} m", period, ours[of_radius], theirs[of_radius]))
+    radii, motion_periods = np.array([(motion.radius_m, motion.period_s) for motion in motions]).T
+    for radius in dict.fromkeys(radii):
+        of_radius = radii == radius
+        curves.append((f"radius {radius:g} m", motion_periods[of_radius], ours[of_radius], theirs[of_radius]))
     time_s, *records = table("lindahl_history.csv").T
     sentences = []
     for period_s, record in zip(HISTORY_PERIODS_S, records, strict=True):
@@ -110,7 +112,7 @@ def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Found:
         sentences.append(f"{largest:.1f} for {rows[period_s, HISTORY_RADIUS_M]:.1f} N")
     note = f"ours less theirs: {difference.min():+.1f} to {difference.max():+.1f} N"
     note += f"; the measured histories themselves have {' and '.join(sentences)}"
-    return Found(numbers, curves, note)
+    return Outcome(numbers, curves, note)
 
 
 def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds: int) -> float:
@@ -119,34 +121,36 @@ def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds
     return float(np.mean([values[back == i].max() for i in range(rounds)]))
 
 
-def computed_history(case: Case, runs: Sequence[Trajectory]) -> Found:
+def computed_history(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension of the last period against that of another code, along its record; rms in kN.
 
     The option settled_s tells too how far they are apart from then on: a record may not be periodic where it begins.
     """
     run, period_s = runs[0], period_of(runs[0].scene)
-    _, time_s, theirs = (rows := table("lowe_langley.csv"))[rows[:, 0] == case.options["record"]].T
+    rows = table("lowe_langley.csv")
+    _, time_s, theirs = rows[rows[:, 0] == case.options["record"]].T
     steady = over_a_period(run.columns["time_s"], 1e-3 * run.columns["tension_top_N"], period_s, 1)
     ours, shift_s = shifted(steady, period_s, time_s, theirs)
     ranges = span(ours, "kN"), span(theirs, "kN")
     numbers = {"tension, rms": Number(*ranges, rms(ours - theirs))}
-    if since_s := case.options.get("settled_s"):
+    since_s = case.options.get("settled_s")
+    if since_s:
         later = time_s >= since_s
         numbers[f"from {since_s:g} s on, rms"] = Number(*ranges, rms((ours - theirs)[later]), "kN")
     if run.scene.waves is None:  # a motion with a stated start; of waves the phase is not known
         as_is = along(steady, period_s, time_s)
         numbers["without a shift, rms"] = Number(*ranges, rms(as_is - theirs), "kN")
-    return Found(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
+    return Outcome(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
 
 
-def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Found:
+def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension at rest against a printed number, and the shape against the elastic catenary."""
     tension_kN, right = 1e-3 * float(runs[0].columns["tension_top_N"][0]), case.options["tension_kN"]
     numbers = {"tension at rest": Number(f"{tension_kN:.4g} kN", f"{right:.4g} kN", abs(tension_kN - right))}
-    return Found(numbers, [])
+    return Outcome(numbers, [])
 
 
-def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Found:
+def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Shape and tension at rest against the closed form (`campaigns.validation.exact`)."""
     lines, scene = runs[0].profiles, runs[0].scene
     exact = catenary(scene)
@@ -154,15 +158,21 @@ def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Found:
     ours = np.array([lines.x_m[0], lines.z_m[0]])
     off = 100.0 * float(np.linalg.norm(ours - place, axis=0).max()) / scene.tether.length_m
     pull = 100.0 * float(np.abs(lines.tension_N[0] / tension - 1.0).max())
-    middle = (f"{x:.4f}, {z:.4f} m" for x, z in (at[:, len(s) // 2] for at in (ours, place)))
+    middle = len(s) // 2
     numbers = {
-        "place, largest": Number(*middle, off),
+        "place, largest": Number(in_metres(ours[:, middle]), in_metres(place[:, middle]), off),
         "tension, largest": Number(f"{lines.tension_N[0, -1]:.4f} N", f"{tension[-1]:.4f} N", pull),
     }
-    return Found(numbers, [("", s, ours[1], place[1])])
+    return Outcome(numbers, [("", s, ours[1], place[1])])
 
 
-def free_motion(case: Case, runs: Sequence[Trajectory]) -> Found:
+def in_metres(place: np.ndarray) -> str:
+    """ "1.2345, 0.5000 m"."""
+    x, z = place
+    return f"{x:.4f}, {z:.4f} m"
+
+
+def free_motion(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Peaks of the spectrum of a line that was plucked at its end, against the modes of the elastic catenary."""
     lines, count = runs[0].profiles, case.options["modes"]
     free = lines.time_s >= case.options["after_s"]
@@ -172,10 +182,11 @@ def free_motion(case: Case, runs: Sequence[Trajectory]) -> Found:
     power = (np.abs(np.fft.rfft(window * (moved - moved.mean(axis=0)), axis=0)) ** 2).sum(axis=1)
     at = np.fft.rfftfreq(len(moved), step_s)
     right = frequencies(catenary(runs[0].scene), count)
-    found = np.array([peak_near(at, power, frequency) for frequency in right])
-    error = 100.0 * float(np.abs(found / right - 1.0).max())
-    ranges = (f"{values[0]:.4f} to {values[-1]:.4f} Hz" for values in (found, right))
-    return Found({"frequencies, largest": Number(*ranges, error)}, [("", np.arange(1.0, count + 1.0), found, right)])
+    peaks = np.array([peak_near(at, power, frequency) for frequency in right])
+    error = 100.0 * float(np.abs(peaks / right - 1.0).max())
+    ours, theirs = f"{peaks[0]:.4f} to {peaks[-1]:.4f} Hz", f"{right[0]:.4f} to {right[-1]:.4f} Hz"
+    numbers = {"frequencies, largest": Number(ours, theirs, error)}
+    return Outcome(numbers, [("", np.arange(1.0, count + 1.0), peaks, right)])
 
 
 def peak_near(at: np.ndarray, power: np.ndarray, frequency: float) -> float:
@@ -186,7 +197,7 @@ def peak_near(at: np.ndarray, power: np.ndarray, frequency: float) -> float:
     return float(at[top] + 0.5 * (left - right) / (left - 2.0 * middle + right) * (at[1] - at[0]))
 
 
-def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Found:
+def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Strain along the line against the exact motion by characteristics; mean over line and time."""
     from campaigns.accuracy.rows import strain_error
     from campaigns.breaking_line.theory import theory_of
@@ -194,28 +205,31 @@ def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Found:
     lines, shown = runs[0].profiles, case.options["shown_s"]
     at = int(np.argmin(np.abs(lines.time_s - shown)))
     exact = theory_of(runs[0].scene, float(lines.time_s[-1])).motion.at(lines.s_m, float(lines.time_s[at]))[0]
-    ranges = (f"{values.min():.4f} to {values.max():.4f}" for values in (lines.strain[at], exact))
-    return Found({"strain, mean": Number(*ranges, strain_error(runs[0]))}, [("", lines.s_m, lines.strain[at], exact)])
+    strain = lines.strain[at]
+    ours, theirs = f"{strain.min():.4f} to {strain.max():.4f}", f"{exact.min():.4f} to {exact.max():.4f}"
+    numbers = {"strain, mean": Number(ours, theirs, strain_error(runs[0]))}
+    return Outcome(numbers, [("", lines.s_m, strain, exact)])
 
 
-def peer(case: Case, runs: Sequence[Trajectory]) -> Found:
+def peer(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Distance of the buoy from its anchor against that of another code; rms as a share of its range."""
-    ours, theirs = (run.columns["radius_m"] for run in runs)
+    ours, theirs = [run.columns["radius_m"] for run in runs]
     error = 100.0 * rms(ours - theirs) / float(np.ptp(theirs))
     numbers = {"distance, rms": Number(span(ours, "m"), span(theirs, "m"), error)}
-    return Found(numbers, [("", runs[0].columns["time_s"], ours, theirs)])
+    return Outcome(numbers, [("", runs[0].columns["time_s"], ours, theirs)])
 
 
-def whoi_mine(case: Case, runs: Sequence[Trajectory]) -> Found:
+def whoi_mine(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Shape and tension at rest in a current against the printed table."""
     rows, lines = table("whoi_mine.csv"), runs[0].profiles
     s, x, z = rows[:, :3].T
     pull = POUND_N * rows[:, 5]
-    ours = {name: np.interp(s, lines.s_m, getattr(lines, name)[0]) for name in ("x_m", "z_m", "tension_N")}
-    off = 1e3 * float(np.hypot(ours["x_m"] - x, ours["z_m"] - z).max())
-    difference = 100.0 * float(np.abs(ours["tension_N"] / pull - 1.0).max())
+    our_x, our_z = np.interp(s, lines.s_m, lines.x_m[0]), np.interp(s, lines.s_m, lines.z_m[0])
+    tension = np.interp(s, lines.s_m, lines.tension_N[0])
+    off = 1e3 * float(np.hypot(our_x - x, our_z - z).max())
+    difference = 100.0 * float(np.abs(tension / pull - 1.0).max())
     numbers = {
-        "place, largest": Number(f"{ours['x_m'][-1]:.4f}, {ours['z_m'][-1]:.4f} m", f"{x[-1]:.4f}, {z[-1]:.4f} m", off),
-        "tension, largest": Number(span(ours["tension_N"], "N"), span(pull, "N"), difference),
+        "place, largest": Number(in_metres((our_x[-1], our_z[-1])), in_metres((x[-1], z[-1])), off),
+        "tension, largest": Number(span(tension, "N"), span(pull, "N"), difference),
     }
-    return Found(numbers, [("", s, ours["x_m"], x)])
+    return Outcome(numbers, [("", s, our_x, x)])

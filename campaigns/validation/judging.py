@@ -7,6 +7,7 @@ from campaigns.columns import Column
 from campaigns.machinery.folder import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
+from engine import Trajectory
 
 POINTS = (
     Column("case", symbol="case", meaning="name of the case"),
@@ -28,30 +29,42 @@ def judged(out: Path, cases: Iterable[Case]) -> tuple[list[dict], list[dict]]:
             rows.append(base | {"quantity": next(iter(case.bars), ""), "verdict": NOT_RUN})
             continue
         runs = [run_of(out, {"run_key": key, "status": "ok"}) for key in keys]
-        early = next(
-            (f"{run.status}: {run.message}" if run else "no result" for run in runs if not run or run.status != "ok"),
-            "",
-        )
-        if early:
-            rows += [base | verdict(case, quantity, None) | {"note": early} for quantity in case.bars]
+        fault = _fault(runs)
+        if fault:
+            for quantity in case.bars:
+                rows.append(base | verdict(case, quantity, None) | {"note": fault})
             continue
         outcome = getattr(families, case.family)(case, runs)
-        rows += [
-            base | {"note": outcome.note} | verdict(case, name, number) for name, number in outcome.numbers.items()
-        ]
-        for name, x, ours, theirs in outcome.curves:
-            at = {"case": case.name, "curve": name}
-            points += [at | {"x": a, "ours": b, "theirs": c} for a, b, c in zip(x, ours, theirs, strict=True)]
+        for quantity, number in outcome.numbers.items():
+            rows.append(base | {"note": outcome.note} | verdict(case, quantity, number))
+        for curve, *columns in outcome.curves:
+            for x, ours, theirs in zip(*columns, strict=True):
+                points.append({"case": case.name, "curve": curve, "x": x, "ours": ours, "theirs": theirs})
     return rows, points
+
+
+def _fault(runs: Iterable[Trajectory | None]) -> str:
+    """Why the first of the runs that is missing or ended early did so, "" where all are whole."""
+    for run in runs:
+        if run is None:
+            return "no result"
+        if run.status != "ok":
+            return f"{run.status}: {run.message}"
+    return ""
 
 
 def verdict(case: Case, quantity: str, number: "families.Number | None") -> dict[str, object]:
     """Numbers of a quantity, and its verdict; None: there is no number, and a bar is missed."""
-    bar, unit = case.bars.get(quantity, (None, number.unit if number else ""))
-    row = {"quantity": quantity, "bar": bar, "unit": unit}
     if number is None:
-        return row | {"verdict": MISSES}
-    word = TOLD if bar is None else HOLDS if number.error <= bar else MISSES
+        bar, unit = case.bars.get(quantity, (None, ""))
+        return {"quantity": quantity, "bar": bar, "unit": unit, "verdict": MISSES}
+    bar, unit = case.bars.get(quantity, (None, number.unit))
+    word = MISSES
+    if bar is None:
+        word = TOLD
+    elif number.error <= bar:
+        word = HOLDS
+    row = {"quantity": quantity, "bar": bar, "unit": unit}
     return row | {"ours": number.ours, "theirs": number.theirs, "error": number.error, "verdict": word}
 
 
@@ -60,9 +73,17 @@ def page(rows: Iterable[dict]) -> str:
     lines = ["| case | compared | ours | theirs | error | bar | verdict |", "|---|---|---|---|---|---|---|"]
     for row in rows:
         if row["verdict"] != TOLD:
-            error = "" if row.get("error") is None else f"{row['error']:.3g}"
-            bar = "" if row.get("bar") is None else f"{row['bar']:g} {row['unit'].partition(' of ')[0]}"
-            numbers = (str(row.get(name) or "").replace(" to ", "\u2013") for name in ("ours", "theirs"))
-            cells = f"`{row['case']}`", row["quantity"], *numbers, error, bar, row["verdict"]
-            lines.append(f"| {' | '.join(cells)} |")
+            lines.append(f"| {' | '.join(_cells(row))} |")
     return "\n".join(lines) + "\n"
+
+
+def _cells(row: dict) -> list[str]:
+    """The cells of a row of `page`."""
+    cells = [f"`{row['case']}`", row["quantity"]]
+    for name in ("ours", "theirs"):
+        cells.append(str(row.get(name) or "").replace(" to ", "\u2013"))
+    error, bar = row.get("error"), row.get("bar")
+    cells.append("" if error is None else f"{error:.3g}")
+    cells.append("" if bar is None else f"{bar:g} {row['unit'].partition(' of ')[0]}")
+    cells.append(row["verdict"])
+    return cells

@@ -43,22 +43,20 @@ def report(directory: str | Path) -> Report:
     across = folder.provenance.get("across")
     if not isinstance(across, list) or not set(across) <= set(_AXES):
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
-    parts = {name: part_of(folder, name) for name in ("motions", "shock", "edge")}
-    motions = [row for row in (parts["motions"].table if parts["motions"] else ()) if row["motion"]]
-    items = [
-        *_map(folder, across, motions, parts["shock"]),
-        *section_items("basins", "Question"),
-        *(_motions(parts["motions"], motions, parts["edge"]) if motions else ()),
-        *_shock(parts["shock"]),
-        *_edge(parts["edge"]),
-        Heading("Warnings"),
-        _warnings(folder, across),
-        *appendix(
-            *timing_items(folder),
-            *scene_items(folder.scene, str(folder.provenance.get("scene") or folder.scene.name), {}),
-            *provenance_items(folder),
-        ),
-    ]
+    motion_runs, shock, edge = [part_of(folder, name) for name in ("motions", "shock", "edge")]
+    motions = []
+    if motion_runs is not None:
+        motions = [row for row in motion_runs.table if row["motion"]]
+    items = [*_map(folder, across, motions, shock), *section_items("basins", "Question")]
+    if motions:
+        items += _motions(motion_runs, motions, edge)
+    items += [*_shock(shock), *_edge(edge), Heading("Warnings"), _warnings(folder, across)]
+    scene_name = str(folder.provenance.get("scene") or folder.scene.name)
+    items += appendix(
+        *timing_items(folder),
+        *scene_items(folder.scene, scene_name, {}),
+        *provenance_items(folder),
+    )
     return Report("Basins: which start ends in which motion", folder.scene.title or folder.scene.name, tuple(items))
 
 
@@ -67,33 +65,55 @@ def _colours(motions) -> dict[str, str]:
 
 
 def _value(row, axis: str) -> float:
-    return float(row[_AXES[axis][0]]) / (2.0 * math.pi if axis == "phase" else 1.0)
+    column, _ = _AXES[axis]
+    value = float(row[column])
+    if axis == "phase":
+        return value / (2.0 * math.pi)
+    return value
 
 
 def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Iterator[Item]:
-    colours = {letter: colour for letter, colour in _colours(motions).items() if letter}
-    places = tuple(np.unique([_value(row, axis) for row in folder.table]) for axis in across)
-    ended = np.full((len(places[1]), len(places[0])), "", dtype=object)
+    x_axis, y_axis = across
+    x = np.unique([_value(row, x_axis) for row in folder.table])
+    y = np.unique([_value(row, y_axis) for row in folder.table])
+    ended = np.full((len(y), len(x)), "", dtype=object)
     for row in folder.table:
-        at = (int(np.searchsorted(values, _value(row, axis))) for values, axis in zip(places, across, strict=True))
-        ended[tuple(at)[::-1]] = row["motion"] or (row["outcome"] if row["status"] == "ok" else _FAILED)
-    names = {
-        str(row["motion"]): f"{row['motion']}: {row['regime'] or row['status']}, "
-        f"{number(row['tension_top_max_N'] / 1e3, 3)} kN"
-        for row in motions
-    }
-    least = next((row for row in (shock.table if shock else ()) if row["status"] == "ok"), None)
-    arrow = None
-    if least is not None and least["size"] > 0.0:
-        unit = "m" if "x" in across else "m/s"
-        arrow = [_value(least, axis) for axis in across], f"{number(least['size'], 2)} {unit}"
-    labels = tuple(_AXES[axis][1] for axis in across)
-    wide, narrow = (basin_map(places, ended, labels, colours, names, arrow, *how) for how in ((), (NARROW_IN,)))
-    told = "Motion in which each start of the grid ends, with its largest tension (`table.csv`, `motions/table.csv`)."
-    told += "" if arrow is None else " Arrow: the smallest start that leads to the motion of the largest tension."
-    yield Figure(
-        wide, told, f"Map of {count(len(folder.table), 'start')}, a colour a motion; shares in the text.", narrow=narrow
+        place = np.searchsorted(y, _value(row, y_axis)), np.searchsorted(x, _value(row, x_axis))
+        ended[place] = row["motion"] or _outcome(row)
+    colours, names = _colours(motions), {}
+    colours.pop("", None)
+    for row in motions:
+        letter, regime = str(row["motion"]), row["regime"] or row["status"]
+        names[letter] = f"{letter}: {regime}, {number(row['tension_top_max_N'] / 1e3, 3)} kN"
+    arrow = _arrow(across, shock)
+    labels = _AXES[x_axis][1], _AXES[y_axis][1]
+    picture = basin_map((x, y), ended, labels, colours, names, arrow)
+    narrow = basin_map((x, y), ended, labels, colours, names, arrow, NARROW_IN)
+    caption = (
+        "Motion in which each start of the grid ends, with its largest tension (`table.csv`, `motions/table.csv`)."
     )
+    if arrow is not None:
+        caption += " Arrow: the smallest start that leads to the motion of the largest tension."
+    alt = f"Map of {count(len(folder.table), 'start')}, a colour a motion; shares in the text."
+    yield Figure(picture, caption, alt, narrow=narrow)
+
+
+def _outcome(row) -> str:
+    """What is said of a start that belongs to no motion."""
+    if row["status"] != "ok":
+        return _FAILED
+    return row["outcome"]
+
+
+def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] | None:
+    """(where the smallest start to the largest tension is on the map, its size in words); None without one."""
+    if shock is None:
+        return None
+    starts = [row for row in shock.table if row["status"] == "ok"]
+    if not starts or not starts[0]["size"] > 0.0:
+        return None
+    unit = "m" if "x" in across else "m/s"
+    return [_value(starts[0], axis) for axis in across], f"{number(starts[0]['size'], 2)} {unit}"
 
 
 def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
@@ -108,22 +128,32 @@ def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
         run, _ = part.trajectory(row)
         if run is not None:
             lines.append(_loop(run, row["strobed_period"], f"{row['motion']}", colours[row["motion"]]))
-    for row in edge.table if edge else ():
-        run, _ = edge.trajectory(row) if row["run_key"] else (None, "")
-        if run is not None:
-            lines.append(_loop(run, row["strobed_period"], "edge state", INK, (0, (3, 1))))
+    if edge is not None:
+        lines += _edge_loops(edge)
     if lines:
         caption = "Radial speed over r, of the last periods of each motion and of the edge state between two of them."
         picture = curves([[Panel(lines, "r (m)", "dr/dt (m/s)")]], 3.4, "right")
         yield Figure(picture, caption, f"Phase portrait of {listed(line.name for line in lines)}.")
 
 
+def _edge_loops(edge: Folder) -> Iterator[Curve]:
+    for row in edge.table:
+        if not row["run_key"]:
+            continue
+        run, _ = edge.trajectory(row)
+        if run is not None:
+            yield _loop(run, row["strobed_period"], "edge state", INK, (0, (3, 1)))
+
+
 def _loop(run, period: float, name: str, colour: str, line="-") -> Curve:
     """The last periods of a run: one orbit, or a few."""
-    every = round(run.scene.waves.period_s / run.scene.sample_step_s())
-    shown = int(period) if math.isfinite(period) else _PERIODS
-    radius, rate = (run.columns[one][-shown * every - 1 :] for one in ("radius_m", "radius_rate_mps"))
-    return Curve(radius, rate, name, line, "", colour, width=1.2 if math.isfinite(period) else 0.5)
+    samples_per_period = round(run.scene.waves.period_s / run.scene.sample_step_s())
+    periods, width = _PERIODS, 0.5
+    if math.isfinite(period):
+        periods, width = int(period), 1.2
+    last = slice(-periods * samples_per_period - 1, None)
+    radius, rate = run.columns["radius_m"][last], run.columns["radius_rate_mps"][last]
+    return Curve(radius, rate, name, line, "", colour, width=width)
 
 
 def _shock(part: Folder | None) -> Iterator[Item]:
@@ -146,21 +176,31 @@ def _edge(part: Folder | None) -> Iterator[Item]:
 
 def _table(part: Folder, caption: str) -> Table:
     """The columns that say something."""
-    shown = [name for name in part.columns if any(row[name] not in ("", 0.0) for row in part.table)]
-    shown = [name for name in shown if any(row[name] == row[name] for row in part.table)]  # not nan
-    return table_of(part.columns, [name for name in shown if name != "run_key"], part.table, caption)
+    filled = []
+    for name in part.columns:
+        values = [row[name] for row in part.table]
+        beside_zeros = [value for value in values if value not in ("", 0.0)]
+        numbers = [value for value in values if value == value]  # not nan
+        if name != "run_key" and beside_zeros and numbers:
+            filled.append(name)
+    return table_of(part.columns, filled, part.table, caption)
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:
-    kinds: dict[str, list] = {}
+    rows_of_outcomes: dict[str, list] = {}
     for row in folder.table:
-        if not row["motion"]:
-            kinds.setdefault(row["outcome"] if row["status"] == "ok" else row["status"], []).append(row)
-    if not kinds:
+        if row["motion"]:
+            continue
+        outcome = row["outcome"] if row["status"] == "ok" else row["status"]
+        rows_of_outcomes.setdefault(outcome, []).append(row)
+    if not rows_of_outcomes:
         return Notice("note", "Nothing to warn of", ("Every start has settled or joined a known motion.",))
     lines = []
-    for why, rows in kinds.items():
-        at = listed(f"{axis} = {number(_value(rows[0], axis))}" for axis in across)
-        reason = f": {rows[0]['message']}" if rows[0]["message"] else ""
-        lines.append(f"{count(len(rows), 'start')} {why}, the first at {at}{reason}.")
+    for outcome, rows in rows_of_outcomes.items():
+        first = rows[0]
+        place = listed(f"{axis} = {number(_value(first, axis))}" for axis in across)
+        line = f"{count(len(rows), 'start')} {outcome}, the first at {place}"
+        if first["message"]:
+            line += f": {first['message']}"
+        lines.append(f"{line}.")
     return Notice("warning", "Starts that belong to no motion", tuple(lines))

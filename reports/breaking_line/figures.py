@@ -25,14 +25,20 @@ CURVE_POINTS = 120
 
 def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
     """The cases among these that can be drawn, in their order."""
-    drawn = [line for line in of_kind(lines, "case") if line.trajectory is not None and line.trajectory.profiles]
-    return sorted((line for line in drawn if line["case"] in cases), key=lambda line: cases.index(line["case"]))
+    drawn = []
+    for line in of_kind(lines, "case"):
+        if line["case"] in cases and line.trajectory is not None and line.trajectory.profiles:
+            drawn.append(line)
+    return sorted(drawn, key=lambda line: cases.index(line["case"]))
 
 
 def paper_figures(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Figure]:
     """Configurations, tension and velocity along the line of the fast or the slow breaks, every 10 ms."""
     drawn = shown(lines, cases)
-    return [_figure(drawn, column, k) for k, column in enumerate(QUANTITIES, 2 if cases == FAST else 5) if drawn]
+    if not drawn:
+        return []
+    first = 2 if cases == FAST else 5
+    return [_figure(drawn, column, figure) for figure, column in enumerate(QUANTITIES, first)]
 
 
 def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
@@ -54,15 +60,17 @@ def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
 def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     """The neighbourhood of the fixed end at the end of every run, in true proportion."""
     panels = []
-    order = [case for pair in zip(FAST, SLOW, strict=True) for case in pair]
-    for line in shown(lines, order):
+    pair_by_pair = []
+    for fast, slow in zip(FAST, SLOW, strict=True):
+        pair_by_pair += [fast, slow]
+    for line in shown(lines, pair_by_pair):
         profiles = line.trajectory.profiles
         shape = profiles.x_m[-1], profiles.z_m[-1], profiles.time_s[-1:]
         panels.append(LinePanel(line["case"], line["force_N"], *shape))
     if not panels:
         return None
-    near = [panel.y[panel.x < NEAR_M[1]] for panel in panels]
-    low, high = min(float(z.min()) for z in near) - 0.05, max(float(z.max()) for z in near) + 0.05
+    near = np.concatenate([panel.y[panel.x < NEAR_M[1]] for panel in panels])
+    low, high = float(near.min()) - 0.05, float(near.max()) + 0.05
     caption = (
         "The fixed end (dot) at the end of every run, in true proportion; the table of the cases tells up to which "
         "unstretched length the line is folded."
@@ -76,14 +84,20 @@ def plane_figure(lines: tuple[Line, ...], exact: xarray.Dataset) -> Figure:
     cases, shares = exact["curve_case"].values, exact["share"].values
     for line in shown(lines, (*FAST, *SLOW)):
         profiles = line.trajectory.profiles
-        curves = {float(shares[row]): _curve(exact, row) for row in np.flatnonzero(cases == line["case"])}
-        shock = next((curve for share, curve in curves.items() if np.isnan(share)), None)
-        drawn = [curve for share, curve in curves.items() if not np.isnan(share)]
-        shocked += [line.name] if shock else []
+        characteristics, shock = [], None
+        for row in np.flatnonzero(cases == line["case"]):
+            if np.isnan(shares[row]):
+                shock = _curve(exact, row)
+            else:
+                characteristics.append(_curve(exact, row))
+        if shock is not None:
+            shocked.append(line.name)
         tension = profiles.tension_N / line["force_N"]
-        panels.append(FrontPanel(f"case {line.name}", profiles.time_s, profiles.s_m, tension, drawn, shock))
+        panels.append(FrontPanel(f"case {line.name}", profiles.time_s, profiles.s_m, tension, characteristics, shock))
     percents = ", ".join(number(100 * share) for share in dict.fromkeys(shares[~np.isnan(shares)]))
-    shocks = f"Exact shocks, dashed, in cases {listed(shocked)}." if shocked else "No shock forms on these lines."
+    shocks = "No shock forms on these lines."
+    if shocked:
+        shocks = f"Exact shocks, dashed, in cases {listed(shocked)}."
     caption = (
         "Computed tension over the static one (shade; brown: compression) in the plane of place and time. Thin lines: "
         f"exact characteristics that leave the broken end when its force is {percents} % of the static one, through "
@@ -102,7 +116,10 @@ def speeds_figure(exact: xarray.Dataset) -> Figure:
     """Measured speeds of contours against the wave speed."""
     cases, strain = exact["contour_case"].values, exact["contour_strain"].values
     speed, off = exact["contour_speed_mps"].values, exact["contour_speed_mps"].values / exact["contour_wave_mps"] - 1.0
-    measured = [(named(case), strain[cases == case], speed[cases == case]) for case in dict.fromkeys(cases)]
+    measured = []
+    for case in dict.fromkeys(cases):
+        of_case = cases == case
+        measured.append((named(case), strain[of_case], speed[of_case]))
     seen = (
         f"{off.size} contours, between {percent(float(off.min()))} and {percent(float(off.max()))} off the wave speed, "
         f"by {percent(float(np.abs(off).mean()))} in the mean"
@@ -142,10 +159,12 @@ def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:
         return None
     profiles = drawn[0].trajectory.profiles
     rows = slice(None, None, max(1, round(FRAME_S / float(profiles.time_s[1]))))
-    time_s, x, z, T = (values[rows] for values in (profiles.time_s, profiles.x_m, profiles.z_m, profiles.tension_N))
+    time_s, x, z = profiles.time_s[rows], profiles.x_m[rows], profiles.z_m[rows]
     caption = (
         f"Case {named(case)} in motion, a frame every {number(1e3 * FRAME_S)} ms on the page, six frames on paper. "
         "Heights much enlarged; below on the page: tension along the line."
     )
     alt = f"The line of case {named(case)} after the break: it recoils and folds at the fixed end."
-    return Figure(line_strip(time_s, x, z), caption, alt, line_animation(time_s, profiles.s_m, x, z, T))
+    return Figure(
+        line_strip(time_s, x, z), caption, alt, line_animation(time_s, profiles.s_m, x, z, profiles.tension_N[rows])
+    )

@@ -63,39 +63,51 @@ def report(directory: str | Path) -> Report:
 
 def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
     present = [item for item in items if item is not None]
-    return [Heading(heading), *([Text(text)] if text else []), *present] if present else []
+    if not present:
+        return []
+    first: list[Item] = [Heading(heading)]
+    if text:
+        first.append(Text(text))
+    return first + present
 
 
 def _warnings(lines: tuple[Line, ...]) -> list[Item]:
     warnings = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
-    warnings += [f"Case {line.name}: {line.fault}; its figures are left out." for line in lines if line.fault]
-    warnings += [
-        f"{_run(line)} turns by {decimals(line['max_turn_rad'], 2)} rad within one element: its folds are not "
-        "resolved, add nodes."
-        for line in lines
-        if line.ok and line["max_turn_rad"] > MOST_TURN_RAD
-    ]
-    warnings += [
-        f"The energy budget of case {line.name} does not close to {percent(CLOSED)}."
-        for line in of_kind(lines, "case")
-        if line.share("remainder_largest_J") > CLOSED
-    ]
-    return [Notice("warning", "What limits these runs", tuple(warnings))] if warnings else []
+    for line in lines:
+        if line.fault:
+            warnings.append(f"Case {line.name}: {line.fault}; its figures are left out.")
+    for line in lines:
+        if line.ok and line["max_turn_rad"] > MOST_TURN_RAD:
+            turn = decimals(line["max_turn_rad"], 2)
+            warnings.append(
+                f"{_run(line)} turns by {turn} rad within one element: its folds are not resolved, add nodes."
+            )
+    for line in of_kind(lines, "case"):
+        if line.share("remainder_largest_J") > CLOSED:
+            warnings.append(f"The energy budget of case {line.name} does not close to {percent(CLOSED)}.")
+    if not warnings:
+        return []
+    return [Notice("warning", "What limits these runs", tuple(warnings))]
 
 
 def _run(line: Line) -> str:
-    stiffness = f", EI = {number(line['bending_stiffness_Nm2'])} N m²" if line["kind"] == "stiffness" else ""
-    return f"Case {line.name}{KINDS.get(line['kind'], '')}{stiffness}, {number(line['nodes'])} nodes"
+    run = f"Case {line.name}{KINDS.get(line['kind'], '')}"
+    if line["kind"] == "stiffness":
+        run += f", EI = {number(line['bending_stiffness_Nm2'])} N m²"
+    return f"{run}, {number(line['nodes'])} nodes"
 
 
 def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
     """Nothing where no case has a theory."""
     if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
+    items: list[Item | None] = []
     exact = read_exact(folder)
-    drawn = [] if exact is None else [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
-    tables = (table_of_runs(lines, folder.columns, kind) for kind in ("speeds", "shocks"))
-    return [*drawn, *tables, series_table(lines, folder.columns)]
+    if exact is not None:
+        items += [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
+    for kind in ("speeds", "shocks"):
+        items.append(table_of_runs(lines, folder.columns, kind))
+    return [*items, series_table(lines, folder.columns)]
 
 
 def _scene(folder: Folder) -> list[Item]:

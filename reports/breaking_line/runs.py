@@ -99,7 +99,13 @@ class Line(Row):
 
 def read_lines(folder: Folder) -> tuple[Line, ...]:
     """Every run of the table, in its order."""
-    return tuple(Line(row, *(folder.trajectory(row) if row["kind"] == "case" else (None, ""))) for row in folder.table)
+    lines = []
+    for row in folder.table:
+        if row["kind"] == "case":
+            lines.append(Line(row, *folder.trajectory(row)))
+        else:
+            lines.append(Line(row))
+    return tuple(lines)
 
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:
@@ -112,37 +118,50 @@ def read_exact(folder: Folder) -> xarray.Dataset | None:
 
 def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     """The runs that ended as asked, kind by kind."""
-    return [line for kind in kinds for line in lines if line["kind"] == kind and line.ok]
+    runs = []
+    for kind in kinds:
+        runs += [line for line in lines if line["kind"] == kind and line.ok]
+    return runs
 
 
 def table_of_runs(lines: tuple[Line, ...], columns: Columns, kind: str) -> Table | None:
     """A table of OF_RUNS, its energies in per cent of the stored one; None where no run is to be shown."""
     names, kinds, needed, caption = OF_RUNS[kind]
-    shown = of_kind(lines, *kinds) if needed else [line for line in lines if line["kind"] in kinds]
-    if needed in KINDS:
-        varied = {line["case"] for line in of_kind(lines, needed)}
-        shown = [line for line in shown if line["case"] in varied]
-        shown.sort(key=lambda line: (line["case"], line["nodes"], line["bending_stiffness_Nm2"]))
-    elif needed:
-        shown = [line for line in shown if line.known(needed)]
+    shown = _runs_to_show(lines, kinds, needed)
+    if not shown:
+        return None
     energies = [name for name in names if name.endswith("_J") and name != "stored_J"]
-    rows = [
-        line.row
-        | {"case": f"{line.name}{KINDS.get(line['kind'], '')}"}
-        | {name: 100.0 * line.share(name) for name in energies}
-        for line in shown
-    ]
+    rows = []
+    for line in shown:
+        row = line.row | {"case": f"{line.name}{KINDS.get(line['kind'], '')}"}
+        for name in energies:
+            row[name] = 100.0 * line.share(name)
+        rows.append(row)
     in_percent = {name: replace(columns[name], unit="%", digits=2) for name in energies}
-    return table_of(columns | in_percent, names, rows, caption) if rows else None
+    return table_of(columns | in_percent, names, rows, caption)
+
+
+def _runs_to_show(lines: tuple[Line, ...], kinds: tuple[str, ...], needed: str) -> list[Line]:
+    """The runs of these kinds that a table of OF_RUNS shows; needed: what they must have, as described there."""
+    if not needed:
+        return [line for line in lines if line["kind"] in kinds]
+    ended = of_kind(lines, *kinds)
+    if needed not in KINDS:
+        return [line for line in ended if line.known(needed)]
+    varied = {line["case"] for line in of_kind(lines, needed)}
+    shown = [line for line in ended if line["case"] in varied]
+    return sorted(shown, key=lambda line: (line["case"], line["nodes"], line["bending_stiffness_Nm2"]))
 
 
 def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
     """Convergence to the exact motion, grid by grid."""
     series = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
+    if not series:
+        return None
     rows = [line.row | {"case": line.name, "order": math.nan} for line in series]
     for (coarser, line), row in zip(pairwise(series), rows[1:], strict=False):
         if coarser["case"] == line["case"]:
             ratio = (line["nodes"] - 1) / (coarser["nodes"] - 1)
             row["order"] = math.log(coarser["strain_error"] / line["strain_error"]) / math.log(ratio)
     quantities = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
-    return table_of(quantities, SERIES, rows, "Convergence on even grids, without gravity.") if rows else None
+    return table_of(quantities, SERIES, rows, "Convergence on even grids, without gravity.")

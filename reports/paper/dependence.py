@@ -41,7 +41,8 @@ def dependence_items(folder: Folder) -> list[Item]:
     except FolderError:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
-    items += [_regimes(rows, columns, steepness) for steepness in _values(rows, "steepness")]
+    for steepness in _values(rows, "steepness"):
+        items.append(_regimes(rows, columns, steepness))
     return [*items, *_stiffness(rows, columns), *_plane(folder.directory / "out_of_plane")]
 
 
@@ -51,11 +52,14 @@ def _gaps(directory: Path, scene: Scene) -> Table:
 
     line, tether = load_scene("breaking_line").tether, scene.tether
     modes, tolerance = natural_frequencies(scene), provenance_of(directory / "buoy").get("strobe_tolerance", math.nan)
-    out_m = math.nan if modes is None else tether.length_m * (1.0 + modes.static_strain) + 0.5 * scene.buoy.diameter_m
-    out_m -= scene.water.depth_m
+    out_m, side = math.nan, "below"  # of the water: the top of the sphere at rest
+    if modes is not None:
+        out_m = tether.length_m * (1.0 + modes.static_strain) + 0.5 * scene.buoy.diameter_m - scene.water.depth_m
+    if out_m > 0.0:
+        side = "above"
     words = {
         "out": number(abs(out_m), 2),
-        "side": "above" if out_m > 0.0 else "below",
+        "side": side,
         "waves": TREATMENTS[scene.waves.above_still_water],
         "buoyancy": TREATMENTS[scene.buoy.submergence],
         "tolerance": percent(tolerance),
@@ -66,15 +70,22 @@ def _gaps(directory: Path, scene: Scene) -> Table:
 def written(name: str, **taken: object) -> Table:
     """A table of tables.toml by its name, which no run decides; taken: what stands in braces there."""
     texts = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
-    rows = tuple(tuple(cell.format(**taken) for cell in row) for row in texts["rows"])
-    return Table(heads(*texts["heads"]), rows, texts["caption"], small=True)
+    rows = []
+    for row in texts["rows"]:
+        rows.append(tuple(cell.format(**taken) for cell in row))
+    return Table(heads(*texts["heads"]), tuple(rows), texts["caption"], small=True)
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
     files = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
     columns = files["columns.csv"]
-    numbers = [name for name, column in columns.items() if column.digits is not None]
-    return [row | {name: value(row, name) for name in numbers} for row in files["table.csv"]], columns
+    rows = []
+    for row in files["table.csv"]:
+        rows.append(dict(row))
+        for name, column in columns.items():
+            if column.digits is not None:
+                rows[-1][name] = value(row, name)
+    return rows, columns
 
 
 def _values(rows: list[dict], key: str) -> list:
@@ -83,24 +94,31 @@ def _values(rows: list[dict], key: str) -> list:
 
 def _like(rows: list[dict], **wanted) -> list[dict]:
     """Rows that are as the scene as shipped, which leads the study, but for depth and what is wanted, by depth."""
-    keys = {key: rows[0][key] for key in (ABOVE, DROWNED, EI)} | wanted
-    matching = [row for row in rows if all(row[key] == entry for key, entry in keys.items())]
+    shipped = rows[0]
+    wanted = {ABOVE: shipped[ABOVE], DROWNED: shipped[DROWNED], EI: shipped[EI]} | wanted
+    matching = [row for row in rows if wanted.items() <= row.items()]
     return sorted(matching, key=lambda row: (row[DEPTH], row[EI]))
 
 
 def curve(name: str, rows: list[dict], over: str) -> Exponents:
     """Exponent over a column of the table, of the runs that ended as asked."""
-    return name, [(row[over], row[VALUE], row[ERROR], row["regime"]) for row in rows if row["status"] == "ok"]
+    points = []
+    for row in rows:
+        if row["status"] == "ok":
+            points.append((row[over], row[VALUE], row[ERROR], row["regime"]))
+    return name, points
 
 
 def _depth_figure(rows: list[dict]) -> Figure:
-    waves, drowned = (dict.fromkeys(row[key] for row in rows) for key in (ABOVE, DROWNED))
+    waves, drowned = _treatments(rows, ABOVE), _treatments(rows, DROWNED)
     panels = []
     for kA in _values(rows, "steepness"):
         panels.append([])
         for under in drowned:
-            by_word = {word: _like(rows, steepness=kA, **{ABOVE: word, DROWNED: under}) for word in waves}
-            curves = [curve(f"waves: {word}", members, DEPTH) for word, members in by_word.items()]
+            curves = []
+            for above in waves:
+                members = _like(rows, steepness=kA, **{ABOVE: above, DROWNED: under})
+                curves.append(curve(f"waves: {above}", members, DEPTH))
             panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
     treatments = "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in (*waves, *drowned))
     caption = (
@@ -112,38 +130,57 @@ def _depth_figure(rows: list[dict]) -> Figure:
     return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
 
 
+def _treatments(rows: list[dict], key: str) -> list[str]:
+    """The words of a column, each once, in the order of the table."""
+    return list(dict.fromkeys(row[key] for row in rows))
+
+
 def _regimes(rows: list[dict], quantities: dict[str, Quantity], steepness: float) -> Table:
-    pairs = list(dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows))
-    columns = heads(("H", "m"), *(", ".join(pair) for pair in pairs))
-    groups = [_like(rows, steepness=steepness, **{ABOVE: word, DROWNED: under}) for word, under in pairs]
-    by_depth = [{row[DEPTH]: row for row in group} for group in groups]
-    depths = sorted({depth for group in by_depth for depth in group})
-    cells = tuple((number(H), *(_cell(group.get(H), quantities) for group in by_depth)) for H in depths)
+    pairs = dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows)
+    column_heads, rows_by_depth, depths = [("H", "m")], [], set()
+    for above, under in pairs:
+        matching = _like(rows, steepness=steepness, **{ABOVE: above, DROWNED: under})
+        by_depth = {row[DEPTH]: row for row in matching}
+        column_heads.append(f"{above}, {under}")
+        rows_by_depth.append(by_depth)
+        depths.update(by_depth)
+    body = []
+    for H in sorted(depths):
+        cells = [_cell(by_depth.get(H), quantities) for by_depth in rows_by_depth]
+        body.append((number(H), *cells))
     caption = (
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
         "waves above still water and of buoyancy."
     )
-    return Table(columns, cells, caption, small=True)
+    return Table(heads(*column_heads), tuple(body), caption, small=True)
 
 
 def _cell(row: dict | None, columns: dict[str, Quantity]) -> str:
-    if row is None or row["status"] != "ok":
-        return EMPTY if row is None else row["status"]
+    if row is None:
+        return EMPTY
+    if row["status"] != "ok":
+        return row["status"]
     regime = row["regime"] or "no verdict"
-    return f"{regime}, {plus_minus(columns, row, VALUE, ERROR)}" if math.isfinite(row[VALUE]) else regime
+    if not math.isfinite(row[VALUE]):
+        return regime
+    return f"{regime}, {plus_minus(columns, row, VALUE, ERROR)}"
 
 
 def _stiffness(rows: list[dict], columns: dict[str, Quantity]) -> list[Item]:
-    usual = [row for row in rows if all(row[key] == rows[0][key] for key in (ABOVE, DROWNED))]
-    varied = sorted({(row["steepness"], row[DEPTH]) for row in usual if row[EI] != rows[0][EI]})
+    shipped = rows[0]
+    usual, varied = {}, set()  # rows with the shipped treatments by (kA, H); those of them with several stiffnesses
+    for row in rows:
+        if row[ABOVE] == shipped[ABOVE] and row[DROWNED] == shipped[DROWNED]:
+            place = (row["steepness"], row[DEPTH])
+            usual.setdefault(place, []).append(row)
+            if row[EI] != shipped[EI]:
+                varied.add(place)
     heading = Heading("Bending stiffness", 2)
     if not varied:
         return [heading, Text("The stiffness was not varied.")]
     panel, shown = {}, []
-    for kA, H in varied:
-        by_stiffness = sorted(
-            (row for row in usual if (row["steepness"], row[DEPTH]) == (kA, H)), key=lambda row: row[EI]
-        )
+    for kA, H in sorted(varied):
+        by_stiffness = sorted(usual[kA, H], key=lambda row: row[EI])
         panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", by_stiffness, EI))
         shown += by_stiffness
     caption = (

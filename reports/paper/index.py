@@ -27,12 +27,17 @@ HEADS = {"eq.": ("equation", "what", "code"), "fig.": ("figure", "what", "drawn 
 def entries() -> dict[tuple[str, int], tuple[str, tuple[str, ...]]]:
     """("eq." or "fig.", number) -> what it is, and the files that say they hold it; the paper's own form comes last."""
     places: dict[tuple[str, int], list[tuple[str, str]]] = {}
-    paths = (path for package in PACKAGES for path in (ROOT / package).rglob("*.py"))
-    files = sorted(paths, key=lambda path: ("paper_box" in path.parts, path.as_posix()))
-    for path in files:
+    paths = []
+    for package in PACKAGES:
+        paths += (ROOT / package).rglob("*.py")
+    for path in sorted(paths, key=lambda path: ("paper_box" in path.parts, path.as_posix())):
         for kind, number, title in named_in(path.read_text(encoding="utf-8")):
             places.setdefault((kind, number), []).append((title, path.relative_to(ROOT).as_posix()))
-    return {key: (rows[0][0], tuple(code for _, code in rows)) for key, rows in sorted(places.items())}
+    entries_in_order = {}
+    for key, titles_and_files in sorted(places.items()):
+        titles, files = zip(*titles_and_files, strict=True)
+        entries_in_order[key] = titles[0], files
+    return entries_in_order
 
 
 def named_in(source: str) -> list[tuple[str, int, str]]:
@@ -40,8 +45,10 @@ def named_in(source: str) -> list[tuple[str, int, str]]:
     if "\nIn the paper: " not in source:
         return []
     paragraph = _PARAGRAPH.search(ast.get_docstring(ast.parse(source)) or "")
+    if paragraph is None:
+        return []
     rows = []
-    for entry in " ".join(paragraph[1].split()).split("; ") if paragraph else ():
+    for entry in " ".join(paragraph[1].split()).split("; "):
         part = _ENTRY.fullmatch(entry)
         if part is None:
             raise ValueError(f"{entry!r} in a docstring is neither eq. (N) nor fig. N with what it is")
@@ -52,8 +59,11 @@ def named_in(source: str) -> list[tuple[str, int, str]]:
 def rows_of(kind: str) -> list[tuple[str, str, str]]:
     """(as written in the sources, what, files) of all equations or figures."""
     form = {"eq.": "eq. ({})", "fig.": "fig. {}"}[kind]
-    rows = ((number, *held) for (own_kind, number), held in entries().items() if own_kind == kind)
-    return [(form.format(number), title, ", ".join(f"`{path}`" for path in files)) for number, title, files in rows]
+    rows = []
+    for (entry_kind, number), (title, files) in entries().items():
+        if entry_kind == kind:
+            rows.append((form.format(number), title, ", ".join(f"`{path}`" for path in files)))
+    return rows
 
 
 def markdown(kind: str) -> str:

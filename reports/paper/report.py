@@ -82,11 +82,16 @@ def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
 
 def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
     """How many statements hold, and which do not, each once: conclusions repeat what is said before."""
-    first = {row["statement"]: row for row in reversed(judged)}
+    first_told: list[Judged] = []
+    statements = set()
+    for row in judged:
+        if row["statement"] not in statements:
+            statements.add(row["statement"])
+            first_told.append(row)
     lines = [f"Of {count(len(judged), 'statement')}: {counted(judged)}."]
     for verdict in (FAILS, HOLDS_IF):
-        for row in judged:
-            if row["verdict"] == verdict and row is first[row["statement"]]:
+        for row in first_told:
+            if row["verdict"] == verdict:
                 quoted = f"“{row['statement'].rstrip('.')}” (no. {row['number']}; {row['place']})"
                 lines.append(f"{verdict.capitalize()} {row['condition']}".rstrip() + f": {quoted}.")
     return tuple(lines)
@@ -94,17 +99,23 @@ def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
 
 def _parts(folder: Folder) -> list[Item]:
     shown = ("part", "runs", "failed", "run_s", "total_s")
-    what = "; ".join(f"`{part}`: {words}" for part, words in PARTS.items())
-    table = table_of(folder.columns, shown, folder.table, f"The parts, each in a folder of its own ({what}).")
-    found = {f"Report on {what}": f"{part}/report.html" for part, what in PARTS.items()}
-    links = tuple((words, path) for words, path in found.items() if (folder.directory / path).exists())
-    jobs = folder.provenance.get("jobs")
-    at_once = f", {count(jobs, 'run')} at a time" if isinstance(jobs, int) else ""
+    descriptions, links = [], []
+    for part, words in PARTS.items():
+        descriptions.append(f"`{part}`: {words}")
+        path = f"{part}/report.html"
+        if (folder.directory / path).exists():
+            links.append((f"Report on {words}", path))
+    caption = f"The parts, each in a folder of its own ({'; '.join(descriptions)})."
     minutes = decimals(sum(row["total_s"] for row in folder.table) / 60.0, 1)
-    each = "Each part has a report of its own, with all runs, grids, warnings and sources:"
-    said = each if links else "The parts' own reports were left out."
-    text = Text(f"All parts together took {minutes} minutes{at_once}. {said}")
-    return [Heading("Parts"), table, text, *([Links(links)] if links else [])]
+    time_text = f"All parts together took {minutes} minutes"
+    jobs = folder.provenance.get("jobs")
+    if isinstance(jobs, int):
+        time_text += f", {count(jobs, 'run')} at a time"
+    items: list[Item] = [Heading("Parts"), table_of(folder.columns, shown, folder.table, caption)]
+    if not links:
+        return [*items, Text(f"{time_text}. The parts' own reports were left out.")]
+    reports_text = "Each part has a report of its own, with all runs, grids, warnings and sources:"
+    return [*items, Text(f"{time_text}. {reports_text}"), Links(tuple(links))]
 
 
 def _figures(directory: Path) -> list[Item]:
@@ -115,10 +126,11 @@ def _figures(directory: Path) -> list[Item]:
         Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
     ]
     for heading, numbers in SECTIONS.items():
-        some = [drawn[n] for n in numbers if n in drawn]
-        items += [Heading(heading, 2), *some] if some else []
+        section = [drawn[number] for number in numbers if number in drawn]
+        if section:
+            items += [Heading(heading, 2), *section]
     if missing:
-        lines = tuple(f"Fig. {n} of the paper: {reason}." for n, reason in missing.items())
+        lines = tuple(f"Fig. {number} of the paper: {reason}." for number, reason in missing.items())
         items.append(Notice("warning", "Figures of the paper that are left out", lines))
     return items
 
@@ -126,6 +138,7 @@ def _figures(directory: Path) -> list[Item]:
 def _statements(judged: tuple[Judged, ...]) -> list[Item]:
     items: list[Item] = [Heading("The statements of the paper"), Text(VERDICTS)]
     for heading, places in TOPICS.items():
-        some = [row for row in judged if row["place"].startswith(places)]
-        items += [Heading(heading, 2), statements_table(some, f"{heading}: {counted(some)}.")] if some else []
+        topic = [row for row in judged if row["place"].startswith(places)]
+        if topic:
+            items += [Heading(heading, 2), statements_table(topic, f"{heading}: {counted(topic)}.")]
     return [*items, Heading("Not judged", 2), written("not_judged")]

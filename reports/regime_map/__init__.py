@@ -18,8 +18,9 @@ def draw(folder: str | Path, path: str | Path) -> None:
     from .maps import legend, read_atlas, regimes
 
     atlas = read_atlas(Folder(Path(folder), {}, (), None, {}))
-    if atlas is not None:
-        wide = min(2, len(atlas.pages))
-        shown = [regimes(page) for page in atlas.pages]
-        picture, _ = regime_maps(shown, atlas.labels, legend(atlas), atlas.marks, wide=wide, kind="png")
-        write_atomic(Path(path), picture.data)
+    if atlas is None:
+        return
+    maps = [regimes(page) for page in atlas.pages]
+    across = min(2, len(maps))
+    picture, _ = regime_maps(maps, atlas.labels, legend(atlas), atlas.marks, wide=across, kind="png")
+    write_atomic(Path(path), picture.data)

@@ -23,13 +23,13 @@ _PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports
 
 @dataclass(frozen=True, eq=False)
 class Page:
-    """The n cells of one page, the small ones behind those that they cover. said: its value, "" for the only one.
+    """The n cells of one page, the small ones behind those that they cover. place: its value, "" for the only one.
 
     area (n,): share of the map that each cell takes where it is on top.
     """
 
     number: int
-    said: str
+    place: str
     rows: Sequence[Mapping[str, object]]
     cells: Cells
     area: np.ndarray
@@ -40,7 +40,8 @@ class Page:
 
     def on_top(self, source: str) -> np.ndarray:
         """(n,) which cells are of that source and not covered by others."""
-        return (self.area > 0.0) & np.array([row["source"] == source for row in self.rows])
+        sources = np.array([row["source"] for row in self.rows])
+        return (self.area > 0.0) & (sources == source)
 
     def share(self, chosen: np.ndarray) -> float:
         """Of the map."""
@@ -57,12 +58,14 @@ class Atlas:
 
     @property
     def labels(self) -> tuple[str, str]:
-        return tuple(key.label for key in self.keys[-2:])
+        x, y = self.keys[-2:]
+        return x.label, y.label
 
     @property
     def marks(self) -> tuple[Sequence[float], Sequence[float]]:
         """The paper's steepnesses where an axis has them."""
-        return tuple(_PAPER if key.name.rpartition(".")[2] == "steepness" else () for key in self.keys[-2:])
+        x, y = self.keys[-2:]
+        return _paper_marks(x), _paper_marks(y)
 
     def share(self, chosen: Callable[[Page], np.ndarray]) -> float:
         """Of all maps, that of the cells (n,) chosen of each page."""
@@ -72,103 +75,167 @@ class Atlas:
         """Share of all maps whose cells come from there."""
         return self.share(lambda page: page.on_top(source))
 
-    def limited(self, said: str) -> float:
+    def limited(self, reason: str) -> float:
         """Share of all maps that is hatched for that reason."""
-        return self.share(lambda page: page.cells.hatched[said])
+        return self.share(lambda page: page.cells.hatched[reason])
+
+
+def _paper_marks(key: Quantity) -> Sequence[float]:
+    _, _, name = key.name.rpartition(".")
+    if name != "steepness":
+        return ()
+    return _PAPER
 
 
 def read_atlas(folder: Folder) -> Atlas | None:
     """The maps of a folder; None where it has no cell that can be read."""
     part = part_of(folder, "cells")
-    names = [name.removeprefix("width_") for name in (part.columns if part else ()) if name.startswith("width_")]
-    if len(names) != 2 or not {*names, "level", "source", "regime_rest"} <= set(part.columns):
+    if part is None:
         return None
+    axes = [name.removeprefix("width_") for name in part.columns if name.startswith("width_")]
+    if len(axes) != 2 or not {*axes, "level", "source", "regime_rest"} <= set(part.columns):
+        return None
+    keys = [part.columns[name] for name in axes]
     first = next(iter(part.columns))
-    keys = [part.columns[name] for name in ([] if first in names else [first]) + names]
-    rows = sorted(part.table, key=lambda row: row["level"])
-    values, pages = dict.fromkeys(row[first] if len(keys) > 2 else "" for row in part.table), []
-    for value in values:
-        own = [row for row in rows if len(keys) == 2 or row[first] == value]
-        cells = _cells(own, *names)
-        pages.append(Page(len(pages), at(keys[:-2], own[0]), own, cells, cells.areas()))
+    if first not in axes:
+        keys.insert(0, part.columns[first])
+    rows_of_pages: dict[object, list] = {}
+    for row in part.table:
+        value = row[first] if len(keys) > 2 else ""
+        rows_of_pages.setdefault(value, []).append(row)
+    pages = []
+    for page_number, page_rows in enumerate(rows_of_pages.values()):
+        page_rows.sort(key=lambda row: row["level"])
+        cells = _cells(page_rows, *axes)
+        pages.append(Page(page_number, at(keys[:-2], page_rows[0]), page_rows, cells, cells.areas()))
     return Atlas(keys, pages, part.columns)
 
 
 def _cells(rows, x: str, y: str) -> Cells:
-    middle, half = ([series(rows, of.format(name)) for name in (x, y)] for of in ("{}", "width_{}"))
-    boxes = np.column_stack(
-        [one + sign * 0.5 * wide for one, wide in zip(middle, half, strict=True) for sign in (-1, 1)]
-    )
+    edges = []
+    for name in (x, y):
+        middle, width = series(rows, name), series(rows, f"width_{name}")
+        edges += [middle - 0.5 * width, middle + 0.5 * width]
     source = np.array([row["source"] for row in rows])
-    limits = {said: series(rows, name) > 0.0 for name, said in LIMITS.items() if name in rows[0]}
     kinds = np.array([row["regime_rest"] or row["source"] for row in rows])
-    return Cells(boxes, kinds, source == SCREENED, source == FAILED, limits)
+    hatched = {}
+    for name, reason in LIMITS.items():
+        if name in rows[0]:
+            hatched[reason] = series(rows, name) > 0.0
+    return Cells(np.column_stack(edges), kinds, source == SCREENED, source == FAILED, hatched)
 
 
 def colour_of(word: str) -> str:
     """Of a regime on a map; that of ink for a word of the screen alone, "" for a cell without a regime."""
     if word.startswith(_PERIOD):
         return MAP_PERIODS[min(int(word.removeprefix(_PERIOD)), len(MAP_PERIODS)) - 1]
-    return REGIME_COLOURS.get(word, INK) if word not in (FAILED, COMPUTED, SCREENED) else ""
+    if word in (FAILED, COMPUTED, SCREENED):
+        return ""
+    return REGIME_COLOURS.get(word, INK)
 
 
 def regimes(page: Page) -> Map:
     """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
     kinds = page.cells.kinds
-    texts = np.array([word.removeprefix(_PERIOD) if word.startswith(_PERIOD) else "" for word in kinds])
-    star, computed = _star(page), page.share(page.on_top(COMPUTED))
-    chaos = f"chaotic on {_percent(page.share(_called(page, [CHAOS])))} of the map"
-    said = [page.said, f"motion from rest: {chaos if computed else 'only screened'}"]
-    said += [f"{_percent(computed)} of the map is computed"] if 0.0 < computed < _WHOLE else []
-    said += [] if star is None else [f"largest tension {number(page.rows[star][PULL], 3)} × static (star)"]
-    title = "\n".join(filter(None, said))
-    return Map(page.cells, title, np.array([*map(colour_of, kinds)]), page.number, texts=texts, star=star)
+    colours = np.array([colour_of(word) for word in kinds])
+    texts = np.full(len(kinds), "", dtype=object)
+    for cell, word in enumerate(kinds):
+        if word.startswith(_PERIOD):
+            texts[cell] = word.removeprefix(_PERIOD)
+    star = _star(page)
+    title = "\n".join(_lines_of_title(page, star))
+    return Map(page.cells, title, colours, page.number, texts=texts.astype(str), star=star)
+
+
+def _lines_of_title(page: Page, star: int | None) -> list[str]:
+    """The value of the page, how much of its map is chaotic and how much computed, and the largest tension."""
+    lines = []
+    if page.place:
+        lines.append(page.place)
+    computed = page.share(page.on_top(COMPUTED))
+    if computed:
+        chaotic = page.share(_computed_as(page, [CHAOS]))
+        lines.append(f"motion from rest: chaotic on {_percent(chaotic)} of the map")
+    else:
+        lines.append("motion from rest: only screened")
+    if 0.0 < computed < _WHOLE:
+        lines.append(f"{_percent(computed)} of the map is computed")
+    if star is not None:
+        lines.append(f"largest tension {number(page.rows[star][PULL], 3)} × static (star)")
+    return lines
 
 
 def _star(page: Page) -> int | None:
     """The cell in which the line pulls hardest; None where none is computed."""
     pull = np.where(page.on_top(COMPUTED), page.column(PULL), np.nan)
-    return int(np.nanargmax(pull)) if np.isfinite(pull).any() else None
+    if not np.isfinite(pull).any():
+        return None
+    return int(np.nanargmax(pull))
 
 
 def legend(atlas: Atlas) -> list[tuple[str, str]]:
     """What colours and marks of the maps of regimes mean, each with its share of the map."""
-    words = {word for page in atlas.pages for word, area in zip(page.cells.kinds, page.area, strict=True) if area > 0.0}
-    named: dict[str, list[str]] = {}
+    entries = []
+    for colour, words in _words_by_colour(atlas).items():
+        share = atlas.share(partial(_computed_as, words=words))
+        entries.append((colour, _with_share(_words_listed(words), share)))
+    for mark, source, meaning in (("dot", SCREENED, "only screened"), ("cross", FAILED, "failed")):
+        share = atlas.of_source(source)
+        if share:
+            entries.append((mark, _with_share(meaning, share)))
+    for hatch, reason in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
+        share = atlas.limited(reason)
+        if share:
+            entries.append((hatch, _with_share(reason, share)))
+    if any(_star(page) is not None for page in atlas.pages):
+        entries.append(("star", "largest tension"))
+    if any(atlas.marks):
+        entries.append(("mark", "the paper's steepnesses"))
+    return entries
+
+
+def _words_by_colour(atlas: Atlas) -> dict[str, list[str]]:
+    """The regimes that can be seen on the maps, by their colour, in the order of the legend."""
+    words = set()
+    for page in atlas.pages:
+        words.update(page.cells.kinds[page.area > 0.0])
+    by_colour: dict[str, list[str]] = {}
     for word in sorted(words, key=_order):
-        named.setdefault(colour_of(word), []).append(word)
-    named.pop("", None)
-    told = [
-        (colour, _with_share(_listed(own), atlas.share(partial(_called, words=own)))) for colour, own in named.items()
-    ]
-    for mark, source, said in (("dot", SCREENED, "only screened"), ("cross", FAILED, "failed")):
-        told += [(mark, _with_share(said, share))] if (share := atlas.of_source(source)) else []
-    for hatch, said in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
-        told += [(hatch, _with_share(said, share))] if (share := atlas.limited(said)) else []
-    told += [("star", "largest tension")] if any(_star(page) is not None for page in atlas.pages) else []
-    return told + ([("mark", "the paper's steepnesses")] if any(atlas.marks) else [])
+        by_colour.setdefault(colour_of(word), []).append(word)
+    by_colour.pop("", None)
+    return by_colour
 
 
 def _order(word: str) -> tuple[int, str]:
     """Periods first, then the words of the analysis, then others."""
-    period, known = word.removeprefix(_PERIOD), [*REGIME_COLOURS]
-    return (int(period) - 1000 if period != word else known.index(word) if word in known else len(known)), word
+    known = list(REGIME_COLOURS)
+    if word.startswith(_PERIOD):
+        return int(word.removeprefix(_PERIOD)) - 1000, word
+    if word in known:
+        return known.index(word), word
+    return len(known), word
 
 
-def _called(page: Page, words: Sequence[str]) -> np.ndarray:
+def _computed_as(page: Page, words: Sequence[str]) -> np.ndarray:
     """(n,) which cells are computed, with one of these words for the motion from rest."""
     return page.on_top(COMPUTED) & np.isin(page.cells.kinds, words)
 
 
-def _listed(words: Sequence[str]) -> str:
+def _words_listed(words: Sequence[str]) -> str:
     """ "chaotic", "period 2", "period 3 and more"."""
-    if words[0] not in REGIME_COLOURS and not words[0].startswith(_PERIOD):
+    first = words[0]
+    if first not in REGIME_COLOURS and not first.startswith(_PERIOD):
         return f"{listed(words)}, screened"
-    return words[0].replace(_PERIOD, "period ") + (" and more" if len(words) > 1 else "")
+    first = first.replace(_PERIOD, "period ")
+    if len(words) > 1:
+        return f"{first} and more"
+    return first
 
 
-def _with_share(said: str, share: float) -> str:
-    return f"{said}: {_percent(share)}" if share else said
+def _with_share(meaning: str, share: float) -> str:
+    if share == 0.0:
+        return meaning
+    return f"{meaning}: {_percent(share)}"
 
 
 def _percent(share: float) -> str:
@@ -179,33 +246,48 @@ def numbers(atlas: Atlas) -> list[list[Map]]:
     """The four other maps of each page, in scales that all pages share; none of a quantity without a value."""
     from matplotlib.colors import BoundaryNorm, CenteredNorm, LinearSegmentedColormap, Normalize
 
-    def ends(name: str) -> tuple[float, float]:
-        for source in (COMPUTED, SCREENED):
-            known = np.concatenate([page.column(name)[page.on_top(source)] for page in atlas.pages])
-            known = known[np.isfinite(known)]
-            if len(known):
-                return float(known.min()), float(known.max())
-        return 0.0, 1.0
-
-    most, (least, largest), growth = max(3, int(ends("motions")[1])), ends(PULL), max(map(abs, ends(_EXPONENT)))
+    _, motions = _ends(atlas, "motions")
+    most = max(3, int(motions))
+    lowest, highest = _ends(atlas, _EXPONENT)
+    growth = max(abs(lowest), abs(highest)) or 1.0
     signed = LinearSegmentedColormap.from_list("signed", [BLUE, GRID, VERMILION])
     even = LinearSegmentedColormap.from_list("even", ["#fdf3dc", ORANGE, "#5c2a00"])  # light to dark, in grey as well
-    unit = atlas.columns[_EXPONENT].unit if _EXPONENT in atlas.columns else ""
-    told = (
+    unit = "–"
+    if _EXPONENT in atlas.columns:
+        unit = atlas.columns[_EXPONENT].unit or unit
+    quantities = (
         ("motions", "number of motions", even, BoundaryNorm(np.arange(most + 1) + 0.5, 256), range(1, most + 1)),
-        (PULL, "largest tension over static", even, Normalize(least, largest), None),
+        (PULL, "largest tension over static", even, Normalize(*_ends(atlas, PULL)), None),
         ("share_of_largest", "share of kicks that end in that motion", even, Normalize(0.0, 1.0), None),
-        (_EXPONENT, f"largest exponent ({unit or '–'})", signed, CenteredNorm(0.0, growth or 1.0), None),
+        (_EXPONENT, f"largest exponent ({unit})", signed, CenteredNorm(0.0, growth), None),
     )
-    known = [one for one in told if any(np.isfinite(page.column(one[0])).any() for page in atlas.pages)]
-    return [[_shaded(page, *one) for one in known] for page in atlas.pages]
+    known = [quantity for quantity in quantities if _has_values(atlas, quantity[0])]
+    maps = []
+    for page in atlas.pages:
+        maps.append([_shaded(page, *quantity) for quantity in known])
+    return maps
+
+
+def _ends(atlas: Atlas, name: str) -> tuple[float, float]:
+    """Least and greatest value of a column on all maps: of the computed cells, or of the screened where none is."""
+    for source in (COMPUTED, SCREENED):
+        values = np.concatenate([page.column(name)[page.on_top(source)] for page in atlas.pages])
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            return float(finite.min()), float(finite.max())
+    return 0.0, 1.0
+
+
+def _has_values(atlas: Atlas, name: str) -> bool:
+    return any(np.isfinite(page.column(name)).any() for page in atlas.pages)
 
 
 def _shaded(page: Page, name: str, title: str, colours, norm, ticks) -> Map:
     from matplotlib.colors import to_hex
 
     values = page.column(name)
-    known, shades = np.isfinite(values), colours(norm(np.nan_to_num(values)))
-    found = np.where(known, [to_hex(shade) for shade in shades], "")
-    star, limited = _star(page) if name == PULL else None, name in (PULL, _EXPONENT)
-    return Map(page.cells, title, found, page.number, (colours, norm, ticks), star=star, limited=limited)
+    shades = [to_hex(shade) for shade in colours(norm(np.nan_to_num(values)))]
+    filled = np.where(np.isfinite(values), shades, "")
+    star = _star(page) if name == PULL else None
+    limited = name in (PULL, _EXPONENT)
+    return Map(page.cells, title, filled, page.number, (colours, norm, ticks), star=star, limited=limited)

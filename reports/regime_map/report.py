@@ -21,34 +21,34 @@ from .sheets import cell_sheets
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a folder of maps. Raises FolderError for a folder that is not one."""
-    found = read_files(directory, {name: PARTS[name] for name in ("scene.toml", "provenance.json")})
-    folder = Folder(Path(directory), found["provenance.json"], (), found["scene.toml"], {})
+    files = read_files(directory, {name: PARTS[name] for name in ("scene.toml", "provenance.json")})
+    folder = Folder(Path(directory), files["provenance.json"], (), files["scene.toml"], {})
     atlas = read_atlas(folder)
     if atlas is None:
         raise FolderError(folder.directory, ["cells/table.csv cannot be read: it has no cells over two keys"])
-    if computed := atlas.of_source(COMPUTED) > 0.0:
+    computed = atlas.of_source(COMPUTED) > 0.0
+    if computed:
         folder = read_folder(directory, ("status", "motion", "run_key", "periods", "end_time_s", "message"))
     over = " and ".join(plain(key.head) for key in atlas.keys[-2:])
-    first = _figure(
-        atlas, [regimes(page) for page in atlas.pages], legend(atlas), f"Maps of regimes over {over}", _REGIMES
+    first_maps = [regimes(page) for page in atlas.pages]
+    items = [_figure(atlas, first_maps, legend(atlas), f"Maps of regimes over {over}", _REGIMES)]
+    items.append(cell_sheets(folder, atlas))
+    other_figures = [_figure(atlas, maps, (), f"Maps over {over}", _OTHERS) for maps in numbers(atlas)]
+    if len(other_figures) == 1:
+        items += other_figures
+    items += section_items("regime_map", "Question")
+    if computed:
+        items += [Heading("Regimes"), _regimes(atlas)]
+    if len(other_figures) > 1:
+        for page, figure in zip(atlas.pages, other_figures, strict=True):
+            items += [Heading(page.place), figure]
+    items += [Heading("Warnings"), _warnings(folder, atlas)]
+    scene_name = str(folder.provenance.get("scene") or folder.scene.name)
+    items += appendix(
+        *timing_items(folder),
+        *scene_items(folder.scene, scene_name, {}),
+        *provenance_items(folder),
     )
-    others = [_figure(atlas, four, (), f"Maps over {over}", _OTHERS) for four in numbers(atlas)]
-    pages = zip(atlas.pages, others, strict=True) if len(others) > 1 else ()
-    items = [
-        first,
-        cell_sheets(folder, atlas),
-        *(others if len(others) == 1 else ()),
-        *section_items("regime_map", "Question"),
-        *((Heading("Regimes"), _regimes(atlas)) if computed else ()),
-        *(item for page, four in pages for item in (Heading(page.said), four)),
-        Heading("Warnings"),
-        _warnings(folder, atlas),
-        *appendix(
-            *timing_items(folder),
-            *scene_items(folder.scene, str(folder.provenance.get("scene") or folder.scene.name), {}),
-            *provenance_items(folder),
-        ),
-    ]
     return Report(f"Regimes over {over}", folder.scene.title or folder.scene.name, tuple(items))
 
 
@@ -66,61 +66,90 @@ _OTHERS = (
 )
 
 
-def _figure(atlas: Atlas, shown: Sequence[Map], told, alt: str, caption: str) -> Figure:
-    """The maps, two a row where there are several, and one below the other for telephones."""
-    (picture, *places), (narrow, *below) = (
-        regime_maps(shown, atlas.labels, told, atlas.marks, width, wide)
-        for width, wide in ((WIDTH_IN, min(2, len(shown))), (NARROW_IN, 1))
-    )
-    said = "; ".join(one.title.replace("\n", ", ") for one in shown)
-    return Figure(picture, caption, f"{alt}: {said}.", narrow=narrow, places=(*places, *below))
+def _figure(atlas: Atlas, maps: Sequence[Map], entries, alt: str, caption: str) -> Figure:
+    """The maps, two a row where there are several, and one below the other for telephones.
+
+    entries: of the legend.
+    """
+    across = min(2, len(maps))
+    picture, places = regime_maps(maps, atlas.labels, entries, atlas.marks, WIDTH_IN, across)
+    narrow, narrow_places = regime_maps(maps, atlas.labels, entries, atlas.marks, NARROW_IN, 1)
+    titles = "; ".join(regime_map.title.replace("\n", ", ") for regime_map in maps)
+    return Figure(picture, caption, f"{alt}: {titles}.", narrow=narrow, places=(places, narrow_places))
 
 
 def _regimes(atlas: Atlas) -> Table:
     """A row a word: how much of the map it takes, where the line pulls hardest in it, what limits that."""
-    found: dict[str, list[tuple]] = {}
+    cells_of_words: dict[str, list[tuple]] = {}
     for page in atlas.pages:
         for cell in np.flatnonzero(page.on_top(COMPUTED)):
-            found.setdefault(str(page.cells.kinds[cell]), []).append(
-                (page.rows[cell], page.area[cell] / len(atlas.pages))
-            )
+            word = str(page.cells.kinds[cell])
+            area = page.area[cell] / len(atlas.pages)
+            cells_of_words.setdefault(word, []).append((page.rows[cell], area))
     body = []
-    for word, own in sorted(found.items(), key=lambda one: -sum(area for _, area in one[1])):
-        share = sum(area for _, area in own)
-        worst = max((row for row, _ in own), key=lambda row: np.nan_to_num(row[PULL], nan=-1.0))
-        limited = (sum(area for row, area in own if row.get(name) == 1) / share for name in LIMITS)
-        body.append(
-            (word, str(len(own)), percent(share), number(worst[PULL], 3), at(atlas.keys, worst), *map(percent, limited))
-        )
+    for word, cells in sorted(cells_of_words.items(), key=lambda item: -_area(item[1])):
+        share = _area(cells)
+        worst, _ = max(cells, key=_pull)
+        cell_texts = [word, str(len(cells)), percent(share), number(worst[PULL], 3), at(atlas.keys, worst)]
+        for name in LIMITS:
+            limited = [cell for cell in cells if cell[0].get(name) == 1]
+            cell_texts.append(percent(_area(limited) / share))
+        body.append(tuple(cell_texts))
+    limit_heads = [(reason, "") for reason in LIMITS.values()]
     columns = heads(
-        "motion from rest", ("cells", ""), ("share of the map", ""), ("largest T over static", ""), "at",
-        *((said, "") for said in LIMITS.values()),
-    )  # fmt: skip
+        "motion from rest", ("cells", ""), ("share of the map", ""), ("largest T over static", ""), "at", *limit_heads
+    )
     caption = "Computed cells by the regime of the motion from rest; the last two columns: shares of their area."
     return Table(columns, tuple(body), caption, small=True)
 
 
+def _area(cells: Sequence[tuple]) -> float:
+    """The area of cells (row, area)."""
+    return sum(area for _, area in cells)
+
+
+def _pull(cell: tuple) -> float:
+    """The largest tension of a cell (row, area), below all others where it has none."""
+    row, _ = cell
+    return np.nan_to_num(row[PULL], nan=-1.0)
+
+
+_LIMIT_SENTENCES = {
+    "loops": "loops are released, in a plane: a real line leaves it, so regime and exponent may differ there",
+    "leaves_water": "the top of the sphere comes above still water: `buoy.submergence` says how it is treated",
+}
+
+
 def _warnings(folder: Folder, atlas: Atlas) -> Notice:
     lines = []
-    if share := atlas.of_source(SCREENED):
-        lines.append(f"{percent(share)} of the map is only screened, with the massless tether: its dots are no result.")
-    if share := atlas.of_source(FAILED):
-        lost = (row for page in atlas.pages for row in page.rows if row["source"] == FAILED)
-        reasons = Counter(row.get("message") or row.get("status") or "no reason told" for row in lost)
-        why = listed(f"{reason} ({times})" for reason, times in reasons.most_common(3))
-        lines.append(f"{percent(share)} of the map failed: {why}.")
-    told = {
-        "loops": "loops are released, in a plane: a real line leaves it, so regime and exponent may differ there",
-        "leaves_water": "the top of the sphere comes above still water: `buoy.submergence` says how it is treated",
-    }
-    for name, said in LIMITS.items():
-        if share := atlas.limited(said):
-            lines.append(f"On {percent(share)} of the map {told[name]}.")
+    screened = atlas.of_source(SCREENED)
+    if screened:
+        lines.append(
+            f"{percent(screened)} of the map is only screened, with the massless tether: its dots are no result."
+        )
+    failed = atlas.of_source(FAILED)
+    if failed:
+        lines.append(f"{percent(failed)} of the map failed: {_reasons(atlas)}.")
+    for name, reason in LIMITS.items():
+        share = atlas.limited(reason)
+        if share:
+            lines.append(f"On {percent(share)} of the map {_LIMIT_SENTENCES[name]}.")
     verdicts = Counter(row["verdict"] for row in folder.table if row["status"] == "ok" and row.get("verdict"))
-    if cheap := verdicts["cheap"]:
+    cheap = verdicts["cheap"]
+    if cheap:
         lines.append(
             f"{cheap} of {verdicts.total()} verdicts are cheap: the motion repeats at one look. Sheets say which."
         )
     if not lines:
         return Notice("note", "Nothing to warn of", ("Every cell was computed and has a full verdict.",))
     return Notice("warning", "What the maps do not tell", tuple(lines))
+
+
+def _reasons(atlas: Atlas) -> str:
+    """The three reasons for which most cells failed, in words."""
+    reasons = Counter()
+    for page in atlas.pages:
+        for row in page.rows:
+            if row["source"] == FAILED:
+                reasons[row.get("message") or row.get("status") or "no reason told"] += 1
+    return listed(f"{reason} ({times})" for reason, times in reasons.most_common(3))

@@ -28,39 +28,59 @@ _MET = {"yes": "met", "no": "not met"}
 
 def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
-    columns, errors = folder.columns, errors_of(folder.columns)
+    columns = folder.columns
+    errors = errors_of(columns)
     names = [name for name in _FACTS if name in columns]
     names += [name for name, _ in further(columns, (key.name for key in atlas.keys))]
-    motions: dict[tuple[str, ...], list] = {}
-    for row, series in zip(folder.table, _series(folder), strict=True):
+    motions_of_places: dict[tuple[str, ...], list] = {}
+    for row, curves in zip(folder.table, _curves(folder), strict=True):
         facts = [plus_minus(columns, row, name, errors.get(name, "")) for name in names]
-        motions.setdefault(_where(row, atlas), []).append((row, facts, series))
-    cells = []
+        motions_of_places.setdefault(_place(row, atlas), []).append((row, facts, curves))
+    sheets = []
     for page in atlas.pages:
         for row, box, area in zip(page.rows, page.cells.boxes, page.area, strict=True):
-            if area > 0.0:
-                sheet = {"page": page.number, "box": [float(f"{edge:.7g}") for edge in box]}
-                own = motions.get(_where(row, atlas), [])
-                cells.append({**sheet, "name": plain(at(atlas.keys, row)), "note": _note(row), **_drawn(own)})
-    return CellSheets(tuple((columns[name].head, columns[name].unit) for name in names), tuple(cells))
+            if area <= 0.0:
+                continue
+            sheet = {
+                "page": page.number,
+                "box": [float(f"{edge:.7g}") for edge in box],
+                "name": plain(at(atlas.keys, row)),
+                "note": _note(row),
+            }
+            motions = motions_of_places.get(_place(row, atlas), [])
+            sheets.append(sheet | _drawn(motions))
+    fact_heads = tuple((columns[name].head, columns[name].unit) for name in names)
+    return CellSheets(fact_heads, tuple(sheets))
 
 
-def _where(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
+def _place(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
     """What joins a row of `table.csv` to its cell."""
-    return tuple(str(row[key.name]) if key.digits is None else f"{row[key.name]:.9g}" for key in atlas.keys)
+    place = []
+    for key in atlas.keys:
+        value = row[key.name]
+        place.append(str(value) if key.digits is None else f"{value:.9g}")
+    return tuple(place)
 
 
-def _series(folder: Folder) -> Iterator[list[np.ndarray]]:
+def _curves(folder: Folder) -> Iterator[list[np.ndarray]]:
     """Of each row: histories of r and T, strobed r and T; empty ones where nothing was kept."""
-    try:
-        kept = np.load(folder.directory / "strobes.npz")
-        places = {key: place for place, key in enumerate(kept["run_key"])}
-        strobes = [kept[name] for name in _STROBES]
-    except (OSError, ValueError, KeyError):
-        places, strobes = {}, []
+    nothing = [_NOTHING] * len(_STROBES)
+    strobes_of_runs = _strobes(folder)
     for row in folder.table:
-        place = places.get(row["run_key"])
-        yield [*_history(folder, row), *((_NOTHING,) * 2 if place is None else (values[place] for values in strobes))]
+        yield [*_history(folder, row), *strobes_of_runs.get(row["run_key"], nothing)]
+
+
+def _strobes(folder: Folder) -> dict[str, list[np.ndarray]]:
+    """Strobed r and T of each run by its key; {} where the file cannot be read."""
+    strobes_of_runs = {}
+    try:
+        file = np.load(folder.directory / "strobes.npz")
+        radius, tension = (file[name] for name in _STROBES)
+        for place, key in enumerate(file["run_key"]):
+            strobes_of_runs[key] = [radius[place], tension[place]]
+    except (OSError, ValueError, KeyError):
+        return {}
+    return strobes_of_runs
 
 
 def _history(folder: Folder, row) -> tuple[np.ndarray, np.ndarray]:
@@ -74,7 +94,7 @@ def _history(folder: Folder, row) -> tuple[np.ndarray, np.ndarray]:
         with netcdf_file(folder.trajectory_path(row["run_key"]), "r", mmap=True) as file:
             step_s = np.diff(file.variables["time_s"][-2:]).item()
             shown = round(_LAST * row["end_time_s"] / row["periods"] / step_s) + 1
-            radius, tension = (np.array(file.variables[name][-shown:], float) for name in _HISTORY)
+            radius, tension = [np.array(file.variables[name][-shown:], float) for name in _HISTORY]
     except Exception:  # a damaged header can make the reader fail in any way at all
         return _NOTHING, _NOTHING
     starts = np.unique(np.linspace(0, len(radius), _POINTS + 1).astype(int))[:-1]
@@ -83,30 +103,47 @@ def _history(folder: Folder, row) -> tuple[np.ndarray, np.ndarray]:
 
 def _note(row) -> str:
     """What limits the result of a cell, behind its largest tension."""
+    if row["source"] == SCREENED:
+        return _SCREENED
     if row["source"] != COMPUTED:
-        return _SCREENED if row["source"] == SCREENED else f"Failed: {row.get('message') or row.get('status')}."
-    limits = "; ".join(said for name, said in LIMITS.items() if row.get(name) == 1)
-    return f"Largest tension {number(row[PULL], 3)} × static.{f' Mind: {limits}.' if limits else ''}"
+        return f"Failed: {row.get('message') or row.get('status')}."
+    note = f"Largest tension {number(row[PULL], 3)} × static."
+    limits = [reason for name, reason in LIMITS.items() if row.get(name) == 1]
+    if limits:
+        note += f" Mind: {'; '.join(limits)}."
+    return note
 
 
-def _drawn(own: Sequence[tuple]) -> dict:
-    """The motions of one cell (row, facts, series) in the scales of them all."""
-    colours = colours_of([row for row, _, _ in own])
-    r, T = (np.concatenate([[], *(series[k] for _, _, series in own for k in pair)]) for pair in ((0, 2), (1, 3)))
-    scales = [_ends(r), _ends(np.append(T, 0.0))]
-    motions = [
-        {
-            "motion": row["motion"], "colour": colours.get(row["motion"], ""), "facts": facts, "said": _evidence(row),
-            "series": [_steps(values, scales[k % 2]) for k, values in enumerate(series)],
-        }
-        for row, facts, series in own
-    ]  # fmt: skip
-    return {"scales": scales, "motions": motions}
+def _drawn(motions: Sequence[tuple]) -> dict:
+    """The motions of one cell (row, facts, curves) in the scales of them all."""
+    colours = colours_of([row for row, _, _ in motions])
+    radius, tension = [[]], [[0.0]]  # the scale of the tension has 0
+    for _, _, (radius_history, tension_history, radius_strobes, tension_strobes) in motions:
+        radius += [radius_history, radius_strobes]
+        tension += [tension_history, tension_strobes]
+    radius_scale, tension_scale = _ends(np.concatenate(radius)), _ends(np.concatenate(tension))
+    scales_of_curves = (radius_scale, tension_scale, radius_scale, tension_scale)
+    drawn = []
+    for row, facts, curves in motions:
+        steps = [_steps(values, scale) for values, scale in zip(curves, scales_of_curves, strict=True)]
+        letter = row["motion"]
+        drawn.append(
+            {
+                "motion": letter,
+                "colour": colours.get(letter, ""),
+                "facts": facts,
+                "said": _evidence(row),
+                "series": steps,
+            }
+        )
+    return {"scales": [radius_scale, tension_scale], "motions": drawn}
 
 
 def _ends(values: np.ndarray) -> list[float]:
     known = values[np.isfinite(values)]
-    return [float(f"{end:.4g}") for end in (known.min(), known.max())] if len(known) else [0.0, 1.0]
+    if not len(known):
+        return [0.0, 1.0]
+    return [float(f"{known.min():.4g}"), float(f"{known.max():.4g}")]
 
 
 def _steps(values: np.ndarray, scale: Sequence[float]) -> list[int]:
@@ -117,7 +154,10 @@ def _steps(values: np.ndarray, scale: Sequence[float]) -> list[int]:
 
 def _evidence(row) -> str:
     """Why the motion has its regime, in words, with the tests behind it."""
-    tests = [f"{name} {value} (threshold {bound}, {_MET.get(met, 'not made')})"
-             for name, value, bound, met in read_evidence(row.get("evidence") or "")]  # fmt: skip
-    said = [row.get("regime_reason") or "", "; ".join(tests), row["message"] if row["status"] != "ok" else ""]
-    return printed(". ".join(filter(None, said)))
+    tests = []
+    for name, value, bound, met in read_evidence(row.get("evidence") or ""):
+        tests.append(f"{name} {value} (threshold {bound}, {_MET.get(met, 'not made')})")
+    sentences = [row.get("regime_reason") or "", "; ".join(tests)]
+    if row["status"] != "ok":
+        sentences.append(row["message"])
+    return printed(". ".join(filter(None, sentences)))

@@ -35,28 +35,29 @@ class Study:
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     folder, files = read_folder(directory), read_files(directory, FILES)
-    judged, rows = (files[name] for name in FILES)
+    judged = files["cases.csv"]
     if not judged or not {"case", *NUMBERS} <= set(judged[0]):
         raise FolderError(folder.directory, ["cases.csv cannot be read: it has no rows, or not those of this campaign"])
     cases: dict[str, list[dict[str, str]]] = {}
     for row in judged:
         cases.setdefault(row["case"], []).append(row)
     points: dict[str, dict[str, list]] = {}
-    for row in rows:
-        place = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
-        place.append([float(row[name]) for name in ("x", "ours", "theirs")])
-    arrays = {case: {name: np.array(at).T for name, at in panels.items()} for case, panels in points.items()}
+    for row in files["curves.csv"]:
+        curve_points = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
+        curve_points.append([float(row["x"]), float(row["ours"]), float(row["theirs"])])
+    arrays: dict[str, dict[str, np.ndarray]] = {}
+    for case, case_curves in points.items():
+        arrays[case] = {name: np.array(curve_points).T for name, curve_points in case_curves.items()}
     return Study(folder, cases, arrays)
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [
-        *section_items("validation", "Question"),
-        Heading("All cases"),
-        summary(study),
-        *(item for case in study.cases for item in case_items(study, case)),
+    items: list[Item] = [*section_items("validation", "Question"), Heading("All cases"), summary(study)]
+    for case in study.cases:
+        items += case_items(study, case)
+    items += [
         Heading("Runs"),
         table_of(study.folder.columns, RUNS, study.folder.table, "Every run, from `table.csv`."),
         *appendix(*timing_items(study.folder), *provenance_items(study.folder)),
@@ -69,7 +70,9 @@ def report(directory: str | Path) -> Report:
 
 def summary(study: Study) -> Table:
     """One row a case and quantity that is judged."""
-    rows = [row for rows_of_case in study.cases.values() for row in rows_of_case if row["verdict"] != "told"]
+    rows = []
+    for rows_of_case in study.cases.values():
+        rows += _judged(rows_of_case)
     caption = (
         "Error: difference of ours from theirs, along the curves where rms is said. Bar: the most that it may be, "
         "set before the run. From `cases.csv`."
@@ -77,14 +80,18 @@ def summary(study: Study) -> Table:
     return numbers(rows, ("title", "verdict", "quantity"), caption)
 
 
+def _judged(rows: list[dict[str, str]]) -> list[dict[str, str]]:
+    return [row for row in rows if row["verdict"] != "told"]
+
+
 def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) -> Table:
     """The rows of cases.csv with these columns of words, then error, bar and unit."""
-    body = (
-        (*(row[name] for name in first), *(number(value(row, name), 4) for name in ("error", "bar")), row["unit"])
-        for row in rows
-    )
-    words = ("case" if name == "title" else name for name in first)
-    return Table(heads(*words, ("error", ""), ("bar", ""), "unit"), tuple(body), caption, small=True)
+    body = []
+    for row in rows:
+        words = [row[name] for name in first]
+        body.append((*words, number(value(row, "error"), 4), number(value(row, "bar"), 4), row["unit"]))
+    word_heads = ["case" if name == "title" else name for name in first]
+    return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), tuple(body), caption, small=True)
 
 
 def case_items(study: Study, case: str) -> Iterator[Item]:
@@ -108,18 +115,20 @@ def case_items(study: Study, case: str) -> Iterator[Item]:
 def figure(study: Study, case: str) -> Figure:
     """Ours and theirs on one axis, a panel a pair of curves."""
     first, pairs = study.cases[case][0], study.points[case]
+    *_, last = pairs
     panels = []
     for name, (x, ours, theirs) in pairs.items():
-        looks = [{"width": 1.6}, {"width": 0.9, "line": (0, (4, 2))}]
+        theirs_look, ours_look = {"width": 1.6}, {"width": 0.9, "line": (0, (4, 2))}
         if len(x) < MANY:
-            looks = [{"mark": "o", "size": 7.0, "line": "", "filled": False}, {"mark": "x", "size": 5.0, "line": ""}]
+            theirs_look = {"mark": "o", "size": 7.0, "line": "", "filled": False}
+            ours_look = {"mark": "x", "size": 5.0, "line": ""}
         drawn = [
-            Curve(x, y, word, colour=colour, **look)
-            for y, word, colour, look in zip((theirs, ours), ("theirs", "ours"), (VERMILION, BLUE), looks, strict=True)
+            Curve(x, theirs, "theirs", colour=VERMILION, **theirs_look),
+            Curve(x, ours, "ours", colour=BLUE, **ours_look),
         ]
-        below = first["x_label"] if name == [*pairs][-1] else ""
+        below = first["x_label"] if name == last else ""
         panels.append([Panel(drawn, below, first["y_label"], name)])
-    words = "; ".join(f"{row['quantity']}: {row['verdict']}" for row in study.cases[case] if row["verdict"] != "told")
+    words = "; ".join(f"{row['quantity']}: {row['verdict']}" for row in _judged(study.cases[case]))
     caption = f"{first['title']}: theirs and ours ({words}). From `curves.csv`."
     alt = f"Two curves of {first['y_label']} over {first['x_label']}, theirs {first['theirs']}, ours {first['ours']}."
     return Figure(curves(panels, 2.6 * len(panels) + 0.4, "below", share="x"), caption, alt)

@@ -23,8 +23,8 @@ MAKERS = ("figures", "measures.py", "measured.py")
 SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/buoy_sweep/rows.py")
 SOURCES = (*SHARED, *(f"campaigns/paper/{name}" for name in MAKERS))
 FIGURES = {  # of the paper -> what plans its data from the `Parts`; 1 and 8 are sketches
-    **{2 + at: partial(breaking, cases=FAST, quantity=what) for at, what in enumerate(SHOWN)},
-    **{5 + at: partial(breaking, cases=SLOW, quantity=what) for at, what in enumerate(SHOWN)},
+    **{number: partial(breaking, cases=FAST, quantity=quantity) for number, quantity in enumerate(SHOWN, 2)},
+    **{number: partial(breaking, cases=SLOW, quantity=quantity) for number, quantity in enumerate(SHOWN, 5)},
     9: partial(history, steepness=SMALL, side="tension"),
     10: partial(history, steepness=SMALL, side="radial"),
     11: partial(history, steepness=SMALL, side="angular"),

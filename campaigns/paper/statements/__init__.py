@@ -17,11 +17,10 @@ from campaigns.paper.statements.judging import depths, numbers
 from campaigns.statements import Claim, Measured, read_claims
 
 TABLE = Path(__file__).parents[1] / "statements.toml"
-MEASURES = {"numbers": numbers, "depths": depths} | {
-    name.replace("_", " "): measure
-    for name, measure in vars(buoy).items()
-    if getattr(measure, "__module__", "") == buoy.__name__
-}
+MEASURES = {"numbers": numbers, "depths": depths}
+for _name, _measure in vars(buoy).items():
+    if getattr(_measure, "__module__", "") == buoy.__name__:
+        MEASURES[_name.replace("_", " ")] = _measure
 
 
 @cache
@@ -31,10 +30,15 @@ def claims(quick: bool = False) -> tuple[Claim, ...]:
     if quick:
         of_buoy = {name: replace(claim, measure=partial(_not_judged, claim.measure)) for name, claim in of_buoy.items()}
     named = line.claims() | of_buoy
-    accuracy = (claim for claim in named.values() if claim.place == "3")
-    sections = (claim for claim in named.values() if claim.place not in ("3", "5"))
-    said_again = tomllib.loads(TABLE.read_text(encoding="utf-8"))["conclusions"]
-    conclusions = (replace(named[name], place="5", evidence=evidence) for name, evidence in said_again)
+    accuracy, sections, conclusions = [], [], []
+    for claim in named.values():
+        if claim.place == "3":
+            accuracy.append(claim)
+        elif claim.place != "5":
+            sections.append(claim)
+    repeated = tomllib.loads(TABLE.read_text(encoding="utf-8"))["conclusions"]
+    for name, evidence in repeated:
+        conclusions.append(replace(named[name], place="5", evidence=evidence))
     return (*accuracy, *sections, *conclusions)
 
 

@@ -5,6 +5,7 @@ is chaotic; then eq. (33) with figure 19b, and the motion across the plane of th
 """
 
 import math
+from operator import itemgetter
 
 from campaigns.machinery.folder import Row
 from campaigns.motions.along import from_rest
@@ -40,10 +41,13 @@ def always_taut(results: Results) -> Measured:
 def regular(results: Results) -> Measured:
     """The regime of the long run, and of the short ones."""
     rows, long = everywhere(results, SMALL), results.buoy.get(SMALL)
-    first = [(LONG, long)] if long else []
-    checks = judging.regimes([*first, *rows], lambda regime: regime.startswith("period-"))
-    sentence = f"{LONG} {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits per period; " if long else ""
-    return Measured(checks, f"{sentence}shorter runs {judging.by_regime(rows)}" if long or rows else "")
+    if not long and not rows:
+        return Measured()
+    words, places = f"shorter runs {judging.by_regime(rows)}", rows
+    if long:
+        places = [(LONG, long), *rows]
+        words = f"{LONG} {long['regime'] or 'no verdict'}, σ = {exponent(long)} bits per period; {words}"
+    return Measured(judging.regimes(places, lambda regime: regime.startswith("period-")), words)
 
 
 def uncoupled(results: Results) -> Measured:
@@ -121,7 +125,8 @@ def threshold(results: Results) -> Measured:
     rows = by_motion(results.sweep)
     if not rows:
         return Measured()
-    first = min((row["steepness"] for row in rows if is_slack(row)), default=math.inf)
+    slack = [row["steepness"] for row in rows if is_slack(row)]
+    first = min(slack, default=math.inf)
     taut_beyond = [row for row in rows if row["steepness"] >= first and not is_slack(row)]
     checks = passed(
         ("there is a threshold", good(rows)[0]["steepness"] < first < math.inf),
@@ -133,18 +138,27 @@ def threshold(results: Results) -> Measured:
 def chaos_beyond(results: Results) -> Measured:
     """The regimes of all motions whose line goes slack; of those from rest the long runs where there are both."""
     long = {row["steepness"]: row for row in good(results.buoy.values())}
-    swept = [row | (long.pop(row["steepness"], {}) if from_rest(row) else {}) for row in good(results.sweep)]
+    swept = []
+    for row in good(results.sweep):
+        if from_rest(row):
+            row = row | long.pop(row["steepness"], {})
+        swept.append(row)
     rows = by_motion([*swept, *long.values()])
+    if not rows:
+        return Measured()
     kinds = {
         "chaotic": "chaotic".__eq__,
         "periodic or quasi-periodic": lambda regime: regime not in ("chaotic", *UNDECIDED),
         "undecided or a transient": lambda regime: regime in UNDECIDED,
     }
-    words = {
-        kind: spans([is_slack(row) and is_so(row["regime"]) for row in rows], rows) for kind, is_so in kinds.items()
-    }
-    checks = [(f"kA = {words[kind]}", kind == "chaotic") for kind in [*kinds][:2] if words[kind] != listed([])]
-    return Measured(passed(*checks), "; ".join(f"{kind} {word}" for kind, word in words.items()) if rows else "")
+    words, checks = [], []
+    for kind, is_so in kinds.items():
+        steepnesses = spans([is_slack(row) and is_so(row["regime"]) for row in rows], rows)
+        words.append(f"{kind} {steepnesses}")
+        decides = kind != "undecided or a transient"
+        if decides and steepnesses != listed([]):
+            checks.append((f"kA = {steepnesses}", kind == "chaotic"))
+    return Measured(passed(*checks), "; ".join(words))
 
 
 def is_slack(row: Row) -> bool:
@@ -158,73 +172,107 @@ def spans(chosen: list[bool], rows: list[Row]) -> str:
     previous = None
     for wanted, row in zip(chosen, rows, strict=True):
         motion = row.get("motion") or ""
-        if wanted:
-            groups = groups if previous == motion else [*groups, (motion, [])]
-            groups[-1][1].append(row["steepness"])
-        previous = motion if wanted else None
-    return listed(
-        (f"{members[0]:.4g} to {members[-1]:.4g}" if len(members) > 1 else f"{members[0]:.4g}")
-        + (f" ({motion})" if motion else "")
-        for motion, members in groups
-    )
+        if not wanted:
+            previous = None
+            continue
+        if motion != previous:
+            groups.append((motion, []))
+        groups[-1][1].append(row["steepness"])
+        previous = motion
+    return listed(_span(motion, members) for motion, members in groups)
+
+
+def _span(motion: str, steepnesses: list[float]) -> str:
+    """ "0.016", "0.016 to 0.13 (B)"."""
+    words = f"{steepnesses[0]:.4g}"
+    if len(steepnesses) > 1:
+        words += f" to {steepnesses[-1]:.4g}"
+    if motion:
+        words += f" ({motion})"
+    return words
 
 
 def positive_exponent(results: Results) -> Measured:
     """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
-    short = [(place, row) for place, row in everywhere(results, LARGE) if exponent(row) != "none"]
-    deciding = {place: row for place, row in short if judging.settled(row)}
-    sentence = f"shorter runs from rest {', '.join(f'{exponent(row)} at {place}' for place, row in short) or 'none'}"
+    deciding, exponents = {}, []
+    for place, row in everywhere(results, LARGE):
+        if exponent(row) == "none":
+            continue
+        exponents.append(f"{exponent(row)} at {place}")
+        if judging.settled(row):
+            deciding[place] = row
+    if not exponents and not long:
+        return Measured()
+    sentence = f"shorter runs from rest {', '.join(exponents) or 'none'}"
     if exponent(long) != "none":
         deciding[depth] = long
         sentence = f"{LONG} at {depth} {exponent(long)}; {sentence}"
-    checks = passed(*((place, judging.positive(row)) for place, row in sorted(deciding.items())))
-    return Measured(checks, sentence if short or long else "")
+    checks = [(place, judging.positive(deciding[place])) for place in sorted(deciding)]
+    return Measured(passed(*checks), sentence)
 
 
 def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
     short = everywhere(results, LARGE)
+    if not short and not long:
+        return Measured()
     sentence, deciding = f"shorter runs from rest {judging.by_regime(short)}", dict(short)
     if long is not None and long["regime"] not in UNDECIDED:
         deciding[depth] = long
-        tighter = f" (at a tenth of the tolerance: {at_tighter})" if (at_tighter := long.get("regime_tighter")) else ""
-        sentence = f"{LONG} at {depth} {long['regime']}{tighter}; {sentence}"
-    return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), sentence if short or long else "")
+        regime, tighter = long["regime"], long.get("regime_tighter")
+        if tighter:
+            regime += f" (at a tenth of the tolerance: {tighter})"
+        sentence = f"{LONG} at {depth} {regime}; {sentence}"
+    return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), sentence)
 
 
 def never_repeats(results: Results) -> Measured:
     """The strobed period of the short runs; none where the motion does not repeat."""
-    rows = [(at(row), value_of(row, "strobed_period")) for row in results.over_depth(LARGE)]
-    return Measured(passed(*((place, math.isnan(period)) for place, period in rows)), told(rows, "g"))
+    periods, checks = [], []
+    for row in results.over_depth(LARGE):
+        period = value_of(row, "strobed_period")
+        periods.append((at(row), period))
+        checks.append((at(row), math.isnan(period)))
+    return Measured(passed(*checks), told(periods, "g"))
 
 
 def no_dominant_mode(results: Results) -> Measured:
     """Largest share of the variance on one bin of eq. (31), of r and theta."""
-    rows, long = everywhere(results, LARGE), results.buoy.get(LARGE)
+    rows, long = dict(everywhere(results, LARGE)), results.buoy.get(LARGE)
     if long is not None:
-        rows = [(place, row) for place, row in rows if place != f"H = {results.depth():g} m"] + [(LONG, long)]
-    lines = [(place, value_of(row, "radial_line"), value_of(row, "angular_line"), row) for place, row in rows]
-    lines = [line for line in lines if math.isfinite(line[1])]
-    if not lines:
+        rows.pop(f"H = {results.depth():g} m", None)
+        rows[LONG] = long
+    checks, least, least_place = [], math.inf, ""
+    for place, row in rows.items():
+        r, theta = value_of(row, "radial_line"), value_of(row, "angular_line")
+        if not math.isfinite(r):
+            continue
+        checks.append((place, max(r, theta)))
+        if (min(r, theta), place) < (least, least_place):
+            least, least_place = min(r, theta), place
+    if not checks:
         return Measured()
-    place, r, theta, row = lines[-1]
-    words = ", ".join(
-        f"{name} {shown(share, '.1%')} at {shown(value_of(row, f'{side}_at'), '.3g')} of the waves' frequency"
-        for name, side, share in (("r", "radial", r), ("θ", "angular", theta))
-    )
-    least, elsewhere = min((min(line[1:3]), line[0]) for line in lines)
-    words += f" ({place}); least of {len(lines)} runs {shown(least, '.1%')} ({elsewhere})"
-    return Measured([(place, max(r, theta)) for place, r, theta, _ in lines], words)
+    place, _ = checks[-1]
+    words = f"{_line_in_words('r', 'radial', rows[place])}, {_line_in_words('θ', 'angular', rows[place])} ({place}); "
+    words += f"least of {len(checks)} runs {shown(least, '.1%')} ({least_place})"
+    return Measured(checks, words)
+
+
+def _line_in_words(name: str, side: str, row: Row) -> str:
+    """The largest share of the variance of r or theta on one bin, and where the bin is."""
+    share, frequency = value_of(row, f"{side}_line"), value_of(row, f"{side}_at")
+    return f"{name} {shown(share, '.1%')} at {shown(frequency, '.3g')} of the waves' frequency"
 
 
 def strange(results: Results) -> Measured:
     """Largest exponent and Kaplan-Yorke dimension of the attractor of eq. (33)."""
-    growth, growth_error, dimension, error = (results.number(name) for name in STRANGE)
-    if not all(map(math.isfinite, (growth, growth_error, dimension, error))):
+    numbers = [results.number(name) for name in STRANGE]
+    if not all(map(math.isfinite, numbers)):
         return Measured()
-    distance = min(abs(dimension - n) for n in (1, 2))
+    growth, growth_error, dimension, error = numbers
+    distance = min(abs(dimension - 1), abs(dimension - 2))
     checks = passed(
         ("exponent positive", growth > NOT_IN_DOUBT * growth_error),
         ("dimension not whole", distance > NOT_IN_DOUBT * error),
@@ -246,53 +294,65 @@ def _spatial(results: Results, steepness: float) -> list[Row]:
 
 def grows(row: Row) -> bool:
     """Whether the motion of buoy or rope across the plane grows exponentially."""
-    return any(row[f"{body}_motion"] == "growth" for body in BODIES)
+    return "growth" in (row["buoy_motion"], row["rope_motion"])
 
 
 def planar(results: Results) -> Measured:
     """Largest lateral distance of any node of runs that were pushed along the waves."""
-    rows = [row for row in results.plane if row["status"] == "ok" and row["seed_direction"] == "along"]
-    largest = [row["rope_lateral_max_m"] for row in rows if math.isfinite(row["rope_lateral_max_m"])]
-    return (
-        Measured([("push along the waves", max(largest))], f"{shown(max(largest), '.3g')} m") if largest else Measured()
-    )
+    distances = []
+    for row in results.plane:
+        if row["status"] == "ok" and row["seed_direction"] == "along" and math.isfinite(row["rope_lateral_max_m"]):
+            distances.append(row["rope_lateral_max_m"])
+    if not distances:
+        return Measured()
+    return Measured([("push along the waves", max(distances))], f"{shown(max(distances), '.3g')} m")
 
 
 def small_decays(results: Results) -> Measured:
     """How many runs of the small wave grow, of those in three dimensions that ended as asked."""
     small = min((row["steepness"] for row in results.plane), default=LARGE)
-    rows = [] if small == results.plane_large else _spatial(results, small)
+    rows = _spatial(results, small)
+    if small == results.plane_large or not rows:
+        return Measured([])
     growing, decaying = sum(map(grows, rows)), sum(row["buoy_motion"] == row["rope_motion"] == "decay" for row in rows)
-    words = f"{growing} of {len(rows)} runs grow, {decaying} decay exponentially" if rows else ""
-    return Measured([("all pushes, depths, stiffnesses, grids", growing)] if rows else [], words)
+    words = f"{growing} of {len(rows)} runs grow, {decaying} decay exponentially"
+    return Measured([("all pushes, depths, stiffnesses, grids", growing)], words)
 
 
 def large_grows(results: Results) -> Measured:
     """At which depths a run of the large wave grows."""
     rows = pushed(results)
-    checks = {place: any(grows(row) for row in rows if at(row) == place) for place in map(at, rows)}
+    if not rows:
+        return Measured([])
+    checks: dict[str, bool] = {}
+    for row in rows:
+        checks[at(row)] = checks.get(at(row), False) or grows(row)
     bursts = sum(row["rope_motion"] == "bursts" for row in rows)
     words = f"{sum(map(grows, rows))} of {len(rows)} runs grow exponentially; in {bursts} the rope bursts"
-    return Measured(passed(*checks.items()), words if rows else "")
+    return Measured(passed(*checks.items()), words)
 
 
 def comparable(results: Results) -> Measured:
     """Largest lateral distance of buoy and rope over half the range of the buoy in the plane."""
-    largest = {}
+    checks, words = [], []
     for body in BODIES:
-        known = [row for row in pushed(results) if math.isfinite(row[f"{body}_share_of_inplane"])]
+        column = f"{body}_share_of_inplane"
+        known = [row for row in pushed(results) if math.isfinite(row[column])]
         if not known:
             return Measured()
-        largest[body] = max(known, key=lambda row: row[f"{body}_share_of_inplane"])
-    words = ", ".join(
-        f"{body} {shown(row[f'{body}_share_of_inplane'], '.3%')} ({shown(row[f'{body}_lateral_max_m'], '.2g')} m)"
-        for body, row in largest.items()
-    )
-    return Measured([("buoy", largest["buoy"]["buoy_share_of_inplane"])], words)
+        largest = max(known, key=itemgetter(column))
+        distance_m = shown(largest[f"{body}_lateral_max_m"], ".2g")
+        words.append(f"{body} {shown(largest[column], '.3%')} ({distance_m} m)")
+        if body == "buoy":
+            checks.append((body, largest[column]))
+    return Measured(checks, ", ".join(words))
 
 
 def spatial(results: Results) -> Measured:
     """Largest lateral distance of the rope, m, at every depth."""
-    rows = [row for row in pushed(results) if math.isfinite(row["rope_lateral_max_m"])]
-    largest = {place: max(row["rope_lateral_max_m"] for row in rows if at(row) == place) for place in map(at, rows)}
+    largest: dict[str, float] = {}
+    for row in pushed(results):
+        distance_m = row["rope_lateral_max_m"]
+        if math.isfinite(distance_m):
+            largest[at(row)] = max(distance_m, largest.get(at(row), distance_m))
     return each(largest.items(), ".2g")

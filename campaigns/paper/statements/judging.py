@@ -31,14 +31,20 @@ def numbers(
     def measure(results: Results) -> Measured:
         checks, words = [], []
         for place, text in of.items():
-            value, expected = (
-                formula(formula_text)(results.numbers)
-                for formula_text in (text, str(printed[place]) if printed else "1")
-            )
-            if math.isfinite(value) and math.isfinite(expected):
-                judged = formula(judge)(results.numbers) if judge else value / expected - 1.0 if printed else value
-                checks.append((place, judged))
-                words.append(f"{place}: {shown(value, form)}" + (f" ({expected:g})" if printed else ""))
+            value, expected = formula(text)(results.numbers), 1.0
+            if printed:
+                expected = formula(str(printed[place]))(results.numbers)
+            if not (math.isfinite(value) and math.isfinite(expected)):
+                continue
+            judged, sentence = value, f"{place}: {shown(value, form)}"
+            if judge:
+                judged = formula(judge)(results.numbers)
+            elif printed:
+                judged = value / expected - 1.0
+            if printed:
+                sentence += f" ({expected:g})"
+            checks.append((place, judged))
+            words.append(sentence)
         return Measured(checks, ", ".join(words))
 
     return measure
@@ -52,11 +58,17 @@ def depths(of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Mea
 
     def measure(results: Results) -> Measured:
         checks, words = [], []
-        for row in (results.numbers | row for row in results.over_depth(LARGE)):
-            values = [formula(formula_text)(row) for formula_text in (of, *also)]
-            if math.isfinite(values[0]):
-                checks.append((at(row), formula(judge)(row) if judge else values[0]))
-                words.append(f"{' and '.join(shown(value, form) for value in values)} at {at(row)}")
+        for row in results.over_depth(LARGE):
+            numbers_of_row = results.numbers | row
+            value = formula(of)(numbers_of_row)
+            if not math.isfinite(value):
+                continue
+            values_in_words = [shown(value, form)]
+            for text in also:
+                values_in_words.append(shown(formula(text)(numbers_of_row), form))
+            words.append(f"{' and '.join(values_in_words)} at {at(row)}")
+            judged = formula(judge)(numbers_of_row) if judge else value
+            checks.append((at(row), judged))
         return Measured(checks, ", ".join(words))
 
     return measure
@@ -64,8 +76,12 @@ def depths(of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Mea
 
 def each(checks: Iterable[Check], form: str) -> Measured:
     """A check of every number that there is, with its place."""
-    known = [(place, value) for place, value in checks if math.isfinite(value)]
-    return Measured(known, ", ".join(f"{shown(value, form)} at {place}" for place, value in known))
+    known, words = [], []
+    for place, value in checks:
+        if math.isfinite(value):
+            known.append((place, value))
+            words.append(f"{shown(value, form)} at {place}")
+    return Measured(known, ", ".join(words))
 
 
 def passed(*checks: tuple[str, bool]) -> list[Check]:
@@ -75,13 +91,17 @@ def passed(*checks: tuple[str, bool]) -> list[Check]:
 
 def value_of(row: Row | None, column: str) -> float:
     """A number of a row; nan where the row, or its entry, is not there."""
-    return math.nan if row is None else float(row.get(column, math.nan))
+    if row is None:
+        return math.nan
+    return float(row.get(column, math.nan))
 
 
 def exponent(row: Row | None) -> str:
     """The exponent of the tangent dynamics with its error, in words."""
     value, error = value_of(row, EXPONENT), value_of(row, ERROR)
-    return "none" if math.isnan(value) else f"{shown(value, '.3f')} ± {shown(error, '.3f')}"
+    if math.isnan(value):
+        return "none"
+    return f"{shown(value, '.3f')} ± {shown(error, '.3f')}"
 
 
 def positive(row: Row) -> bool:
@@ -102,18 +122,21 @@ def at(row: Row) -> str:
 
 def everywhere(results: Results, steepness: float) -> list[Place]:
     """The short runs of a wave by depth: as shipped, then with a buoy that loses buoyancy out of the water."""
-    shipped = [(at(row), row) for row in results.over_depth(steepness)]
+    places = [(at(row), row) for row in results.over_depth(steepness)]
     submergences = dict.fromkeys(row["submergence"] for row in results.dependence)
-    rows_found = [
-        (under, row) for under in [*submergences][1:] for row in results.over_depth(steepness, submergence=under)
-    ]
-    return shipped + [(f"{at(row)} with {under}", row) for under, row in rows_found]
+    for under in list(submergences)[1:]:
+        for row in results.over_depth(steepness, submergence=under):
+            places.append((f"{at(row)} with {under}", row))
+    return places
 
 
 def regimes(rows: Iterable[Place], is_so: Callable[[str], bool]) -> list[Check]:
     """A check of every row that has a verdict: whether its regime is so."""
-    decided = ((place, row["regime"]) for place, row in rows if row["regime"] not in UNDECIDED)
-    return passed(*((place, is_so(regime)) for place, regime in decided))
+    checks = []
+    for place, row in rows:
+        if row["regime"] not in UNDECIDED:
+            checks.append((place, is_so(row["regime"])))
+    return passed(*checks)
 
 
 def by_regime(rows: Iterable[Place]) -> str:

@@ -53,18 +53,20 @@ def left_out(root: str | Path) -> dict[int, str]:
     except (OSError, ValueError):
         reasons = {}
     drawn = figures_of(root)
-    unknown = "its data file is missing or damaged"
-    return {number: str(reasons.get(str(number), unknown)) for number in NUMBERS if number not in drawn}
+    missing = {}
+    for number in NUMBERS:
+        if number not in drawn:
+            missing[number] = str(reasons.get(str(number), "its data file is missing or damaged"))
+    return missing
 
 
 def pictures(root: str | Path) -> dict[Path, bytes]:
     """The drawings to keep beside the data."""
-    drawn = {kind: figures_of(root, kind) for kind in ("svg", "png")}
-    return {
-        _place(root, n, kind): drawing.picture.data
-        for kind, drawings in drawn.items()
-        for n, drawing in drawings.items()
-    }
+    files = {}
+    for kind in ("svg", "png"):
+        for number, figure in figures_of(root, kind).items():
+            files[_place(root, number, kind)] = figure.picture.data
+    return files
 
 
 def _place(root: str | Path, number: int, kind: str) -> Path:

@@ -24,11 +24,12 @@ def breaking(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     cases = [name.split("_")[1] for name in data if str(name).endswith("_force_N")]
     column = next(name for name in QUANTITIES if f"case_{cases[0]}_{name}" in data)
-    drawn = ("x_m" if column == "z_m" else "s_m", column, "time_s")
+    abscissa = "x_m" if column == "z_m" else "s_m"
     panels = []
     for case in cases:
-        curves = (data[f"case_{case}_{name}"].values for name in drawn)
-        panels.append(LinePanel(case, value(data, f"case_{case}_force_N"), *curves))
+        x, y = data[f"case_{case}_{abscissa}"].values, data[f"case_{case}_{column}"].values
+        time_s = data[f"case_{case}_time_s"].values
+        panels.append(LinePanel(case, value(data, f"case_{case}_force_N"), x, y, time_s))
     quantity, fracture = QUANTITIES[column][0], number(1e3 * value(data, f"case_{cases[0]}_fracture_s"))
     caption = (
         f"{quantity} (fracture in {fracture} ms), curves 10 ms apart, dark to bright; {SCALED[column]}. "

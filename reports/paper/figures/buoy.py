@@ -44,7 +44,7 @@ class Side:
     """One of the three histories: what it is, its array, labels left and right, factor from left to right, levels to
     mark with their names in the key; band: arrays of least and largest values between samples."""
 
-    what: str
+    description: str
     column: str
     label: str
     other: str
@@ -56,7 +56,7 @@ class Side:
 def history(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     side = _side(data)
-    kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.what}, 3)
+    kA, seen = sources_of(data)[0].label, spans(data, {side.column: side.description}, 3)
     caption = (
         f"{seen}, {kA}, against t/{T_I}; above up to the end of the window of eq. (31), its start marked, below the "
         f"last {DETAIL_PERIODS} wave periods of it. {behind(data)}"
@@ -88,8 +88,10 @@ def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
     for shown, x_label, top in drawn:
         x, y, band = periods[shown], data[side.column].values[shown], None
         if side.band:
-            (at, low), (_, high) = (envelope(x, data[name].values[shown]) for name in side.band)
-            band = at, np.minimum(low, high), np.maximum(low, high)
+            low_name, high_name = side.band
+            band_x, low = envelope(x, data[low_name].values[shown])
+            _, high = envelope(x, data[high_name].values[shown])
+            band = band_x, np.minimum(low, high), np.maximum(low, high)
         lines = [Curve(*envelope(x, y), colour=INK, width=0.8, band=band)]
         room = 0.05 * np.ptp(y)
         for (level, name), look in zip(side.levels, ((VERMILION, "--"), (GREEN, "-.")), strict=False):
@@ -97,9 +99,8 @@ def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
                 lines.append(Curve(x[[0, -1]], np.full(2, level), name, look[1], colour=look[0]))
         right_axis = {"right": (side.factor, side.other), **top}
         settings = {"xlim": (x[0], x[-1])}
-        rows.append(
-            [Panel(lines, x_label, side.label, settings=settings, marks=[] if rows else starts, beside=right_axis)]
-        )
+        marks = [] if rows else starts
+        rows.append([Panel(lines, x_label, side.label, settings=settings, marks=marks, beside=right_axis)])
     return rows
 
 
@@ -109,8 +110,9 @@ def spectra(data: xarray.Dataset, kind: str) -> Figure:
     wave = value(data, "wave_radps")
     seen = []
     for side in sides:
-        peaks = data[f"{side}_peaks_radps"].values[:4] if f"{side}_peaks_radps" in data else ()
-        words = f"peaks at {listed(number(peak, 3) for peak in peaks)} rad/s" if len(peaks) else "no peak"
+        peaks, words = f"{side}_peaks_radps", "no peak"
+        if peaks in data and len(data[peaks]):
+            words = f"peaks at {listed(number(peak, 3) for peak in data[peaks].values[:4])} rad/s"
         seen.append(f"{MOTIONS[side][1]} has {words}")
     kA = sources_of(data)[0].label
     bins = wave / value(data, "periods")

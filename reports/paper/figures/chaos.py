@@ -39,12 +39,11 @@ def running_exponents(data: xarray.Dataset, kind: str) -> Figure:
     labels = dict(zip(_STYLES, (source.label for source in sources_of(data)), strict=True))
     ends = []
     for name, label in labels.items():
-        panels = [
-            f"{decimals(value(data, f'{name}_{method}_value'), 3)} ± "
-            f"{number(value(data, f'{name}_{method}_error'), 2)} ({words})"
-            for method, (words, *_) in _METHODS.items()
-        ]
-        ends.append(f"{label}: {' and '.join(panels)}")
+        exponents = []
+        for method, (words, *_) in _METHODS.items():
+            exponent, error = value(data, f"{name}_{method}_value"), value(data, f"{name}_{method}_error")
+            exponents.append(f"{decimals(exponent, 3)} ± {number(error, 2)} ({words})")
+        ends.append(f"{label}: {' and '.join(exponents)}")
     length = float(data["large_tangent_periods"].values[-1])
     caption = (
         f"maximum Lyapunov exponent of eq. (32), in bits per wave period, against the length of the record of r(t), "
@@ -64,10 +63,13 @@ def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     for name, label in labels.items():
         colour, dashes = _STYLES[name]
         for method, (words, width, strength) in _METHODS.items():
-            x, bits = (data[f"{name}_{method}_{array_name}"].values for array_name in ("periods", "bits"))
+            x, bits = data[f"{name}_{method}_periods"].values, data[f"{name}_{method}_bits"].values
             look = {"line": dashes, "colour": colour, "width": width, "alpha": strength}
             full_curves.append(Curve(x, bits, f"{label}, {words}", **look))
-    early = [replace(curve, x=curve.x[curve.x <= first], y=curve.y[curve.x <= first]) for curve in full_curves]
+    early = []
+    for curve in full_curves:
+        begin = curve.x <= first
+        early.append(replace(curve, x=curve.x[begin], y=curve.y[begin]))
     limits = {"ylim": settled([curve.y for curve in early]), "xmargin": 0.01}
     x_label, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
     panels = [Panel(early, x_label, sigma, level=0.0, settings=limits)]
@@ -93,10 +95,17 @@ def sections(data: xarray.Dataset, kind: str) -> Figure:
     panels = []
     for name, (title, *axes) in PANELS.items():
         x, y = data[f"{name}_displacement"].values, data[f"{name}_velocity"].values
-        size = 3.5 if len(x) <= _FEW else 1.4 if len(x) <= 20 * _FEW else 0.35
-        dots = Curve(x, y, line="", mark=".", colour=INK, size=size, pixels=True)
+        dots = Curve(x, y, line="", mark=".", colour=INK, size=_size_of_dots(len(x)), pixels=True)
         panels.append(Panel([dots], *axes, title, marks=[(0.0, "")]))
     return Figure(curves([panels], 3.6, kind=kind), caption, f"Two scatter plots of strobed motion: {seen}.")
+
+
+def _size_of_dots(points: int) -> float:
+    if points <= _FEW:
+        return 3.5
+    if points <= 20 * _FEW:
+        return 1.4
+    return 0.35
 
 
 def offplane_histories(data: xarray.Dataset, kind: str) -> Figure:

@@ -24,9 +24,11 @@ def value(data: xarray.Dataset, name: str) -> float:
 
 def spans(data: xarray.Dataset, names: dict[str, str], places: int = 2) -> str:
     """ "x from 0.10 to 0.90; y from ..." of arrays by their name in words."""
-    ends = ((words, data[name].values) for name, words in names.items())
-    sentences = (f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}" for words, x in ends)
-    return "; ".join(sentences)
+    ranges = []
+    for name, words in names.items():
+        x = data[name].values
+        ranges.append(f"{words} from {decimals(x.min(), places)} to {decimals(x.max(), places)}")
+    return "; ".join(ranges)
 
 
 def sources_of(data: xarray.Dataset) -> list[SimpleNamespace]:
@@ -41,9 +43,12 @@ def behind(data: xarray.Dataset) -> str:
     """The scene and the settings behind a figure, and its run time, as the end of its caption."""
     sources = sources_of(data)
     seconds = number(float(data.attrs["run_seconds"]), 3)
-    runs = "" if len(sources) == 1 else f" ({len(sources)} runs)"
-    settings = "; ".join(dict.fromkeys(words for source in sources if (words := _settings(source))))
-    return f"{settings}. Run time {seconds} s{runs}."
+    run_time = f"Run time {seconds} s"
+    if len(sources) != 1:
+        run_time += f" ({len(sources)} runs)"
+    settings = dict.fromkeys(_settings(source) for source in sources)
+    settings.pop("", None)
+    return f"{'; '.join(settings)}. {run_time}."
 
 
 def _settings(source) -> str:
@@ -71,4 +76,6 @@ def _steps(solver) -> str:
     """What sets the length of a step."""
     if solver.courant:
         return f"Courant number {number(solver.courant)}"
-    return f"steps of {number(solver.step_s)} s" if solver.step_s else f"rtol {number(solver.rtol)}"
+    if solver.step_s:
+        return f"steps of {number(solver.step_s)} s"
+    return f"rtol {number(solver.rtol)}"

@@ -34,10 +34,10 @@ def campaign(tmp_path, monkeypatch):
         leave(folder)
         return {"compile_s": 0.0, "run_s": 1.0}, Summary([{"status": "ok"}], 0, 1, 0.0)
 
-    monkeypatch.setattr(parts, "_called", part)
+    monkeypatch.setattr(parts, "_run_campaign", part)
     monkeypatch.setattr(dependence, "run", depends)
     monkeypatch.setattr(results, "write", lambda folder: begun.append("writing"))
-    monkeypatch.setattr(results, "there", lambda folder, report: True)
+    monkeypatch.setattr(results, "is_there", lambda folder, report: True)
 
     def run(*words):
         begun.clear()
