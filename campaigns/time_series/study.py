@@ -26,7 +26,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analysis.correlation_sums import CorrelationDimension, correlation_dimension
-from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
+from analysis.divergence import rosenstein_lyapunov
 from analysis.embedding import (
     LEAST_SAMPLES_PER_PERIOD,
     EmbeddingChoice,
@@ -58,9 +58,7 @@ SURROGATES = 39
 TOLERANCE = 1e-3
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
-ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov, "kantz": kantz_lyapunov}
-# What the dimension may rise by from one embedding dimension to the next and still be that of the motion.
-SATURATED = 0.1
+ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,11 +81,10 @@ class Study:
     seen: Seen
     spectrum: Spectrum  # eq. (31) over the later half of the record
     lines: tuple[SpectralPeak, ...]  # its highest peaks
-    exponents: dict[str, Exponent]  # of "wolf", "rosenstein", "kantz" [nats per unit of time of the record]
+    exponents: dict[str, Exponent]  # of "wolf" and "rosenstein" [nats per unit of time of the record]
     zero_one: ZeroOneTest  # of the section's first coordinate
     embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
-    dimensions: tuple[CorrelationDimension, ...]  # in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
-    dimension: tuple[float, float]  # (value, error) where these agree, else (NaN, NaN)
+    dimension: CorrelationDimension | None  # of the delay vectors of `embedding`; None as there
     verdict: Verdict  # on the section
     tolerance: float  # share of the range within which the section had to repeat
     used: int  # samples looked at by exponents and dimension: the last of the record
@@ -106,25 +103,36 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
     if cycles < LEAST_PERIODS:
         # Neighbours apart in time by a mean period would have to be sought through the whole record, for nothing.
         reason = f"{LEAST_PERIODS} mean periods are needed, given {cycles:.3g}"
-        exponents, embedding, dimensions = dict.fromkeys(ESTIMATES, no_exponent("none", reason)), None, ()
+        exponents, embedding, dimension = dict.fromkeys(ESTIMATES, no_exponent("none", reason)), None, None
     else:
         exponents = {name: estimate(last, step) for name, estimate in ESTIMATES.items()}
         embedding = choose_embedding(last)
-        vectors = (delay_vectors(last, embedding.lag, embedding.dimension + more)[-MOST_POINTS:] for more in range(3))
-        window = max(1, round(embedding.mean_period))
-        dimensions = tuple(correlation_dimension(points, window) for points in vectors)
-    found = _spectrum(x, step, view, period)
+        vectors = delay_vectors(last, embedding.lag, embedding.dimension)[-MOST_POINTS:]
+        dimension = correlation_dimension(vectors, max(1, round(embedding.mean_period)))
+    power = _spectrum(x, step, view, period)
     tolerance = least_tolerance(view) if tolerance is None else tolerance
     verdict = judged(x, view, tolerance, seed)
     irregular = zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed)
-    lines, dimension = spectral_peaks(found)[:5], _saturated(dimensions)
-    measures = (exponents, irregular, embedding, dimensions, dimension)
-    return Study(record, view, found, lines, *measures, verdict, tolerance, len(last))
+    return Study(
+        record=record,
+        seen=view,
+        spectrum=power,
+        lines=spectral_peaks(power)[:5],
+        exponents=exponents,
+        zero_one=irregular,
+        embedding=embedding,
+        dimension=dimension,
+        verdict=verdict,
+        tolerance=tolerance,
+        used=len(last),
+    )
 
 
 def least_tolerance(view: Seen) -> float:
     """0.001, or the error of the spline at a maximum or between samples: h^4/384 for a sine."""
-    return max(TOLERANCE, 0.0 if view.kind == SAMPLES else (2.0 * np.pi / view.mean_period) ** 4 / 384.0)
+    if view.kind == SAMPLES:
+        return TOLERANCE
+    return max(TOLERANCE, (2.0 * np.pi / view.mean_period) ** 4 / 384.0)
 
 
 def _spectrum(x, step, view, period):
@@ -136,24 +144,13 @@ def _spectrum(x, step, view, period):
     return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
 
 
-def _saturated(dimensions):
-    """(value, error) of the middle one where all three agree within their errors or a tenth; else (NaN, NaN)."""
-    values = np.array([one.value for one in dimensions])
-    errors = np.array([one.error for one in dimensions])
-    if len(values) == 0 or not np.all(np.isfinite(values)):
-        return np.nan, np.nan
-    rise = float(values.max() - values.min())
-    if rise > max(SATURATED * values[1], 2.0 * float(np.hypot(errors[0], errors[2]))):
-        return np.nan, np.nan
-    return float(values[1]), float(np.hypot(errors[1], 0.5 * rise))
-
-
 def judged(x: np.ndarray, view: Seen, tolerance: float, seed: int) -> Verdict:
     """The Verdict on a record (n,) by its section; tolerance, seed: as in `study`."""
-    if outliers := outlier_evidence(x):
+    outliers = outlier_evidence(x)
+    if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed)
-    how = {"scale": np.ptp(x), "tolerance": tolerance, "surrogates": SURROGATES, "seed": seed}
-    verdict = regime(strobed=view.points[-MOST_POINTS:], **how)
+    section = view.points[-MOST_POINTS:]
+    verdict = regime(strobed=section, scale=np.ptp(x), tolerance=tolerance, surrogates=SURROGATES, seed=seed)
     if view.kind != MAXIMA:
         return verdict
     if verdict.period is not None:
@@ -232,7 +229,9 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
         time = step * np.arange(len(series))
         return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)
     place, points = maxima_and_minima(series, NOISE_MULTIPLE * noise)
-    between = float(np.mean(np.diff(place))) if len(place) > 1 else chosen.mean_period
+    between = chosen.mean_period
+    if len(place) > 1:
+        between = float(np.mean(np.diff(place)))
     return Seen(MAXIMA, locked(points), locked(step * place), step * between, noise, chosen.mean_period)
 
 
