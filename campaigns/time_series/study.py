@@ -10,11 +10,8 @@ The motion is seen once a cycle, on a section:
 
 A maximum counts where it stands out by six standard deviations of the noise, and is placed by a cubic spline.
 
-The verdict is that of `verdicts.regime` on this section. At maxima three things are asked beyond it:
+The verdict is that of `verdicts.regime` on this section. At maxima two things are asked beyond it:
 
-- A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
-  "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
-  seen at its own maxima.
 - A torus has now more, now fewer maxima in a turn, so that it returns at even times, and not after so many maxima.
   Before "chaotic" stands, the height of the last maximum, seen at even times, has to be forgotten, too.
 - A motion whose maxima are all alike need not repeat itself: they may come unevenly. A period seen at maxima also needs
@@ -35,13 +32,11 @@ from analysis.embedding import (
     delay_vectors,
     noise_level,
 )
-from analysis.evidence import SHARE, Evidence, memory_evidence, outlier_evidence
+from analysis.evidence import Evidence, memory_evidence, outlier_evidence
 from analysis.exponents import Exponent, no_exponent
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
-from analysis.section_maps import prediction_gain
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
-from analysis.surrogates import normal_scores, phases_at_random, rank_until_lost
 from analysis.verdicts import Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test
@@ -53,7 +48,6 @@ SPLINE_END = 20
 # More samples make exponents no better than their other errors, and take long.
 MOST_SAMPLES = 30_000
 MOST_POINTS = 6_000
-NULL_SAMPLES = 8_192
 SURROGATES = 39
 TOLERANCE = 1e-3
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
@@ -157,8 +151,7 @@ def judged(x: np.ndarray, view: Seen, tolerance: float, seed: int) -> Verdict:
         return _even_times(verdict, view, tolerance)
     if verdict.regime != "chaotic":
         return verdict
-    tests = [memory_evidence(_at_even_times(view), "memory, in time"), _record_null(x, view, seed)]
-    return _with(verdict, tests, "chaotic by its section, but ")
+    return _with(verdict, memory_evidence(_at_even_times(view), "memory, in time"), "chaotic by its section, but ")
 
 
 def _at_even_times(view):
@@ -168,13 +161,12 @@ def _at_even_times(view):
     return height[np.searchsorted(time, looks, side="right") - 1]
 
 
-def _with(verdict, tests, but):
-    """The verdict with more evidence: "undecided", with the reason, where a test failed."""
-    verdict = replace(verdict, evidence=(*verdict.evidence, *tests))
-    failed = [item.sentence for item in tests if item.passed is False]
-    if not failed:
+def _with(verdict, test, but):
+    """The verdict with one more test: "undecided", with the reason, where it failed."""
+    verdict = replace(verdict, evidence=(*verdict.evidence, test))
+    if test.passed is not False:
         return verdict
-    return replace(verdict, regime="undecided", period=None, reason=but + "; ".join(failed))
+    return replace(verdict, regime="undecided", period=None, reason=but + test.sentence)
 
 
 def _even_times(verdict, view, tolerance):
@@ -187,32 +179,11 @@ def _even_times(verdict, view, tolerance):
     for first in range(verdict.period):
         times = time[first :: verdict.period]
         count = np.arange(len(times))
-        deviation = max(
-            deviation, float(np.abs(times - np.polyval(np.polyfit(count, times, 1), count)).max()) / between
-        )
+        even = np.polyval(np.polyfit(count, times, 1), count)
+        deviation = max(deviation, float(np.abs(times - even).max()) / between)
     allowed = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
     sentence = f"maxima that are alike stray from even times by {deviation:.2g} of the time between maxima"
-    return _with(verdict, [Evidence("even times", deviation, allowed, deviation <= allowed, sentence)], "no period: ")
-
-
-def _record_null(x, view, seed):
-    """Rank of the section's prediction gain among those of surrogates of the record, each seen at its own maxima."""
-    name = "record's linear null"
-
-    def gain_of(series):
-        return prediction_gain(maxima_and_minima(series, NOISE_MULTIPLE * view.noise)[1]).gain
-
-    part = x[-NULL_SAMPLES:]
-    gain, values = gain_of(part), np.sort(part)
-    scores, rng = normal_scores(part), np.random.default_rng([seed, 7])
-    drawn = (phases_at_random(scores, rng) for _ in range(2 * SURROGATES))
-    # Back in the record's own values: the instrument is put on again.
-    gains = (gain_of(values[np.argsort(np.argsort(surrogate))]) for surrogate in drawn)
-    rank = rank_until_lost(gain, (gain_drawn for gain_drawn in gains if np.isfinite(gain_drawn)), SURROGATES)
-    if rank.above is None:
-        return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
-    sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
-    return Evidence(name, rank.share_below, SHARE, rank.above, sentence)
+    return _with(verdict, Evidence("even times", deviation, allowed, deviation <= allowed, sentence), "no period: ")
 
 
 def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
