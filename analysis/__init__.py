@@ -13,7 +13,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "approaches": ["approach_evidence", "approached_period"],
         "correlation_sums": ["CorrelationDimension", "correlation_dimension"],
-        "divergence": ["rosenstein_lyapunov", "kantz_lyapunov"],
+        "divergence": ["rosenstein_lyapunov"],
         "embedding": ["choose_delay", "choose_embedding", "delay_vectors", "mutual_information"],
         "evidence": ["Evidence", "evidence_text", "read_evidence"],
         "exponents": ["Exponent"],

@@ -74,9 +74,12 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
     theiler = checked_count(theiler, "theiler", least=0)
     z = np.ascontiguousarray(in_deviations(x))
     needed, empty, none = max(LEAST_POINTS, 4 * theiler), locked(np.zeros(0)), (np.nan, np.nan)
-    if len(x) < needed or z.shape[1] == 0:
+    reason = ""
+    if len(x) < needed:
         reason = f"too short: {needed} points are needed, given {len(x)}"
-        reason = reason if len(x) < needed else "no motion: all points are one to the last digits"
+    elif z.shape[1] == 0:
+        reason = "no motion: all points are one to the last digits"
+    if reason:
         return CorrelationDimension(np.nan, np.nan, reason, none, empty, empty, empty, len(x))
     largest = np.log(np.linalg.norm(np.ptp(z, axis=0)))
     bins = (largest - _NATS, BINS_PER_NAT, _NATS * BINS_PER_NAT + 1)
@@ -86,7 +89,9 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
     slope, (value, error, reason, region) = _read(pairs, total, logarithm, len(z))
     radius = np.exp(logarithm)
     if value > 0.0:
-        quarters = [np.cumsum(_pairs_by_distance(part, theiler, *bins))[:-1] for part in np.array_split(z, QUARTERS)]
+        quarters = []
+        for part in np.array_split(z, QUARTERS):
+            quarters.append(np.cumsum(_pairs_by_distance(part, theiler, *bins))[:-1])
         inside = (radius >= region[0]) & (radius <= region[1])
         error = float(np.hypot(error, _sampling_error(quarters, logarithm, inside)))
     curve = (locked(radius), locked(pairs / total), locked(slope))
@@ -132,7 +137,11 @@ def _read(pairs, total, logarithm, points):
     first, last = region[0] - half, region[1] + half
     middle = (first + last) // 2
     ends = (first, last), (first, middle), (middle, last)
-    value, lower, upper = (float(np.polyfit(logarithm[a : b + 1], ln_share[a : b + 1], 1)[0]) for a, b in ends)
+    slopes = []
+    for begin, end in ends:
+        part = slice(begin, end + 1)
+        slopes.append(float(np.polyfit(logarithm[part], ln_share[part], 1)[0]))
+    value, lower, upper = slopes
     limit = 2.0 * np.log(points) / (logarithm[-1] - logarithm[last])
     if value > limit:
         reason = f"too few points: {points} cannot show a dimension above {limit:.2f}, the slope is {value:.2f}"
@@ -150,7 +159,9 @@ def _sampling_error(quarters, logarithm, inside):
         used = inside & (pairs >= LEAST_PAIRS // QUARTERS**2)
         if used.sum() > 2:
             slopes.append(np.polyfit(logarithm[used], np.log(pairs[used]), 1)[0])
-    return np.std(slopes, ddof=1) / np.sqrt(QUARTERS) if len(slopes) > 2 else 0.0
+    if len(slopes) < 3:
+        return 0.0
+    return np.std(slopes, ddof=1) / np.sqrt(QUARTERS)
 
 
 def _longest(slope, usable):

@@ -1,11 +1,10 @@
-"""Exponents from the mean growth of many neighbours: Rosenstein et al. (1993) and Kantz (1994).
+"""The exponent from the mean growth of many neighbours (Rosenstein et al. 1993).
 
-    Rosenstein   y(k) = < ln |X_{i+k} - X_{j(i)+k}| >_i                     one nearest neighbour j(i) of every point
-    Kantz        y(k) = < ln ( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >_i  all neighbours U_i within a radius
+    y(k) = < ln |X_{i+k} - X_{j(i)+k}| >_i        j(i): the nearest neighbour of point i
 
-Both are the slope of y(k) against time in its scaling region, which is part of the answer. They need no replacement,
-and show by a curve that bends everywhere that there is no exponent to be had; in return they use only neighbours as
-near as the record has, and average the logarithm over the whole attractor.
+The exponent is the slope of y(k) against time in its scaling region, which is part of the answer. The method replaces
+no neighbours, and a curve that bends everywhere shows that there is no exponent to be had. In return it uses only
+neighbours as near as the record has, and averages the logarithm over the whole attractor.
 
 Growth between neighbours starts with a transient (the vector turns towards the fastest direction), is exponential while
 distances are small, and ends at the size of the attractor. Only the middle is a Lyapunov exponent, and a curve without
@@ -18,18 +17,16 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.embedding import choose_embedding, delay_vectors, noise_level
+from analysis.embedding import choose_embedding, delay_vectors
 from analysis.exponents import Exponent, no_exponent
 from analysis.neighbours import nearest_outside
 from analysis.sampling import checked_count, checked_positive, checked_series, locked
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
-KANTZ = "Kantz 1994"
 LEAST_SAMPLES = 200
 CENTRES = 2000
 LEAST_CENTRES = 100
 BLOCKS = 8
-KANTZ_NEIGHBOURS = 8
 LEAST_SPAN_NATS = 1.0
 LEAST_POINTS = 5
 PIECES = 4
@@ -78,68 +75,9 @@ def rosenstein_lyapunov(
     Raises ValueError for values that are not finite.
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
-
-    def distances(x, points, rows, lag, theiler, horizon):
-        index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows)
-        # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
-        usable = (index[:, 0] >= 0) & (distance[:, 0] > 1e-12 * np.std(x))
-        rows, index = rows[usable], index[usable, 0]
-        return [np.linalg.norm(points[rows + k] - points[index + k], axis=1) for k in range(horizon + 1)]
-
-    return _estimated(ROSENSTEIN, series, step_s, distances, delay, dimension, theiler, horizon)
-
-
-def kantz_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimension: int | None = None,
-    theiler: int | None = None,
-    horizon: int | None = None,
-    radius: float | None = None,
-) -> Exponent:
-    """Largest Lyapunov exponent from the growth of whole neighbourhoods.
-
-        y(k) = < ln( mean over j in U_i of |x_{i+k} - x_{j+k}| ) >,    U_i: |X_i - X_j| <= radius
-
-    Averaging before the logarithm tames single bad neighbours, so that noise matters less than in Rosenstein's curve.
-
-    series, step_s, delay, dimension, theiler, horizon    as in rosenstein_lyapunov
-    radius         of the neighbourhoods [unit of the series]; None: the median distance of the eighth neighbour, at
-                   least three standard deviations of the noise between two delay vectors
-    Returns an Exponent [nats/time] with details as in rosenstein_lyapunov and radius. NaN with a reason where no
-    straight part spans one nat, or fewer than 100 points have eight neighbours or more within the radius.
-    Raises ValueError for values that are not finite.
-    Source: Kantz, Physics Letters A 185, 77 (1994).
-    """
-
-    used = {}
-
-    def distances(x, points, rows, lag, theiler, horizon):
-        index, distance = nearest_outside(points[: len(points) - horizon], theiler, rows, count=4 * KANTZ_NEIGHBOURS)
-        within = radius
-        if within is None:
-            noise = noise_level(x, lag) * np.sqrt(2.0 * points.shape[1])
-            within = max(np.median(distance[:, KANTZ_NEIGHBOURS - 1]), 3.0 * noise)
-            if within == 0.0:
-                return "neighbours coincide: the series takes too few different values"
-        used["radius"] = checked_positive(within, "radius")
-        near = (distance <= within) & (index >= 0)
-        usable = np.sum(near, axis=1) >= KANTZ_NEIGHBOURS
-        rows, index, near, last = rows[usable], index[usable], near[usable], len(x) - len(points)
-        separations = (np.abs(x[rows + last + k][:, None] - x[index + last + k]) for k in range(horizon + 1))
-        return [np.sum(np.where(near, separation, 0.0), axis=1) / np.sum(near, axis=1) for separation in separations]
-
-    return _estimated(KANTZ, series, step_s, distances, delay, dimension, theiler, horizon, used)
-
-
-def _estimated(method, series, step_s, distances, delay, dimension, theiler, horizon, used=()):
-    """The Exponent of a method. distances: of the series, its delay vectors, the centres asked about (all, or 2000
-    drawn with a fixed seed), delay, window and horizon it makes distances (k + 1, centres), or the sentence that says
-    why there are none; what it chose on its way it leaves in `used`, for the details."""
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < LEAST_SAMPLES or np.ptp(x) == 0.0:
-        return no_exponent(method, f"{LEAST_SAMPLES} samples of a series that moves are needed, given {len(x)}")
+        return no_exponent(ROSENSTEIN, f"{LEAST_SAMPLES} samples of a series that moves are needed, given {len(x)}")
     embedding = choose_embedding(x, delay)
     lag, period = embedding.lag, embedding.mean_period
     m = embedding.dimension if dimension is None else checked_count(dimension, "dimension")
@@ -148,35 +86,48 @@ def _estimated(method, series, step_s, distances, delay, dimension, theiler, hor
     usable = len(x) - (m - 1) * lag - horizon
     if usable < LEAST_CENTRES + 2 * theiler:
         span = f"delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
-        return no_exponent(method, f"too short: {len(x)} samples for {span}")
-    rows = np.arange(usable)
+        return no_exponent(ROSENSTEIN, f"too short: {len(x)} samples for {span}")
+    centres = np.arange(usable)
     if usable > CENTRES:
-        rows = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
-    separations = distances(x, delay_vectors(x, lag, m), rows, lag, theiler, horizon)
-    if isinstance(separations, str):
-        return no_exponent(method, separations)
-    details = {"embedding": embedding, "dimension": m, "theiler": theiler, **dict(used)}
+        centres = np.sort(np.random.default_rng(0).choice(usable, CENTRES, replace=False))
+    # Zero: an exact repetition (periodic to the last digit), which has no logarithm.
+    separations = _separations(delay_vectors(x, lag, m), centres, theiler, horizon, least=1e-12 * np.std(x))
+    details = {"embedding": embedding, "dimension": m, "theiler": theiler}
     with np.errstate(divide="ignore"):
-        return _slope_of(np.log(separations), step_s, period, method, details)
+        return _slope_of(np.log(separations), step_s, period, details)
 
 
-def _slope_of(growth, step_s, period, method, details):
+def _separations(points, centres, theiler, horizon, least):
+    """Distances (horizon + 1, pairs) of the centres and their nearest neighbours, 0 ... horizon samples later; of those
+    that are further apart than `least` at first."""
+    neighbours, distance = nearest_outside(points[: len(points) - horizon], theiler, centres)
+    usable = (neighbours[:, 0] >= 0) & (distance[:, 0] > least)
+    centres, neighbours = centres[usable], neighbours[usable, 0]
+    separations = np.empty((horizon + 1, len(centres)))
+    for later in range(horizon + 1):
+        separations[later] = np.linalg.norm(points[centres + later] - points[neighbours + later], axis=1)
+    return separations
+
+
+def _slope_of(growth, step_s, period, details):
     """The Exponent of ln(distance) (k, centres): mean curve, its scaling region, errors from bend and blocks."""
     # One pair that meets exactly would make the mean minus infinity.
     growth = growth[:, np.all(np.isfinite(growth), axis=0)]
     if growth.shape[1] < LEAST_CENTRES:
-        return no_exponent(method, f"only {growth.shape[1]} points have neighbours; {LEAST_CENTRES} are needed")
+        return no_exponent(ROSENSTEIN, f"only {growth.shape[1]} points have neighbours; {LEAST_CENTRES} are needed")
     time_s, curve = step_s * np.arange(len(growth)), growth.mean(axis=1)
     # Distances along one coordinate swing twice in a mean period.
     region = scaling_region(time_s, curve, cycle=round(period / 2) if period >= 6.0 else 1)
     details |= {"time_s": locked(time_s), "curve": locked(curve), "region": region, "centres": growth.shape[1]}
     if not np.isfinite(region.slope):
-        return no_exponent(method, region.reason, details=details)
+        return no_exponent(ROSENSTEIN, region.reason, details=details)
     part = slice(region.begin, region.end + 1)
-    blocks = np.array_split(growth, BLOCKS, axis=1)
-    slopes = [np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0] for block in blocks]
+    slopes = []
+    for block in np.array_split(growth, BLOCKS, axis=1):
+        slopes.append(np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0])
     scatter = np.std(slopes, ddof=1) / np.sqrt(BLOCKS)
-    return Exponent(region.slope, float(np.hypot(region.error, scatter)), "nats/time", method, region.reason, details)
+    error = float(np.hypot(region.error, scatter))
+    return Exponent(region.slope, error, "nats/time", ROSENSTEIN, region.reason, details)
 
 
 def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegion:
@@ -208,7 +159,9 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
                 if span >= LEAST_SPAN_NATS and (best is None or span > best[0]):
                     best = span, slope, float(np.std(pieces)), begin, end - 1
     if best is None:
-        why = f"no straight part spans {LEAST_SPAN_NATS:g} nat" if straight else "no straight rising part"
+        why = "no straight rising part"
+        if straight:
+            why = f"no straight part spans {LEAST_SPAN_NATS:g} nat"
         return ScalingRegion(np.nan, np.nan, -1, -1, np.nan, f"{why}; the curve rises by {np.ptp(y):.2g} nats in all")
     span, slope, error, begin, end = best
     reason = f"straight from {t[begin]:.4g} to {t[end]:.4g}, rising by {span:.2g} nats"

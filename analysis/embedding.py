@@ -121,7 +121,10 @@ def mean_period(series: ArrayLike) -> float:
     x = checked_series(series)
     power = np.abs(np.fft.rfft((x - x.mean()) * np.hanning(len(x)))) ** 2
     weighted = np.sum(np.fft.rfftfreq(len(x)) * power)
-    return float(min(np.sum(power) / weighted, 0.5 * len(x))) if weighted > 0.0 else 0.5 * len(x)
+    longest = 0.5 * len(x)
+    if weighted <= 0.0:
+        return longest
+    return float(min(np.sum(power) / weighted, longest))
 
 
 def mutual_information(series: ArrayLike, max_delay: int, cells: int | None = None) -> tuple[np.ndarray, int]:
@@ -183,7 +186,9 @@ def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice
         delay = quarter if minimum is None else min(minimum, quarter)
         reason = f"first minimum of the mutual information, {information[delay]:.3g} nats"
         if delay != minimum:
-            minimum_text = f"at {minimum}" if minimum else f"none up to {max_delay}"
+            minimum_text = f"none up to {max_delay}"
+            if minimum:
+                minimum_text = f"at {minimum}"
             reason = f"a quarter of the mean period; first minimum of the mutual information: {minimum_text} samples"
     return DelayChoice(delay, reason, locked(information), (cells - 1) ** 2 / (2.0 * len(x)), cells, period)
 
@@ -224,24 +229,25 @@ def choose_embedding(
     for m in range(1, max_dimension + 1):
         separation, radius, next_coordinate = _next_coordinate(x, lag, m, theiler)
         if len(separation):
-            share[m - 1] = np.mean(
-                (next_coordinate > FALSE_RATIO * separation)
-                | (np.hypot(separation, next_coordinate) > FALSE_SIZE * np.std(x))
-            )
-        if np.any(radius > 0.0):
-            growth[m - 1] = np.mean(
-                (np.maximum(radius, next_coordinate) / np.where(radius > 0.0, radius, 1.0))[radius > 0.0]
-            )
+            driven_away = next_coordinate > FALSE_RATIO * separation
+            too_far = np.hypot(separation, next_coordinate) > FALSE_SIZE * np.std(x)
+            share[m - 1] = np.mean(driven_away | too_far)
+        apart = radius > 0.0
+        if np.any(apart):
+            growth[m - 1] = np.mean(np.maximum(radius, next_coordinate)[apart] / radius[apart])
             change[m - 1] = np.mean(next_coordinate)
     with np.errstate(divide="ignore", invalid="ignore"):
         e1, e2 = growth[1:] / growth[:-1], change[1:] / change[:-1]
-    kennel = _first(share <= np.nanmin(share) + FALSE_SHARE) if np.nanmin(share) <= FALSE_AT_MOST else None
+    kennel = None
+    if np.nanmin(share) <= FALSE_AT_MOST:
+        kennel = _first(share <= np.nanmin(share) + FALSE_SHARE)
     cao = _first(e1 >= CAO_LEVEL)
     words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {max_dimension}"
-    reason = words if kennel or cao else f"{words}: noise, or a motion of higher dimension"
+    if not (kennel or cao):
+        words += ": noise, or a motion of higher dimension"
     curves = locked(share), locked(e1), locked(e2)
     dimension = kennel or cao or max_dimension
-    return EmbeddingChoice(dimension, kennel, cao, reason, lag, chosen.mean_period, chosen, theiler, *curves)
+    return EmbeddingChoice(dimension, kennel, cao, words, lag, chosen.mean_period, chosen, theiler, *curves)
 
 
 def _first(holds):
@@ -255,7 +261,8 @@ def _next_coordinate(x, delay, m, theiler):
     points = delay_vectors(x, delay, m + 1)
     following, points = points[:, m], np.ascontiguousarray(points[:, :m])
     rows = np.random.default_rng(0).choice(len(points), min(CENTRES, len(points)), replace=False)
-    index, distance = (nearest[:, 0] for nearest in nearest_outside(points, theiler, rows))
+    index, distance = nearest_outside(points, theiler, rows)
+    index, distance = index[:, 0], distance[:, 0]
     fine = index >= 0
     rows, index = rows[fine], index[fine]
     largest = np.max(np.abs(points[rows] - points[index]), axis=1)

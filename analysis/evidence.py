@@ -57,23 +57,27 @@ class Evidence:
 def evidence_text(verdict: Verdict) -> str:
     """The tests behind a Verdict as one line: "name: value/threshold/met; ...", a dash for what is not known."""
     words = {True: "yes", False: "no", None: "–"}
+    tests = []
+    for item in verdict.evidence:
+        tests.append(f"{item.name}: {_short(item.value)}/{_short(item.threshold)}/{words[item.passed]}")
+    return "; ".join(tests)
 
-    def short(found: float) -> str:
-        return f"{found:.3g}" if np.isfinite(found) else "–"
 
-    found = verdict.evidence
-    return "; ".join(f"{one.name}: {short(one.value)}/{short(one.threshold)}/{words[one.passed]}" for one in found)
+def _short(number: float) -> str:
+    if not np.isfinite(number):
+        return "–"
+    return f"{number:.3g}"
 
 
 def read_evidence(text: str) -> list[tuple[str, str, str, str]]:
     """(name, value, threshold, met) of each test in a line of `evidence_text`; other text is left out."""
-    found = []
+    tests = []
     for part in text.split("; "):
         name, _, rest = part.rpartition(": ")
         cells = rest.split("/")
         if name and len(cells) == 3:
-            found.append((name, *cells))
-    return found
+            tests.append((name, *cells))
+    return tests
 
 
 def wandering_evidence(
@@ -82,14 +86,18 @@ def wandering_evidence(
     """Of a motion that does not repeat: drift, neighbours, incommensurate line, 0-1 test, memory; and the nulls, where
     these and the exponents do not speak against chaos already."""
     growth = growth_evidence(section)
-    line, irregular = incommensurate_evidence(section, max_period), irregular_evidence(section, seed)
-    found = [drift_evidence(section, growth), growth, line, irregular, memory_evidence(section)]
-    if not found[0].passed and all(item.passed for item in (*exponents, *found[3:])):
+    drift, line = drift_evidence(section, growth), incommensurate_evidence(section, max_period)
+    irregular, memory = irregular_evidence(section, seed), memory_evidence(section)
+    items = [drift, growth, line, irregular, memory]
+    if not drift.passed and all(item.passed for item in (*exponents, irregular, memory)):
         band, bands = widest_band(section)
-        return found + null_evidence(band, surrogates, seed, LEAST_ADVANTAGE if bands == 1 else LEAST_IN_BANDS)
+        least = LEAST_ADVANTAGE if bands == 1 else LEAST_IN_BANDS
+        return items + null_evidence(band, surrogates, seed, least)
     reason = "not asked: the motion is not chaotic by the tests before"
-    names = [name + what for name in NULLS for what in ("", ", margin")]
-    return found + [Evidence(name, np.nan, np.nan, None, reason) for name in names]
+    for null in NULLS:
+        items.append(Evidence(null, np.nan, np.nan, None, reason))
+        items.append(Evidence(f"{null}, margin", np.nan, np.nan, None, reason))
+    return items
 
 
 def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
@@ -97,13 +105,13 @@ def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     if estimate.period is None:
         return [Evidence("period", np.nan, estimate.tolerance, False, estimate.reason)]
     n = estimate.period
-    found = Evidence("period", float(n), estimate.tolerance, True, estimate.reason)
+    period = Evidence("period", float(n), estimate.tolerance, True, estimate.reason)
     if estimate.residual[n - 1] == 0.0:
         sentence = "the orbit repeats to the last digit: nothing is left whose decay could be seen"
-        return [found, Evidence("contraction", np.nan, 1.0, None, sentence)]
+        return [period, Evidence("contraction", np.nan, 1.0, None, sentence)]
     multiplier = float(estimate.multiplier[n - 1])
     sentence = f"factor from one step over {n} period(s) to the next; independent errors have -1/2"
-    return [found, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
+    return [period, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
 
 
 def outlier_evidence(series: np.ndarray, name: str = "samples") -> list[Evidence]:
@@ -118,7 +126,9 @@ def outlier_evidence(series: np.ndarray, name: str = "samples") -> list[Evidence
 
 def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Evidence:
     """lambda - 2 error > 0, of the tangent dynamics where there is one, else of the time series."""
-    source, exponent = ("tangent dynamics", tangent) if tangent is not None and tangent.found else ("time series", wolf)
+    source, exponent = "time series", wolf
+    if tangent is not None and tangent.found:
+        source, exponent = "tangent dynamics", tangent
     if exponent is None:
         return Evidence("exponent", np.nan, 0.0, None, "not asked: the orbit repeats, and no exponent was given")
     if not exponent.found:
@@ -130,19 +140,22 @@ def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Eviden
 
 def growth_evidence(section: np.ndarray) -> Evidence:
     """Neighbours stay neighbours: the section is that of a torus (or of a period seen through noise)."""
-    found = neighbour_growth(section)
-    if not np.isfinite(found.growth):
-        return Evidence("neighbours", found.growth, STAYS, None, found.reason)
-    passed = bool(abs(found.growth) < STAYS and found.late < NEAR)
-    return Evidence("neighbours", found.growth, STAYS, passed, f"{found.reason} (growth {found.growth:.2f} nats)")
+    neighbours = neighbour_growth(section)
+    growth = neighbours.growth
+    if not np.isfinite(growth):
+        return Evidence("neighbours", growth, STAYS, None, neighbours.reason)
+    passed = bool(abs(growth) < STAYS and neighbours.late < NEAR)
+    return Evidence("neighbours", growth, STAYS, passed, f"{neighbours.reason} (growth {growth:.2f} nats)")
 
 
 def drift_evidence(section: np.ndarray, growth: Evidence) -> Evidence:
     """Still on its way: spread or mean march with time, or neighbours close in."""
-    found = record_drift(section)
+    drift = record_drift(section)
     closing = bool(growth.value < -STAYS)
-    reason = "neighbours on the section close in on each other" if closing and not found.drifting else found.reason
-    return Evidence("drift", found.spread_change, np.nan, bool(found.drifting or closing), reason)
+    reason = drift.reason
+    if closing and not drift.drifting:
+        reason = "neighbours on the section close in on each other"
+    return Evidence("drift", drift.spread_change, np.nan, bool(drift.drifting or closing), reason)
 
 
 def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
@@ -160,7 +173,10 @@ def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
     if len(standing) == 0:
         return Evidence("incommensurate line", np.nan, LEAST_TURN, False, "no line stands out of the spectrum")
     free = standing[turns[standing] > LEAST_TURN]
-    best = free[np.argmax(share[free])] if len(free) else standing[np.argmax(turns[standing])]
+    if len(free):
+        best = free[np.argmax(share[free])]
+    else:
+        best = standing[np.argmax(turns[standing])]
     line = f"a line at {spectrum.frequency[best]:.5f} cycles a period with {min(share[best], 1.0):.0%} of a coordinate"
     sentence = f"turns over the record between {line} and the nearest subharmonic"
     return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, len(free) > 0, sentence)
@@ -172,7 +188,9 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     With the means, the jump from band to band hides the spreading of the walk.
     """
     bands = bands_in_turn(section)
-    tests = [zero_one_test(column, seed=[seed, j]) for j, column in enumerate(within_bands(section, bands).T)]
+    tests = []
+    for j, column in enumerate(within_bands(section, bands).T):
+        tests.append(zero_one_test(column, seed=[seed, j]))
     values = np.array([test.value for test in tests])
     answered = np.isfinite(values)
     if 2 * answered.sum() < len(values) or not answered.any():
@@ -185,9 +203,12 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
 def memory_evidence(section: np.ndarray, name: str = "memory") -> Evidence:
     """The motion forgets where it was: what tori and strange nonchaotic attractors do not."""
     bands = bands_in_turn(section)
-    value, most = long_memory(section), max(FORGOTTEN, SCATTERED / np.sqrt(len(section) / bands))
+    value, threshold = long_memory(section), max(FORGOTTEN, SCATTERED / np.sqrt(len(section) / bands))
     sentence = "largest correlation with the motion an eighth to half of the record later; chaos has to forget"
-    return Evidence(name, value, most, bool(value < most) if np.isfinite(value) else None, sentence)
+    passed = None
+    if np.isfinite(value):
+        passed = bool(value < threshold)
+    return Evidence(name, value, threshold, passed, sentence)
 
 
 def exponents_evidence(
@@ -198,19 +219,24 @@ def exponents_evidence(
 
     Noise that drives a cycle through points of unlike slopes passes for chaos in a map of all of them, not in one band.
     """
-    given = [] if tangent is None and wolf is None else [exponent_evidence(tangent, wolf)]
+    from_caller, name = [], "exponent"
+    if tangent is not None or wolf is not None:
+        from_caller, name = [exponent_evidence(tangent, wolf)], "exponent of the section"
     if tangent is not None and tangent.found:
-        return given, []
-    name = "exponent of the section" if given else "exponent"
+        return from_caller, []
     band, bands = widest_band(section)
-    whole, *halves = (replace(one, value=one.value / bands, error=one.error / bands) for one in section_lyapunov(band))
-    if not all(one.found for one in (whole, *halves)):
-        return given, [Evidence(name, whole.value, 0.0, None, f"no exponent: {whole.reason}")]
-    passed = whole.value > 3.0 * whole.error and all(one.value > one.error for one in halves)
-    said = " and ".join(f"{one.value:.3f} ± {one.error:.3f}" for one in halves)
+    estimates = []
+    for estimate in section_lyapunov(band):
+        estimates.append(replace(estimate, value=estimate.value / bands, error=estimate.error / bands))
+    full, first_half, second_half = estimates
+    if not all(estimate.found for estimate in estimates):
+        return from_caller, [Evidence(name, full.value, 0.0, None, f"no exponent: {full.reason}")]
+    in_halves = first_half.value > first_half.error and second_half.value > second_half.error
+    passed = full.value > 3.0 * full.error and in_halves
     map_of = "the section's map" if bands == 1 else f"the map of one of the {bands} bands"
-    sentence = f"bits per period, by the derivative of {map_of}; ± {whole.error:.3f}; in the halves {said}"
-    return given, [Evidence(name, whole.value, 3.0 * whole.error, bool(passed), sentence, whole.error)]
+    halves = f"{first_half.value:.3f} ± {first_half.error:.3f} and {second_half.value:.3f} ± {second_half.error:.3f}"
+    sentence = f"bits per period, by the derivative of {map_of}; ± {full.error:.3f}; in the halves {halves}"
+    return from_caller, [Evidence(name, full.value, 3.0 * full.error, bool(passed), sentence, full.error)]
 
 
 def null_evidence(
@@ -219,16 +245,17 @@ def null_evidence(
     """Rank and margin of the prediction gain among the surrogates of one null, then of the other."""
     items = []
     for name, rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):
-        passed, how = None, "too short, or nothing moves: no prediction gain"
-        far = how
+        passed, rank_sentence = None, "too short, or nothing moves: no prediction gain"
+        margin_sentence = rank_sentence
         if rank.above is not None:
-            drawn = len(rank.surrogates)
-            lost = f" (of {surrogates}: the rest could not change it)" if drawn < surrogates else ""
-            how = f"share of {drawn} surrogates{lost} below the record's prediction gain of {rank.statistic:.2f} nats"
-            far = "nats between the prediction gain and the surrogates' median"
+            drawn = f"{len(rank.surrogates)} surrogates"
+            if len(rank.surrogates) < surrogates:
+                drawn += f" (of {surrogates}: the rest could not change it)"
+            rank_sentence = f"share of {drawn} below the record's prediction gain of {rank.statistic:.2f} nats"
+            margin_sentence = "nats between the prediction gain and the surrogates' median"
             passed = rank.advantage > least
-        items.append(Evidence(name, rank.share_below, SHARE, rank.above, how))
-        items.append(Evidence(f"{name}, margin", rank.advantage, least, passed, far))
+        items.append(Evidence(name, rank.share_below, SHARE, rank.above, rank_sentence))
+        items.append(Evidence(f"{name}, margin", rank.advantage, least, passed, margin_sentence))
     return items
 
 
@@ -236,6 +263,6 @@ def tighter_evidence(tighter: Verdict | str | None, word: str) -> Evidence:
     """Whether the verdict survives a tighter tolerance, where someone looked."""
     if tighter is None:
         return Evidence("tighter tolerance", np.nan, np.nan, None, "no spot check at a tighter tolerance was given")
-    other = tighter if isinstance(tighter, str) else tighter.regime
-    sentence = f"the verdict at a tighter tolerance is {other}"
-    return Evidence("tighter tolerance", np.nan, np.nan, bool(other == word), sentence)
+    tighter_word = tighter if isinstance(tighter, str) else tighter.regime
+    sentence = f"the verdict at a tighter tolerance is {tighter_word}"
+    return Evidence("tighter tolerance", np.nan, np.nan, bool(tighter_word == word), sentence)

@@ -91,16 +91,6 @@ def noisy_periodic_surrogates(series: ArrayLike, count: int = 1, seed: Seed = 0)
     return _drawn(series, count, seed, lambda columns: spectral_lines(columns).fitted)
 
 
-def phases_at_random(scores: np.ndarray, rng: np.random.Generator) -> np.ndarray:
-    """A linear, Gaussian record (n,) of the same spectrum as `normal_scores` (n,), by random phases alone.
-
-    A record's own values in the order of this one's are its surrogate behind any monotone instrument.
-    Source: J. Theiler et al., Physica D 58 (1992) 77.
-    """
-    transform = np.fft.rfft(scores)
-    return np.fft.irfft(transform * np.exp(2j * np.pi * rng.random(len(transform))), len(scores))
-
-
 def normal_scores(series: ArrayLike) -> np.ndarray:
     """The record with each column's values replaced by those of a normal distribution in the same order.
 

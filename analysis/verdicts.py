@@ -135,22 +135,22 @@ def regime(
         word, reason = f"period-{estimate.period}", estimate.reason
         evidence.append(exponent_evidence(tangent, wolf))
     else:
-        given, own = exponents_evidence(section, tangent, wolf)
-        more = wandering_evidence(section, given + own, max_period, surrogates, seed)
-        word, reason = _without_period(section, given, own, *more)
-        evidence += given + own + more
+        from_caller, of_section = exponents_evidence(section, tangent, wolf)
+        wandering = wandering_evidence(section, from_caller + of_section, max_period, surrogates, seed)
+        word, reason = _without_period(section, from_caller, of_section, *wandering)
+        evidence += from_caller + of_section + wandering
     evidence.append(tighter_evidence(tighter, word))
     word, reason = _contradicted(word, reason, evidence[-1], tangent)
     period = estimate.period if word.startswith("period-") else None
     return Verdict(word, reason, tuple(evidence), period, points, seed)
 
 
-def _without_period(section, given, own, drift, growth, line, irregular, memory, *nulls):
-    """Word and reason for a motion that does not repeat, from its exponents (given; of its section) and its
+def _without_period(section, from_caller, of_section, drift, growth, line, irregular, memory, *nulls):
+    """Word and reason for a motion that does not repeat, from its exponents (the caller's; of its section) and its
     `wandering_evidence`."""
     if drift.passed:
         return "transient", drift.sentence
-    needed = [*given, *own, irregular, memory, *nulls]
+    needed = [*from_caller, *of_section, irregular, memory, *nulls]
     failed = [item.name for item in needed if item.passed is False]
     lacking = failed or [item.name for item in needed if item.passed is None]
     if not growth.value > growth.threshold:
@@ -160,8 +160,8 @@ def _without_period(section, given, own, drift, growth, line, irregular, memory,
     if not lacking:
         return "chaotic", "exponent, 0-1 test, memory and both nulls agree"
     # The map fitted to a wrinkled torus is too rough for an exponent of 0, but not for that of noise about points.
-    part = any(one.value - 2.0 * one.error > ABOUT_ZERO for one in given)
-    flat = any(bands_in_turn(section) * one.value < FLAT for one in own)
+    part = any(exponent.value - 2.0 * exponent.error > ABOUT_ZERO for exponent in from_caller)
+    flat = any(bands_in_turn(section) * exponent.value < FLAT for exponent in of_section)
     if growth.passed and line.passed and not (irregular.passed or memory.passed or part or flat):
         reason = "neighbours on the section stay neighbours, and a line is incommensurate with the forcing"
         return "quasi-periodic", reason
@@ -198,12 +198,13 @@ def _section(series, step_s, period_s, strobed, transient_periods, scale):
     return section, scale
 
 
-def _in_bits(given, period_s, name):
+def _in_bits(exponent, period_s, name):
     """An Exponent in bits per period, or None."""
-    if given is None:
+    if exponent is None:
         return None
-    if not isinstance(given, Exponent):
-        return Exponent(*given, BITS_PER_PERIOD, "given", "no value" if np.isnan(given[0]) else "")
-    if given.unit != BITS_PER_PERIOD and period_s is None:
-        raise ValueError(f"{name}: in {given.unit}, so period_s is needed")
-    return given.in_bits_per_period(period_s)
+    if not isinstance(exponent, Exponent):
+        reason = "no value" if np.isnan(exponent[0]) else ""
+        return Exponent(*exponent, BITS_PER_PERIOD, "given", reason)
+    if exponent.unit != BITS_PER_PERIOD and period_s is None:
+        raise ValueError(f"{name}: in {exponent.unit}, so period_s is needed")
+    return exponent.in_bits_per_period(period_s)

@@ -15,14 +15,14 @@ from functools import partial
 
 import numpy as np
 
-from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
+from analysis.divergence import rosenstein_lyapunov
 from analysis.embedding import choose_delay, choose_embedding, noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
 from benchmarks.shared import seconds
 from tests.analysis.systems import TRUTH, record
 
-OURS = {"Wolf plateau": wolf_lyapunov, "Rosenstein": rosenstein_lyapunov, "Kantz": kantz_lyapunov}
+OURS = {"Wolf plateau": wolf_lyapunov, "Rosenstein": rosenstein_lyapunov}
 
 
 def theirs(series, step):
@@ -31,11 +31,11 @@ def theirs(series, step):
         import nolds
     except ImportError:
         return {}
-    e = choose_embedding(series)
-    window = round(e.mean_period)
-    how = {"emb_dim": e.dimension, "lag": e.lag, "trajectory_len": max(5, window), "fit": "poly"}
+    embedding = choose_embedding(series)
+    window = round(embedding.mean_period)
+    settings = {"emb_dim": embedding.dimension, "lag": embedding.lag, "trajectory_len": max(5, window), "fit": "poly"}
     return {
-        "nolds lyap_r": partial(nolds.lyap_r, series, tau=step, min_tsep=window, **how),
+        "nolds lyap_r": partial(nolds.lyap_r, series, tau=step, min_tsep=window, **settings),
         "nolds lyap_e": lambda: nolds.lyap_e(series, min_tsep=window, tau=step)[0],
     }
 
@@ -52,13 +52,15 @@ def compare(names, samples, noise):
         for label, call in calls.items():
             began = time.perf_counter()
             try:
-                found, fault = call(), ""
+                estimate, fault = call(), ""
             except Exception as error:
-                found, fault = np.nan, f"{type(error).__name__}: {error}"
-            spent, value = time.perf_counter() - began, float(getattr(found, "value", found))
-            error, said = getattr(found, "error", np.nan), getattr(found, "reason", fault)
-            off = f"{100 * (value / truth - 1):+8.1f} %" if truth else f"{value:+10.1e}"
-            print(f"  {label:22s} {value:9.4f} +- {error:7.4f}  off {off}  {spent:7.2f} s  {said[:70]}", flush=True)
+                estimate, fault = np.nan, f"{type(error).__name__}: {error}"
+            spent, value = time.perf_counter() - began, float(getattr(estimate, "value", estimate))
+            error, reason = getattr(estimate, "error", np.nan), getattr(estimate, "reason", fault)
+            off = f"{value:+10.1e}"
+            if truth:
+                off = f"{100 * (value / truth - 1):+8.1f} %"
+            print(f"  {label:22s} {value:9.4f} +- {error:7.4f}  off {off}  {spent:7.2f} s  {reason[:70]}", flush=True)
 
 
 def settings(samples=100_000):
@@ -67,9 +69,9 @@ def settings(samples=100_000):
         series, step = record(name, samples)
         delay = choose_delay(series)
         noise, evolution = noise_level(series, delay.delay), max(1, round(0.5 * delay.mean_period))
-        one = partial(wolf_run, series, step, delay.delay, 4, evolution, round(delay.mean_period), noise)
-        one()
-        times = [seconds(one) for _ in range(3)]
+        run = partial(wolf_run, series, step, delay.delay, 4, evolution, round(delay.mean_period), noise)
+        run()
+        times = [seconds(run) for _ in range(3)]
         print(f"{name:10s} {samples} samples, every {evolution}: {np.median(times):.3f} s a setting")
 
 
@@ -79,9 +81,12 @@ def main():
     parser.add_argument("--noise", type=float, default=0.0)
     parser.add_argument("--systems", nargs="+", choices=TRUTH, default=list(TRUTH))
     parser.add_argument("--setting", action="store_true", help="time one setting on 100,000 samples instead")
-    given = parser.parse_args()
+    options = parser.parse_args()
     warnings.filterwarnings("ignore")
-    settings() if given.setting else compare(given.systems, given.samples, given.noise)
+    if options.setting:
+        settings()
+    else:
+        compare(options.systems, options.samples, options.noise)
 
 
 if __name__ == "__main__":

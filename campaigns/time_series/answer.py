@@ -4,8 +4,8 @@ answer.txt, answer.json    the page; every number of it with its error, the evid
 series.csv                 time, value: the record as read
 spectrum.csv               angular frequency, amplitude of eq. (31)
 section.csv                time and the coordinates of every point of the section
-divergence.csv             k step, and the mean logarithm of the distance of neighbours by Rosenstein and by Kantz
-dimension.csv              radius, share of pairs, local slope, for each number of delays
+divergence.csv             k step, and the mean logarithm of the distance of nearest neighbours (Rosenstein)
+dimension.csv              number of delays, radius, share of pairs, local slope
 columns.csv                what the columns of these files are
 provenance.json            the name under which `python -m reports` knows this folder, file, hash, settings, versions
 """
@@ -50,7 +50,6 @@ COLUMNS = (
     Column("amplitude", "", "|X|", "amplitude of eq. (31)", 6),
     *(Column(f"value_{j}", "", f"x_{j}", f"coordinate {j} of a point of the section", 6) for j in range(PHASES)),
     Column("rosenstein_nats", "nats", "", "mean ln of the distance of nearest neighbours", 3),
-    Column("kantz_nats", "nats", "", "mean ln of the mean distance within neighbourhoods", 3),
     Column("delays", "", "m", "embedding dimension", 0),
     Column("radius", "", "r", "radius in standard deviations of the coordinates", 4),
     Column("share_of_pairs", "", "C", "share of the pairs of points that are nearer", 6),
@@ -110,9 +109,11 @@ def _measures(study: Study) -> list[tuple[str, str, str, str]]:
         )
         rows.append(("the same", number(bits.value, bits.error), "bits/period", period))
     rows.append(("K of the 0-1 test", number(study.zero_one.value), "", study.zero_one.reason))
-    dimensions = ", ".join(number(estimate.value, estimate.error) for estimate in study.dimensions)
-    delays = study.embedding and f"in {study.embedding.dimension} delays and one and two more: {dimensions}"
-    rows.append(("correlation dimension", number(*study.dimension), "", delays or short))
+    value, error, origin = None, None, short
+    if study.dimension is not None:
+        value, error, delays = study.dimension.value, study.dimension.error, study.embedding.dimension
+        origin = f"in {delays} delays, which white noise fills to {delays}: {study.dimension.reason}"
+    rows.append(("correlation dimension", number(value, error), "", origin))
     rows.append(("white noise, at most", number(study.seen.noise), "as the column", "`analysis/embedding.py`"))
     return rows
 
@@ -148,21 +149,24 @@ def write_files(study: Study, directory: Path, settings: dict[str, object]) -> N
     for name, text in files.items():
         write_atomic(directory / name, text.encode())
     unit = record.unit
-    columns = [
-        replace(column, name=column.name.replace("UNIT", unit), unit=column.unit.replace("UNIT", unit))
-        for column in COLUMNS
-    ]
+    columns = []
+    for column in COLUMNS:
+        name_with_unit, own_unit = column.name.replace("UNIT", unit), column.unit.replace("UNIT", unit)
+        columns.append(replace(column, name=name_with_unit, unit=own_unit))
     write_atomic(directory / "columns.csv", dictionary(columns))
-    columns = {**settings, "file": source.name, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()}
-    columns |= {"column": record.column, "python": platform.python_version()}
-    columns["versions"] = {name: version(name) for name in ("numpy", "scipy", "numba")}
-    write_atomic(directory / "provenance.json", _json(columns).encode())
+    provenance = {**settings, "file": source.name, "sha256": hashlib.sha256(source.read_bytes()).hexdigest()}
+    provenance |= {"column": record.column, "python": platform.python_version()}
+    provenance["versions"] = {name: version(name) for name in ("numpy", "scipy", "numba")}
+    write_atomic(directory / "provenance.json", _json(provenance).encode())
 
 
 def answer(study: Study) -> dict[str, object]:
     """What is said of a record as plain data, in numbers and in words; a number that was not found is NaN."""
     record, view, verdict, chosen = study.record, study.seen, study.verdict, study.embedding
     x, unit, count = record.values, record.unit, verdict.period
+    dimension = {"value": np.nan, "error": np.nan}
+    if study.dimension is not None:
+        dimension = {"value": study.dimension.value, "error": study.dimension.error}
     exponents = {}
     for name, estimate in study.exponents.items():
         bits = estimate.in_bits_per_period(view.period)
@@ -181,7 +185,7 @@ def answer(study: Study) -> dict[str, object]:
         "lines": [{"angular_frequency": p.angular_frequency_radps, "amplitude": p.amplitude} for p in study.lines],
         "exponents": exponents,
         "zero_one": {"K": study.zero_one.value, "reason": study.zero_one.reason},
-        "dimension": {"value": study.dimension[0], "error": study.dimension[1]},
+        "dimension": dimension,
         "embedding": chosen and {"delay_samples": chosen.lag, "dimension": chosen.dimension},
         "measures": _measures(study),
         "regime": verdict.regime,
@@ -204,17 +208,17 @@ def curves(study: Study) -> dict[str, pandas.DataFrame]:
     record, view, spectrum = study.record, study.seen, study.spectrum
     time, frequency = f"time_{record.unit}", f"angular_frequency_rad_per_{record.unit}"
     section = {f"value_{j}": values for j, values in enumerate(view.points.T)}
-    grown = {f"{name}_nats": study.exponents[name].details.get("curve", []) for name in ("rosenstein", "kantz")}
-    divergence = pandas.DataFrame({name: pandas.Series(curve) for name, curve in grown.items()})
-    divergence.insert(0, time, record.step * np.arange(len(divergence)))
-    dimension = [pandas.DataFrame(columns=DIMENSION)]
-    for j, estimate in enumerate(study.dimensions):
-        values = (float(study.embedding.dimension + j), estimate.radius, estimate.correlation_sum, estimate.slope)
-        dimension.append(pandas.DataFrame(dict(zip(DIMENSION, values, strict=True)))[estimate.correlation_sum > 0.0])
+    grown = study.exponents["rosenstein"].details.get("curve", np.zeros(0))
+    divergence = pandas.DataFrame({time: record.step * np.arange(len(grown)), "rosenstein_nats": grown})
+    dimension = pandas.DataFrame(columns=DIMENSION)
+    if study.dimension is not None:
+        pairs = study.dimension.correlation_sum
+        values = (float(study.embedding.dimension), study.dimension.radius, pairs, study.dimension.slope)
+        dimension = pandas.DataFrame(dict(zip(DIMENSION, values, strict=True)))[pairs > 0.0]
     return {
         "series": pandas.DataFrame({time: record.step * np.arange(len(record.values)), "value": record.values}),
         "spectrum": pandas.DataFrame({frequency: spectrum.angular_frequency_radps, "amplitude": spectrum.amplitude}),
         "section": pandas.DataFrame({time: view.time, **section}),
         "divergence": divergence,
-        "dimension": pandas.concat(dimension[1:] or dimension),
+        "dimension": dimension,
     }

@@ -10,11 +10,8 @@ The motion is seen once a cycle, on a section:
 
 A maximum counts where it stands out by six standard deviations of the noise, and is placed by a cubic spline.
 
-The verdict is that of `verdicts.regime` on this section. At maxima three things are asked beyond it:
+The verdict is that of `verdicts.regime` on this section. At maxima two things are asked beyond it:
 
-- A section at maxima is not a linear function of the record, so that linear noise may leave structure in it. Before
-  "chaotic" stands, the section's prediction gain must also beat those of 39 IAAFT surrogates of the record itself, each
-  seen at its own maxima.
 - A torus has now more, now fewer maxima in a turn, so that it returns at even times, and not after so many maxima.
   Before "chaotic" stands, the height of the last maximum, seen at even times, has to be forgotten, too.
 - A motion whose maxima are all alike need not repeat itself: they may come unevenly. A period seen at maxima also needs
@@ -26,7 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analysis.correlation_sums import CorrelationDimension, correlation_dimension
-from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov
+from analysis.divergence import rosenstein_lyapunov
 from analysis.embedding import (
     LEAST_SAMPLES_PER_PERIOD,
     EmbeddingChoice,
@@ -35,13 +32,11 @@ from analysis.embedding import (
     delay_vectors,
     noise_level,
 )
-from analysis.evidence import SHARE, Evidence, memory_evidence, outlier_evidence
+from analysis.evidence import Evidence, memory_evidence, outlier_evidence
 from analysis.exponents import Exponent, no_exponent
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
-from analysis.section_maps import prediction_gain
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
-from analysis.surrogates import normal_scores, phases_at_random, rank_until_lost
 from analysis.verdicts import Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test
@@ -53,14 +48,11 @@ SPLINE_END = 20
 # More samples make exponents no better than their other errors, and take long.
 MOST_SAMPLES = 30_000
 MOST_POINTS = 6_000
-NULL_SAMPLES = 8_192
 SURROGATES = 39
 TOLERANCE = 1e-3
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
-ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov, "kantz": kantz_lyapunov}
-# What the dimension may rise by from one embedding dimension to the next and still be that of the motion.
-SATURATED = 0.1
+ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,11 +75,10 @@ class Study:
     seen: Seen
     spectrum: Spectrum  # eq. (31) over the later half of the record
     lines: tuple[SpectralPeak, ...]  # its highest peaks
-    exponents: dict[str, Exponent]  # of "wolf", "rosenstein", "kantz" [nats per unit of time of the record]
+    exponents: dict[str, Exponent]  # of "wolf" and "rosenstein" [nats per unit of time of the record]
     zero_one: ZeroOneTest  # of the section's first coordinate
     embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
-    dimensions: tuple[CorrelationDimension, ...]  # in m, m + 1 and m + 2 embedding dimensions, m that of `embedding`
-    dimension: tuple[float, float]  # (value, error) where these agree, else (NaN, NaN)
+    dimension: CorrelationDimension | None  # of the delay vectors of `embedding`; None as there
     verdict: Verdict  # on the section
     tolerance: float  # share of the range within which the section had to repeat
     used: int  # samples looked at by exponents and dimension: the last of the record
@@ -106,25 +97,36 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
     if cycles < LEAST_PERIODS:
         # Neighbours apart in time by a mean period would have to be sought through the whole record, for nothing.
         reason = f"{LEAST_PERIODS} mean periods are needed, given {cycles:.3g}"
-        exponents, embedding, dimensions = dict.fromkeys(ESTIMATES, no_exponent("none", reason)), None, ()
+        exponents, embedding, dimension = dict.fromkeys(ESTIMATES, no_exponent("none", reason)), None, None
     else:
         exponents = {name: estimate(last, step) for name, estimate in ESTIMATES.items()}
         embedding = choose_embedding(last)
-        vectors = (delay_vectors(last, embedding.lag, embedding.dimension + more)[-MOST_POINTS:] for more in range(3))
-        window = max(1, round(embedding.mean_period))
-        dimensions = tuple(correlation_dimension(points, window) for points in vectors)
-    found = _spectrum(x, step, view, period)
+        vectors = delay_vectors(last, embedding.lag, embedding.dimension)[-MOST_POINTS:]
+        dimension = correlation_dimension(vectors, max(1, round(embedding.mean_period)))
+    power = _spectrum(x, step, view, period)
     tolerance = least_tolerance(view) if tolerance is None else tolerance
     verdict = judged(x, view, tolerance, seed)
     irregular = zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed)
-    lines, dimension = spectral_peaks(found)[:5], _saturated(dimensions)
-    measures = (exponents, irregular, embedding, dimensions, dimension)
-    return Study(record, view, found, lines, *measures, verdict, tolerance, len(last))
+    return Study(
+        record=record,
+        seen=view,
+        spectrum=power,
+        lines=spectral_peaks(power)[:5],
+        exponents=exponents,
+        zero_one=irregular,
+        embedding=embedding,
+        dimension=dimension,
+        verdict=verdict,
+        tolerance=tolerance,
+        used=len(last),
+    )
 
 
 def least_tolerance(view: Seen) -> float:
     """0.001, or the error of the spline at a maximum or between samples: h^4/384 for a sine."""
-    return max(TOLERANCE, 0.0 if view.kind == SAMPLES else (2.0 * np.pi / view.mean_period) ** 4 / 384.0)
+    if view.kind == SAMPLES:
+        return TOLERANCE
+    return max(TOLERANCE, (2.0 * np.pi / view.mean_period) ** 4 / 384.0)
 
 
 def _spectrum(x, step, view, period):
@@ -136,32 +138,20 @@ def _spectrum(x, step, view, period):
     return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
 
 
-def _saturated(dimensions):
-    """(value, error) of the middle one where all three agree within their errors or a tenth; else (NaN, NaN)."""
-    values = np.array([one.value for one in dimensions])
-    errors = np.array([one.error for one in dimensions])
-    if len(values) == 0 or not np.all(np.isfinite(values)):
-        return np.nan, np.nan
-    rise = float(values.max() - values.min())
-    if rise > max(SATURATED * values[1], 2.0 * float(np.hypot(errors[0], errors[2]))):
-        return np.nan, np.nan
-    return float(values[1]), float(np.hypot(errors[1], 0.5 * rise))
-
-
 def judged(x: np.ndarray, view: Seen, tolerance: float, seed: int) -> Verdict:
     """The Verdict on a record (n,) by its section; tolerance, seed: as in `study`."""
-    if outliers := outlier_evidence(x):
+    outliers = outlier_evidence(x)
+    if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed)
-    how = {"scale": np.ptp(x), "tolerance": tolerance, "surrogates": SURROGATES, "seed": seed}
-    verdict = regime(strobed=view.points[-MOST_POINTS:], **how)
+    section = view.points[-MOST_POINTS:]
+    verdict = regime(strobed=section, scale=np.ptp(x), tolerance=tolerance, surrogates=SURROGATES, seed=seed)
     if view.kind != MAXIMA:
         return verdict
     if verdict.period is not None:
         return _even_times(verdict, view, tolerance)
     if verdict.regime != "chaotic":
         return verdict
-    tests = [memory_evidence(_at_even_times(view), "memory, in time"), _record_null(x, view, seed)]
-    return _with(verdict, tests, "chaotic by its section, but ")
+    return _with(verdict, memory_evidence(_at_even_times(view), "memory, in time"), "chaotic by its section, but ")
 
 
 def _at_even_times(view):
@@ -171,13 +161,12 @@ def _at_even_times(view):
     return height[np.searchsorted(time, looks, side="right") - 1]
 
 
-def _with(verdict, tests, but):
-    """The verdict with more evidence: "undecided", with the reason, where a test failed."""
-    verdict = replace(verdict, evidence=(*verdict.evidence, *tests))
-    failed = [item.sentence for item in tests if item.passed is False]
-    if not failed:
+def _with(verdict, test, but):
+    """The verdict with one more test: "undecided", with the reason, where it failed."""
+    verdict = replace(verdict, evidence=(*verdict.evidence, test))
+    if test.passed is not False:
         return verdict
-    return replace(verdict, regime="undecided", period=None, reason=but + "; ".join(failed))
+    return replace(verdict, regime="undecided", period=None, reason=but + test.sentence)
 
 
 def _even_times(verdict, view, tolerance):
@@ -190,32 +179,11 @@ def _even_times(verdict, view, tolerance):
     for first in range(verdict.period):
         times = time[first :: verdict.period]
         count = np.arange(len(times))
-        deviation = max(
-            deviation, float(np.abs(times - np.polyval(np.polyfit(count, times, 1), count)).max()) / between
-        )
+        even = np.polyval(np.polyfit(count, times, 1), count)
+        deviation = max(deviation, float(np.abs(times - even).max()) / between)
     allowed = max(EVEN_TIMES, 1.5 * np.sqrt(tolerance) / np.pi)
     sentence = f"maxima that are alike stray from even times by {deviation:.2g} of the time between maxima"
-    return _with(verdict, [Evidence("even times", deviation, allowed, deviation <= allowed, sentence)], "no period: ")
-
-
-def _record_null(x, view, seed):
-    """Rank of the section's prediction gain among those of surrogates of the record, each seen at its own maxima."""
-    name = "record's linear null"
-
-    def gain_of(series):
-        return prediction_gain(maxima_and_minima(series, NOISE_MULTIPLE * view.noise)[1]).gain
-
-    part = x[-NULL_SAMPLES:]
-    gain, values = gain_of(part), np.sort(part)
-    scores, rng = normal_scores(part), np.random.default_rng([seed, 7])
-    drawn = (phases_at_random(scores, rng) for _ in range(2 * SURROGATES))
-    # Back in the record's own values: the instrument is put on again.
-    gains = (gain_of(values[np.argsort(np.argsort(surrogate))]) for surrogate in drawn)
-    rank = rank_until_lost(gain, (gain_drawn for gain_drawn in gains if np.isfinite(gain_drawn)), SURROGATES)
-    if rank.above is None:
-        return Evidence(name, np.nan, SHARE, None, "too few maxima in the surrogates: no prediction gain")
-    sentence = f"surrogates of the record, seen at their maxima, are predicted worse in {rank.share_below:.0%} of cases"
-    return Evidence(name, rank.share_below, SHARE, rank.above, sentence)
+    return _with(verdict, Evidence("even times", deviation, allowed, deviation <= allowed, sentence), "no period: ")
 
 
 def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
@@ -232,7 +200,9 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
         time = step * np.arange(len(series))
         return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)
     place, points = maxima_and_minima(series, NOISE_MULTIPLE * noise)
-    between = float(np.mean(np.diff(place))) if len(place) > 1 else chosen.mean_period
+    between = chosen.mean_period
+    if len(place) > 1:
+        between = float(np.mean(np.diff(place)))
     return Seen(MAXIMA, locked(points), locked(step * place), step * between, noise, chosen.mean_period)
 
 

@@ -36,18 +36,19 @@ def return_map(values: np.ndarray) -> Picture:
     return curves([[values_panel, right]], 3.0, kind=kind_for(2 * len(values)))
 
 
-def growth_and_dimension(divergence: list[tuple[str, np.ndarray, np.ndarray]], slopes: list, unit: str) -> Picture:
-    """Growth of the distance of neighbours and slopes of the correlation sum.
+def growth_and_dimension(
+    growth: tuple[np.ndarray, np.ndarray], slopes: tuple[float, np.ndarray, np.ndarray], unit: str
+) -> Picture:
+    """Growth of the distance of neighbours and slopes of the correlation sum; a panel is empty where there is no curve.
 
-    Args: `divergence` (name, time (n,), mean ln(distance) (n,)) each; `slopes` (delays, radius (b,), slope (b,)) each.
+    Args: `growth` (time (n,), mean ln(distance) (n,)); `slopes` (delays, radius (b,), slope (b,)); `unit` of the time.
     """
-    growth = []
-    for (name, time, distance), dash in zip(divergence, ("-", "--"), strict=False):
-        if np.isfinite(distance).any():
-            growth.append(Curve(time, distance, name, dash))
-    dimension = []
-    for (delays, radius, slope), dash in zip(slopes, ("-", "--", ":"), strict=False):
-        dimension.append(Curve(radius, slope, f"{delays} delays", dash, colour=INK))
-    labels = ("radius (standard deviations)", "slope of the correlation sum")
-    panels = [Panel(growth, f"time ({unit})", "mean ln(distance) (nats)"), Panel(dimension, *labels, log="x")]
-    return curves([panels], 3.0, "best")
+    left, right = [], []
+    if np.isfinite(growth[1]).any():
+        left.append(Curve(*growth))
+    delays, radius, slope = slopes
+    if len(radius):
+        right.append(Curve(radius, slope, f"{delays:.0f} delays", colour=INK))
+    distances = Panel(left, f"time ({unit})", "mean ln(distance) (nats)")
+    dimension = Panel(right, "radius (standard deviations)", "slope of the correlation sum", log="x")
+    return curves([[distances, dimension]], 3.0, "best")

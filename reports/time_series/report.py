@@ -50,9 +50,11 @@ def _verdict(answer: dict) -> list[Item]:
 def _figures(judged: dict, unit: str, column: str) -> list[Item]:
     curves = {name: judged[f"{name}.csv"].to_numpy().T for name in CURVES}
     time, values = curves["series"]
-    steps, rosenstein, kantz = curves["divergence"]
-    by_delays = judged["dimension.csv"].groupby("delays")
-    slopes = [(int(m), group["radius"].to_numpy(), group["slope"].to_numpy()) for m, group in by_delays]
+    # By name: a folder of an older version has another column, Kantz's curve, and more than one number of delays.
+    growth = (curves["divergence"][0], judged["divergence.csv"]["rosenstein_nats"].to_numpy())
+    dimension = judged["dimension.csv"]
+    dimension = dimension[dimension["delays"] == dimension["delays"].min()]
+    slopes = (dimension["delays"].min(), dimension["radius"].to_numpy(), dimension["slope"].to_numpy())
     return [
         Heading("What was seen"),
         Figure(
@@ -70,10 +72,10 @@ def _figures(judged: dict, unit: str, column: str) -> list[Item]:
             "Two panels: the return map of the section, and its points in order.",
         ),
         Figure(
-            growth_and_dimension([("Rosenstein", steps, rosenstein), ("Kantz", steps, kantz)], slopes, unit),
-            "Growth of small distances, and the dimension. Left: mean logarithm of the distance of neighbours "
-            "(`divergence.csv`); its straight part is the exponent. Right: slope of the correlation sum "
-            "(`dimension.csv`); where the curves run level together, it is the dimension.",
+            growth_and_dimension(growth, slopes, unit),
+            "Growth of small distances, and the dimension. Left: mean logarithm of the distance of nearest neighbours "
+            "by Rosenstein's method (`divergence.csv`); its straight part is the exponent. Right: slope of the "
+            "correlation sum (`dimension.csv`); where it runs level, it is the dimension.",
             "Two panels: growth of the distance between neighbours, and local slopes of the correlation sum.",
         ),
     ]
@@ -82,11 +84,17 @@ def _figures(judged: dict, unit: str, column: str) -> list[Item]:
 def _evidence(answer: dict) -> list[Item]:
     rows = []
     for test in answer["evidence"]:
-        numbers = ("none" if test[name] is None else f"{test[name]:.4g}" for name in ("value", "threshold"))
-        rows.append((test["name"], PASSED[test["passed"]], *numbers, printed(test["sentence"])))
+        value, threshold = _number(test["value"]), _number(test["threshold"])
+        rows.append((test["name"], PASSED[test["passed"]], value, threshold, printed(test["sentence"])))
     columns = heads("test", "passed", ("value", ""), ("compared with", ""), "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
     return [Heading("Evidence"), Table(columns, tuple(rows), caption, small=True)]
+
+
+def _number(value: float | None) -> str:
+    if value is None:
+        return "none"
+    return f"{value:.4g}"
 
 
 def _origin(source: dict, page: str) -> list[Item]:

@@ -27,7 +27,7 @@ CALLS = {name: lambda x, call=call: call(x, 0.1) for name, call in STEPPED.items
     "zero_one_test": analysis.zero_one_test,
     "growth_or_bursts": lambda x: analysis.growth_or_bursts(x, 0.1, 5.0),
     "wolf_lyapunov": lambda x: analysis.wolf_lyapunov(x, 0.1),
-    "kantz_lyapunov": lambda x: analysis.kantz_lyapunov(x, 0.1),
+    "rosenstein_lyapunov": lambda x: analysis.rosenstein_lyapunov(x, 0.1),
     "tangent_lyapunov": analysis.tangent_lyapunov,
     "record_drift": record_drift,
     "neighbour_growth": analysis.neighbour_growth,

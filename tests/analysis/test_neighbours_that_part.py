@@ -1,12 +1,12 @@
 """Wolf's method: known exponents with an error that holds, what it must not depend on, and what it refuses.
 
-Rosenstein's and Kantz's exponents, and the scaling region without which there is none.
+Rosenstein's exponent, and the scaling region without which there is none.
 """
 
 import numpy as np
 import pytest
 
-from analysis.divergence import kantz_lyapunov, rosenstein_lyapunov, scaling_region
+from analysis.divergence import rosenstein_lyapunov, scaling_region
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
 from tests.analysis.systems import TRUTH, noisy, record, two_tone
@@ -112,7 +112,6 @@ def test_where_nothing_qualifies_the_answer_is_nan_with_the_reason(x, words):
     assert words in found.reason
 
 
-METHODS = pytest.mark.parametrize("method", [rosenstein_lyapunov, kantz_lyapunov])
 T = 0.1 * np.arange(200)
 
 
@@ -136,10 +135,9 @@ def test_less_than_a_nat_is_refused(curve):
     assert "no straight" in region.reason
 
 
-@METHODS
 @pytest.mark.parametrize("name", ["henon", "logistic"])
-def test_maps_within_a_tenth(method, name):
-    found = method(*record(name))
+def test_maps_within_a_tenth(name):
+    found = rosenstein_lyapunov(*record(name))
     assert found.value == pytest.approx(TRUTH[name], rel=0.1)
     assert found.details["region"].span >= 1.0 and found.details["region"].slope == found.value
 
@@ -150,32 +148,23 @@ def test_flows_within_a_fifth_by_rosenstein(name):
     assert rosenstein_lyapunov(*record(name)).value == pytest.approx(TRUTH[name], rel=0.2)
 
 
-@METHODS
 @pytest.mark.parametrize(
     "series",
     [two_tone(5000), np.sin(0.1 * np.arange(5000)), np.random.default_rng(0).normal(size=5000), np.ones(5000)],
     ids=["two tones", "sine", "white noise", "constant"],
 )
-def test_regular_motion_and_noise_have_none(method, series):
-    found = method(series, 0.1)
+def test_regular_motion_and_noise_have_none(series):
+    found = rosenstein_lyapunov(series, 0.1)
     assert np.isnan(found.value) and found.reason
 
 
-@METHODS
-def test_settings_of_ones_own_are_used(method):
+def test_settings_of_ones_own_are_used():
     own = {"delay": 1, "dimension": 3, "theiler": 4, "horizon": 15}
-    details = method(*record("henon"), **own).details
+    details = rosenstein_lyapunov(*record("henon"), **own).details
     assert (details["dimension"], details["theiler"], details["embedding"].lag, len(details["curve"])) == (3, 4, 1, 16)
-    assert kantz_lyapunov(*record("henon"), radius=0.05).details["radius"] == 0.05
 
 
-@METHODS
-def test_units_scale(method):
+def test_units_scale():
     x, step = record("rossler", 3000)
-    assert method(-4.0 * x, 2.0 * step).value == pytest.approx(0.5 * method(x, step).value, rel=1e-9)
-
-
-def test_a_series_of_two_values_has_no_radius():
-    """Most of its delay vectors coincide: the eighth neighbour is at distance 0."""
-    found = kantz_lyapunov(np.sign(np.sin(0.7 * 0.1 * np.arange(2000)) + 0.1), 0.1)
-    assert not found.found and "too few different values" in found.reason
+    scaled = rosenstein_lyapunov(-4.0 * x, 2.0 * step)
+    assert scaled.value == pytest.approx(0.5 * rosenstein_lyapunov(x, step).value, rel=1e-9)

@@ -2,9 +2,11 @@
 are read, and a full disk or Ctrl-C is one line (what is refused: mistakes.toml)."""
 
 import json
+import shutil
 import tracemalloc
 
 import numpy as np
+import pandas
 import pytest
 from scipy.signal import lfilter
 
@@ -72,7 +74,8 @@ def test_each_motion_gets_its_word(tmp_path, capsys, name):
 @pytest.mark.slow
 def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     found = answered(tmp_path, logistic(4.0, 1500))
-    for name in ("wolf", "rosenstein", "kantz"):
+    assert set(found["exponents"]) == {"wolf", "rosenstein"}
+    for name in found["exponents"]:
         one = found["exponents"][name]
         assert one["nats_per_time"] == pytest.approx(np.log(2.0), abs=3.0 * one["error"]) and one["error"] < 0.1
     dimension = found["dimension"]
@@ -235,6 +238,20 @@ def test_the_page_says_the_verdict_and_shows_every_curve(judged):
     assert pdf.read_bytes()[:4] == b"%PDF"
     before = html.read_bytes(), pdf.read_bytes()
     assert tuple(path.read_bytes() for path in build(judged, again=True)) == before
+
+
+@pytest.mark.slow
+def test_a_folder_of_an_older_version_is_drawn_without_what_is_gone(judged, tmp_path):
+    """It has Kantz's curve, and the slopes at one delay more."""
+    older = tmp_path / "older"
+    shutil.copytree(judged, older, ignore=shutil.ignore_patterns("report.*"))
+    growth, dimension = pandas.read_csv(older / "divergence.csv"), pandas.read_csv(older / "dimension.csv")
+    growth.insert(1, "kantz_nats", 0.5)
+    growth.to_csv(older / "divergence.csv", index=False)
+    further = dimension.assign(delays=dimension["delays"] + 1, slope=7.0)
+    pandas.concat([dimension, further]).to_csv(older / "dimension.csv", index=False)
+    html, _ = build(older)
+    assert html.read_text(encoding="utf-8") == build(judged, again=True)[0].read_text(encoding="utf-8")
 
 
 @pytest.mark.slow
