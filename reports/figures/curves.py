@@ -155,7 +155,8 @@ def curves(
             for axes, panel in zip(places, panels, strict=False):
                 draw(axes, panel)
                 panel_handles, names = axes.get_legend_handles_labels()
-                for handle, name in zip(panel_handles, names, strict=True):
+                by_name = dict(zip(names, panel_handles, strict=True))  # the last of those with the same name
+                for name, handle in by_name.items():
                     handles.setdefault(name, handle)
                 if names and legend not in ("", "below", "right"):
                     axes.legend(loc=legend)
