@@ -10,7 +10,8 @@ of the largest difference of a coordinate, in its scale):
     shrinks     d_3 <= LEFT d_1
     as it must  ln(d_1/d_2) and ln(d_2/d_3) are within a factor AGREES of what |mu| says
 
-A run that stops at a saddle or at a torus beside the orbit, or decays towards another motion, has another rate.
+A run that stops at a saddle or at a torus beside the orbit, or decays towards another motion, has another rate. A run
+on an orbit that attracts (d_3 <= THERE, what the steps of a run scatter) need not come nearer.
 """
 
 import numpy as np
@@ -19,7 +20,7 @@ from numpy.typing import ArrayLike
 from analysis.evidence import Evidence
 from analysis.sampling import checked_columns
 
-NEAR, LEFT, AGREES = 0.2, 0.65, 1.5
+NEAR, LEFT, AGREES, THERE = 0.2, 0.65, 1.5, 0.002
 
 
 def approached_period(strobed: ArrayLike, scale: ArrayLike, max_period: int = 16) -> int | None:
@@ -54,14 +55,20 @@ def approach_evidence(
     expected = -np.log(moduli[0]) / period
     attracts = bool((moduli + errors).max() < 1.0)
     alike = (expected / AGREES <= rates) & (rates <= AGREES * expected)
-    passed = attracts and bool(alike.all()) and distances[2] <= min(NEAR, LEFT * distances[0])
+    comes_nearer = bool(alike.all()) and distances[2] <= min(NEAR, LEFT * distances[0])
+    arrived = bool(distances[2] <= THERE)
+    passed = attracts and (comes_nearer or arrived)
     shown = float(np.exp(-rates.mean() * period))
     what = "attracts" if attracts else "is not known to attract"
-    comes = "comes" if passed else "is not shown to come"
+    way = f"the run comes nearer as that says ({shown:.4f} each time)"
+    if arrived:
+        way = "the run lies on it"
+    elif not passed:
+        way = f"the run is not shown to come nearer as that says ({shown:.4f} each time)"
     sentence = (
         f"a period-{period} orbit lies {100.0 * distances[2]:.2g} % of the motion away; "
         f"it {what} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
-        f"and the run {comes} nearer as that says ({shown:.4f} each time)"
+        f"and {way}"
     )
     return Evidence("approach", shown, float(moduli[0]), passed, sentence)
 

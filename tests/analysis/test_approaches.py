@@ -103,8 +103,20 @@ def test_an_orbit_of_several_points_is_found_from_a_run_that_still_rings(paramet
 
     orbit = find_orbit(OrbitMap(with_derivative), record(step, (0.1, 0.1), 5000)[-1], 0.0, period)
     assert orbit.period == period and 0.95 < abs(orbit.multipliers[0]) < 1.0
-    states = record(step, orbit.points[0] + np.array([1e-3, 0.0]))
+    states = record(step, orbit.points[0] + np.array([1e-2, 0.0]))
     told = first_look(states, orbit.multipliers, np.roll(orbit.points, 1, axis=0))
     assert told is not None and approached_period(states[: told + 1], SCALE) == period
     half = find_orbit(OrbitMap(with_derivative), orbit.points[: period // 2].mean(axis=0), 0.0, period // 2)
     assert first_look(states, half.multipliers, half.points) is None
+
+
+@pytest.mark.parametrize(
+    ("modulus", "error", "arrived"), [(0.67, 0.09, True), (0.95, 0.09, False), (1.01, 0.001, False)]
+)
+def test_a_run_on_an_orbit_need_not_come_nearer_if_the_orbit_attracts(modulus, error, arrived):
+    """What is left of the distance is the scatter of the steps."""
+    rng = np.random.default_rng(2)
+    orbit = np.array([[0.2, 0.4], [-0.3, 0.1]])
+    states = orbit[np.arange(136) % 2] + 5e-4 * rng.normal(size=(136, 2))
+    evidence = approach_evidence(states, orbit, np.array([modulus]), np.array([error]), SCALE)
+    assert evidence.passed == arrived

@@ -150,11 +150,11 @@ def test_whoever_is_killed_costs_what_was_running(dask, apart, lost):
 
 
 def changed(folder):
-    """A copy of the workbench that differs in a comment."""
+    """A copy of the workbench that differs in its code."""
     for part in ("machine_code", "engine", "analysis", "campaigns", "reports", "tests"):
         shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
     with open(folder / "engine" / "__init__.py", "a") as file:
-        file.write("# changed\n")
+        file.write("changed = True\n")
     return folder
 
 

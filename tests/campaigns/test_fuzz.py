@@ -18,7 +18,7 @@ from campaigns.stability import fuzz
 from campaigns.stability.random_scenes import INVALID, VALID, drawn, faults_of, smallest
 from engine.scene import build_scene, load_scene
 
-SEED, COUNT = 20240, 300
+SEED, COUNT = 20241, 300
 
 
 @pytest.fixture(scope="module")
