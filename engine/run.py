@@ -193,7 +193,7 @@ class Run:
                 self._out_at_rest(),
             ]
             if self.record["end"] == col.HELD:
-                doubts.append(words_of_folds(state, columns))
+                doubts.append(words_of_folds(scene, state, columns))
             message = "; ".join(filter(None, doubts))
         message = message_of(message, scene, columns, WORDS[status])
         statistics, profiles, tangent = statistics_of(state, self.wall_s), self._profiles(), self.trail.growth(state)

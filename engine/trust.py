@@ -55,20 +55,21 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[
 
 
 def blows(record: np.void, scene: Scene, columns: dict[str, np.ndarray]) -> str:
-    """Says where a held end is set in motion or stopped at once, if that makes a force worth telling.
+    """Says where a held end is set in motion or stopped at once, if that makes the largest force.
 
     A jump of velocity v sends out a wave of the force v sqrt(m T'). Spread over longer than a wave takes along the line
-    and back it makes less, because what comes back takes it away. A motion without a ramp, which its user chose, is
-    told where it makes the largest tension: before a wave has come back twice.
+    and back it makes less, because what comes back takes it away. It is told where it makes most of what the largest
+    force, of either sign, is above that at rest: until the wave has come back twice.
     """
     wave_mps, told = fastest_wave(record, scene), []
     back_s, sample_s = 2 * scene.tether.length_m / wave_mps, float(record["output_step"])
-    time_s, high = columns["time_s"], columns["tension_top_high_N"]
-    soon = time_s[high.argmax()] <= 2 * back_s + sample_s
+    high = columns["tension_top_high_N"]
+    forces = np.maximum(high, -columns["tension_top_low_N"])
+    largest_s, rise_N = columns["time_s"][forces.argmax()], forces.max() - abs(high[0])
     for t, speed, spread_s in jumps_of(scene.end):
         force_N = float(record["m"]) * wave_mps * speed * min(1.0, back_s / max(spread_s, 1e-300))
-        within = time_s[0] <= t < time_s[-1] + sample_s
-        if within and force_N > NOTED * np.abs(high).max() and (spread_s or soon):
+        soon = t - spread_s <= largest_s <= t + spread_s + 2 * back_s + sample_s
+        if soon and 0 < rise_N < 2 * force_N and force_N > NOTED * forces.max():
             told.append(f"by {speed:.2g} m/s at t = {t:.4g} s (about {force_N:.2g} N)")
     jumps = " and ".join(told)
     return jumps and f"the velocity of end.motion jumps {jumps}, a blow on the line: let it begin and end at rest"

@@ -5,7 +5,9 @@ bend is sin(theta/2)/(theta/2). The chord of the bend is too short by the share 
 
 Of 132 slack lines moved at one end, the largest tension of 38 was more than 5 % off on 41 and 81 nodes (refinement);
 it came after the first fold beyond FOLD in all but 6 of them, two of which said that they ring. It was off by up to
-TIMES the share, but for lines that ring. A buoy on its line has no such message: snaps decide its largest tension.
+TIMES the share, but for lines that ring. A line that a snap has straightened bears what its stretch does: no folds are
+told where, straight between its ends, it would bear TAUT of its largest tension. A buoy on its line has no such
+message: snaps decide its largest tension.
 """
 
 import math
@@ -13,9 +15,12 @@ import math
 import numpy as np
 
 from ..compiled import kernel
+from ..physics.strains import tension_at
+from ..scene.models import Scene
 
 FOLD = 0.77  # rad of turn in an element, where its chord is 5 % too short
 TIMES = 3.0
+TAUT = 0.5  # of the largest tension
 AT_REST = 1.05  # times the tension at rest: a line that never bears more has the one of statics
 FOLDS = (
     "folds of the slack line are smaller than its elements, one of which turns by {turn:.2g} rad: the largest tension, "
@@ -31,10 +36,15 @@ def watch_turn(state, turn):
         state.folded = min(state.folded, state.t)
 
 
-def words_of_folds(state: np.void, columns: dict[str, np.ndarray]) -> str:
+def words_of_folds(scene: Scene, state: np.void, columns: dict[str, np.ndarray]) -> str:
     """Says how far the largest tension of a held line may be off because of folds before it, or nothing."""
-    high_N = columns["tension_top_high_N"]
-    if not len(high_N) or high_N.max() <= AT_REST * high_N[0] or columns["time_s"][np.argmax(high_N)] < state["folded"]:
+    high_N, line = columns["tension_top_high_N"], scene.tether
+    most = int(high_N.argmax()) if len(high_N) else 0
+    if not len(high_N) or high_N[most] <= AT_REST * high_N[0] or columns["time_s"][most] < state["folded"]:
+        return ""
+    around = slice(max(most - 1, 0), most + 1)  # samples between which it is
+    chord_m = np.linalg.norm([columns[name][around] for name in ("x_m", "y_m", "z_m")], axis=0).max()
+    if tension_at(chord_m / line.length_m - 1.0, line.tension) > TAUT * high_N[most]:
         return ""
     half = 0.5 * float(state["max_turn"])
     short = 1.0 - half / math.tan(half) if half < 0.5 * math.pi else 1.0
