@@ -302,6 +302,6 @@ def test_sixteen_hundred_cells_stay_below_ten_megabytes(folder_of, monkeypatch):
     def noise(folder):
         return ([*rng.random((2, 200)), *rng.random((2, 64))] for _ in folder.table)
 
-    monkeypatch.setattr(f"{cell_sheets.__module__}._series", noise)
+    monkeypatch.setattr(f"{cell_sheets.__module__}._curves", noise)
     page = build(folder_of(counts=(40, 40)))[0]
     assert 2e6 < page.stat().st_size < 10e6
