@@ -15,7 +15,7 @@ from analysis.oscillator import SnapOscillator
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import tangent_map
 from benchmarks.shared import on_one_core, parser, print_load, seconds
-from campaigns.motions.multipliers import cable_map
+from campaigns.explore.multipliers import cable_map
 from engine import load_scene, simulate
 
 KEYS = {"water.depth_m": 25.0, "tether.nodes": 41, "solver.rtol": 1e-4}

@@ -88,7 +88,7 @@ def going_on(
     the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
     One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
     judged; at first for as long as it takes to show by SURE errors.
-    least: wave periods that chaos has to last, because transients of such a length are known (`motions.transients`).
+    least: wave periods that chaos has to last, because transients of such a length are known (`explore.transients`).
     """
     from analysis.evidence import read_evidence
     from analysis.looks import CLOSE, next_look

@@ -17,12 +17,12 @@ import contextlib
 from collections.abc import Callable, Iterator
 
 from campaigns.basins.grid import PAIRS, Grid
-from campaigns.buoy_sweep import ROW_SOURCES
+from campaigns.explore.settings import ROW_SOURCES
+from campaigns.explore.sweep import ONLY, SPEED_MPS
 from campaigns.judge import judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.motions.sweep import ONLY, SPEED_MPS
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 
@@ -85,7 +85,7 @@ def measures(order: Order) -> Measures:
     """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
     from functools import partial
 
-    from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+    from campaigns.explore.rows import COLUMNS, buoy_row
 
     columns = tuple(column for column in COLUMNS if not column.name.startswith("planar_"))
     return Measures(columns, partial(buoy_row, transient_periods=None), ROW_SOURCES, {"transient_periods": None})
@@ -98,7 +98,7 @@ def runs(order: Order) -> Callable:
         from campaigns.basins.edge import edge_state
         from campaigns.basins.found import COLUMNS, Found
         from campaigns.basins.shocks import shocks
-        from campaigns.motions import ends
+        from campaigns.explore import ends
 
         found = Found(plan, jobs[0], order.own.grid)
         found.find(order, order.own.kick_speed, order.own.seed)

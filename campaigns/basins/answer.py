@@ -5,9 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from campaigns.answers import Row, greatest, kilonewton, known, spans
 from campaigns.basins.grid import COLUMNS, PHASE
-from campaigns.buoy_sweep.answer import use_of
-from campaigns.motions.along import from_rest
-from campaigns.motions.starts import UNSETTLED
+from campaigns.explore.along import from_rest
+from campaigns.explore.answer import use_of
+from campaigns.explore.starts import UNSETTLED
 from campaigns.statements import listed
 
 PEAK = "tension_top_max_N"

@@ -11,12 +11,12 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.basins.found import Found
-from campaigns.buoy_sweep.rows import EXTREMES
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
+from campaigns.explore.along import Motion
+from campaigns.explore.rows import EXTREMES
+from campaigns.explore.starts import Start, section_of
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of, write_table
-from campaigns.motions.along import Motion
-from campaigns.motions.starts import Start, section_of
 from engine.views import LONGEST_PERIOD
 
 SHARES = 16  # states between two, bisected side by side

@@ -4,15 +4,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from campaigns.basins.grid import Grid
-from campaigns.buoy_sweep.rows import STEEPNESS
 from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column
+from campaigns.explore.along import FROM_REST, MOTION, Along, Motion
+from campaigns.explore.proposals import proposals
+from campaigns.explore.rows import STEEPNESS
+from campaigns.explore.starts import JOINED, KICKS, OUTCOME, Asked, Ended, Start, as_it_is, settled_of
 from campaigns.judge import judged_job
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
-from campaigns.motions.along import FROM_REST, MOTION, Along, Motion
-from campaigns.motions.proposals import proposals
-from campaigns.motions.starts import JOINED, KICKS, OUTCOME, Asked, Ended, Start, as_it_is, settled_of
 from campaigns.study import Order
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from campaigns.motions.starts import Start
+    from campaigns.explore.starts import Start
 
 PHASE = "phase"
 PAIRS = ("vx vz", "vx phase", "vz phase", "x z")
@@ -47,7 +47,7 @@ class Grid:
 
     def start(self, first: float, second: float, found_by: str = GRID) -> "Start":
         """The start with these two coordinates."""
-        from campaigns.motions.starts import Start  # slow to import
+        from campaigns.explore.starts import Start  # slow to import
 
         given = dict(zip(self.across, (first, second), strict=True))
         kick, moved = ((given.get(x, 0.0), given.get(z, 0.0)) for x, z in (("vx", "vz"), ("x", "z")))

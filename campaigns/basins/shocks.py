@@ -6,9 +6,9 @@ from functools import partial
 from campaigns.basins.found import Found
 from campaigns.basins.smallest import Shock, smallest
 from campaigns.columns import MESSAGE, STATUS, Column
+from campaigns.explore.along import MOTION, Motion
+from campaigns.explore.starts import KICKS
 from campaigns.machinery.folder import write_table
-from campaigns.motions.along import MOTION, Motion
-from campaigns.motions.starts import KICKS
 from engine.scene import scene_from_toml
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not

@@ -17,13 +17,14 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import engine
-from campaigns.buoy_sweep.space import SEED_MPS, in_space, run_where_needed
+from campaigns.explore import sweep as motions
+from campaigns.explore.settings import ROW_SOURCES, settings_of
+from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
-from campaigns.motions import sweep as motions
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 
@@ -32,12 +33,6 @@ STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
 PAPER_STEEPNESS = (0.016, 0.13)
 SWEPT = "waves.steepness"
 DIMENSIONS = ("2", "3", "auto")
-ROW_SOURCES = (
-    "analysis",
-    "engine",
-    "campaigns/motions",
-    *(f"campaigns/{name}.py" for name in ("judge", "buoy_sweep/rows", "buoy_sweep/batches", "buoy_sweep/errors")),
-)
 
 
 def options(group) -> None:
@@ -93,7 +88,7 @@ def dimensions_of(order: Order) -> str:
 
 
 def starts_of(order: Order) -> int | None:
-    """Kicks at each value; None: runs from rest only (`campaigns.motions.sweep`)."""
+    """Kicks at each value; None: runs from rest only (`campaigns.explore.sweep`)."""
     return motions.kicks_of(order, [case.scene for case in order.cases])
 
 
@@ -103,23 +98,17 @@ def runs(order: Order) -> Callable:
         return run_where_needed
     if (kicks := starts_of(order)) is None:
         return run
-    from campaigns.buoy_sweep.rows import STEEPNESS as KEY
+    from campaigns.explore.rows import STEEPNESS as KEY
 
     return motions.every_motion(order, kicks, KEY, SWEPT)
 
 
 def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
-    from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+    from campaigns.explore.rows import COLUMNS, buoy_row
 
     settings = settings_of(order)
     return Measures(COLUMNS, partial(buoy_row, **settings), ROW_SOURCES, settings)
-
-
-def settings_of(order: Order) -> dict[str, int | None]:
-    """How a row is made: transient_periods, full of `rows.buoy_row`."""
-    full = getattr(order.own, "evidence", "") == "full"
-    return {"transient_periods": order.transient, "full": order.periods if full else None}
 
 
 def parameters(order: Order) -> dict[str, object]:
@@ -138,9 +127,9 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """What follows the runs (`campaigns.buoy_sweep.batches`): values between, the wetted cap, errors, a close-up."""
-    from campaigns.buoy_sweep import batches
-    from campaigns.buoy_sweep.errors import errors
+    """What follows the runs (`campaigns.explore.batches`): values between, the wetted cap, errors, a close-up."""
+    from campaigns.explore import batches
+    from campaigns.explore.errors import errors
 
     if order.looks and not order.own.no_between and len(order.cases) >= batches.LEAST_VALUES:
         yield partial(batches.between, key=SWEPT, cases=order.cases)
@@ -151,8 +140,8 @@ def beside(order: Order) -> Iterator[Callable]:
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """What the sweep found (`campaigns.buoy_sweep.answer`)."""
-    from campaigns.buoy_sweep.answer import sentences
+    """What the sweep found (`campaigns.explore.answer`)."""
+    from campaigns.explore.answer import sentences
 
     beside = {"companions": not order.own.no_accuracy, "ends": starts_of(order) is not None}
     found: dict[str, tuple[dict, ...]] = {}

@@ -20,12 +20,12 @@ from dataclasses import replace
 
 from campaigns import sweep
 from campaigns.answers import known
+from campaigns.explore import sweep as motions
+from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
 from campaigns.machinery import cli
 from campaigns.machinery.folder import claimed, read_rows, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.motions import sweep as motions
-from campaigns.motions.multipliers import TOLERANCE
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 
@@ -107,7 +107,7 @@ def runs(order: Order) -> Callable:
     """In place of `runner.run`: the motions, in a folder of their own, and the orbits under them."""
 
     def every_orbit(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.motions.tracing import Line, Scenes
+        from campaigns.explore.tracing import Line, Scenes
         from campaigns.orbits.tables import tables
         from campaigns.orbits.tree import Tree
 
@@ -154,7 +154,7 @@ def _under_motions(order: Order, folder) -> Iterator[tuple]:
 
 def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     """The same of --start-from, where its run repeats."""
-    from campaigns.buoy_sweep.rows import after_transient, sound_part
+    from campaigns.explore.rows import after_transient, sound_part
 
     (key,), run = order.own.vary, motions.run_in(order.own.start_from)
     periods = int(run.columns["time_s"][-1] / run.scene.waves.period_s + 1e-6)

@@ -4,11 +4,11 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
-from campaigns.buoy_sweep.rows import STROBED
 from campaigns.columns import MESSAGE, STATUS, Column, csv_of
+from campaigns.explore.along import MOTION
+from campaigns.explore.multipliers import COUNT, MULTIPLIERS
+from campaigns.explore.rows import STROBED
 from campaigns.machinery.folder import write_table
-from campaigns.motions.along import MOTION
-from campaigns.motions.multipliers import COUNT, MULTIPLIERS
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
 

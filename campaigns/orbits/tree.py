@@ -7,9 +7,9 @@ from string import ascii_lowercase
 
 import numpy as np
 
+from campaigns.explore.orbit_tasks import finer, followed, sharper, under
+from campaigns.explore.tracing import Line, Task, work
 from campaigns.machinery.plan import Plan
-from campaigns.motions.orbit_tasks import finer, followed, sharper, under
-from campaigns.motions.tracing import Line, Task, work
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"

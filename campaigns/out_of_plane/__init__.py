@@ -15,8 +15,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 
-from campaigns.buoy_sweep import ROW_SOURCES
-from campaigns.buoy_sweep.space import SEED_MPS, velocity
+from campaigns.explore.settings import ROW_SOURCES
+from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.judge import LEAST_JUDGED, judged_scene
 from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary

@@ -7,7 +7,8 @@ but the exponent of an infinitesimal perturbation across its plane (offplane_gro
 
 import numpy as np
 
-from campaigns.buoy_sweep.rows import (
+from campaigns.columns import DEPTH, MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, STIFFNESS, Column, counted
+from campaigns.explore.rows import (
     DIMENSIONS,
     EXTREMES,
     OFFPLANE,
@@ -20,7 +21,6 @@ from campaigns.buoy_sweep.rows import (
     exponents,
     sound_part,
 )
-from campaigns.columns import DEPTH, MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, STIFFNESS, Column, counted
 from campaigns.judge import record_regime, tangent_of
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push

@@ -2,7 +2,7 @@
 
 The depth, at every treatment of the waves above still water and of a buoy that leaves it; the bending stiffness, at the
 depths where the large wave leads to different motions. Runs carry a perturbation, so each has an exponent and a regime
-(`campaigns.buoy_sweep.rows`); they go side by side in the lanes.
+(`campaigns.explore.rows`); they go side by side in the lanes.
 """
 
 from dataclasses import replace
@@ -12,9 +12,9 @@ from typing import get_args
 
 from campaigns.buoy_sweep import PAPER_STEEPNESS as STEEPNESSES
 from campaigns.buoy_sweep import measures as of_the_sweep
-from campaigns.buoy_sweep.rows import COLUMNS as OF_A_RUN
-from campaigns.buoy_sweep.rows import STEEPNESS
 from campaigns.columns import DEPTH, STIFFNESS, Column, names
+from campaigns.explore.rows import COLUMNS as OF_A_RUN
+from campaigns.explore.rows import STEEPNESS
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.plan import Summary

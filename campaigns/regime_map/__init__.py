@@ -15,12 +15,12 @@ import contextlib
 import sys
 from collections.abc import Callable, Iterator
 
-from campaigns.buoy_sweep import ROW_SOURCES
 from campaigns.buoy_sweep import STUDY as SWEEP
+from campaigns.explore import sweep as motions
+from campaigns.explore.settings import ROW_SOURCES
 from campaigns.machinery import cli, session
 from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.motions import sweep as motions
 from campaigns.regime_map import cuts
 from campaigns.regime_map.cells import Grid
 from campaigns.study import Measures, Order, Study

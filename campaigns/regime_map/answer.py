@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known, of_kicks
-from campaigns.buoy_sweep.answer import reasons, use_of
 from campaigns.columns import Column
+from campaigns.explore.answer import reasons, use_of
 from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, TENSION
 from campaigns.statements import listed
 

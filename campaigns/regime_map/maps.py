@@ -14,18 +14,18 @@ from dataclasses import replace
 import engine
 from analysis.evidence import read_evidence
 from analysis.looks import CLOSE, NO_GROWTH
-from campaigns.buoy_sweep.rows import buoy_row
 from campaigns.columns import number
+from campaigns.explore.along import Lattice, Motion, from_rest
+from campaigns.explore.proposals import screened
+from campaigns.explore.rows import buoy_row
+from campaigns.explore.starts import DISPLACED, start_job
+from campaigns.explore.sweep import job_of
+from campaigns.explore.transients import outlasting
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery.folder import write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import tell
 from campaigns.machinery.runner import run
-from campaigns.motions.along import Lattice, Motion, from_rest
-from campaigns.motions.proposals import screened
-from campaigns.motions.starts import DISPLACED, start_job
-from campaigns.motions.sweep import job_of
-from campaigns.motions.transients import outlasting
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
 from campaigns.regime_map.tables import STATIC

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.buoy_sweep.rows import COLUMNS, EXTREMES, HEIGHT, REGIME, STEEPNESS, TANGENT
 from campaigns.columns import LOOPS, MESSAGE, RUN_KEY, STATUS, WALL_S, Column
+from campaigns.explore.rows import COLUMNS, EXTREMES, HEIGHT, REGIME, STEEPNESS, TANGENT
 from campaigns.machinery.folder import write_table
 from engine.atomic import write_atomic
 

@@ -19,14 +19,14 @@ from functools import partial, reduce
 from itertools import product
 from math import inf
 
-from campaigns.buoy_sweep import ROW_SOURCES, settings_of
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
+from campaigns.explore import sweep as motions
+from campaigns.explore.settings import ROW_SOURCES, settings_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
-from campaigns.motions import sweep as motions
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 
@@ -178,7 +178,7 @@ def runs(order: Order):
 
 def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
-    from campaigns.buoy_sweep import rows
+    from campaigns.explore import rows
 
     labels = tuple(one.column for one in order.own.vary)
     measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
@@ -199,7 +199,7 @@ def sweep_row(
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
     of an irregular sea its ramp, and what is `asked` for by --transient.
     """
-    from campaigns.buoy_sweep.rows import HEIGHT, buoy_row, height_m, settled, sound_part
+    from campaigns.explore.rows import HEIGHT, buoy_row, height_m, settled, sound_part
 
     scene = trajectory.scene
     if in_regular_waves(scene):
@@ -228,17 +228,17 @@ def parameters(order: Order) -> dict[str, object]:
 
 
 def beside(order: Order) -> Iterator[Callable]:
-    """What follows the runs over one key: the errors of their largest tensions (`campaigns.buoy_sweep.errors`)."""
+    """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
     if len(order.own.vary) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
-        from campaigns.buoy_sweep.errors import errors
+        from campaigns.explore.errors import errors
 
         yield errors
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """Over one key as `campaigns.buoy_sweep.answer`; over two how often each regime is found, and the largest load."""
+    """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load."""
     from campaigns.answers import greatest, known
-    from campaigns.buoy_sweep.answer import PEAK, largest, sentences, use_of
+    from campaigns.explore.answer import PEAK, largest, sentences, use_of
 
     keys = [one.key for one in order.own.vary]
     if len(keys) == 1:

@@ -20,7 +20,7 @@ _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
     "buoy_lateral_max_m",
 )  # fmt: skip
-_COARSE = 0.05  # of the largest tension, as in `campaigns.buoy_sweep.answer`
+_COARSE = 0.05  # of the largest tension, as in `campaigns.explore.answer`
 _OF_THESE = "Least and greatest value in the runs that ended as asked."
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
 Limit = tuple[str, Sequence[Run]]  # what limits runs, and these runs

@@ -12,7 +12,7 @@ from functools import partial
 import psutil
 import pytest
 
-from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Job, Plan
@@ -71,7 +71,7 @@ def test_an_analysis_that_fails_is_a_row_and_the_record_is_kept(sweep, monkeypat
     def broken(*_):
         raise FloatingPointError("no such thing")
 
-    monkeypatch.setattr("campaigns.buoy_sweep.rows.settled", broken)
+    monkeypatch.setattr("campaigns.explore.rows.settled", broken)
     code, rows, _ = sweep("--steepness", "0.05")
     assert (code, rows[0]["status"]) == (0, "analysis-failed")
     assert "no such thing" in rows[0]["message"]

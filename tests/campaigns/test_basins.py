@@ -10,7 +10,7 @@ from analysis import joins, settled
 from campaigns.basins import main, read_order
 from campaigns.basins.grid import PAIRS, Grid
 from campaigns.basins.smallest import SHARP, Shock, smallest
-from campaigns.motions.starts import KICKS, Start, section_of
+from campaigns.explore.starts import KICKS, Start, section_of
 from engine import load_scene, simulate, simulate_each
 from reports.basins.report import report
 from reports.parts.content import Figure, Table

@@ -12,10 +12,10 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 
 from campaigns import buoy_sweep
-from campaigns.buoy_sweep import batches
-from campaigns.buoy_sweep.batches import FRAMES, PERIODS, of_largest_tension
-from campaigns.buoy_sweep.rows import buoy_row
-from campaigns.buoy_sweep.space import SEED_MPS
+from campaigns.explore import batches
+from campaigns.explore.batches import FRAMES, PERIODS, of_largest_tension
+from campaigns.explore.rows import buoy_row
+from campaigns.explore.space import SEED_MPS
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of

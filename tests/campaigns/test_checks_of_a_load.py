@@ -3,7 +3,7 @@
 import pytest
 
 from campaigns.answers import regimes
-from campaigns.buoy_sweep.answer import sentences, use_of
+from campaigns.explore.answer import sentences, use_of
 from engine import load_scene
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from campaigns import buoy_sweep
-from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
+from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery import pools
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan

@@ -1,11 +1,11 @@
-"""How far a sweep's largest tension holds (`campaigns.buoy_sweep.errors`): the rule, and where rows say so."""
+"""How far a sweep's largest tension holds (`campaigns.explore.errors`): the rule, and where rows say so."""
 
 import numpy as np
 import pytest
 
-from campaigns.buoy_sweep.answer import OTHER
-from campaigns.buoy_sweep.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
-from campaigns.motions.starts import JOINED, UNSETTLED, settled_of
+from campaigns.explore.answer import OTHER
+from campaigns.explore.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
+from campaigns.explore.starts import JOINED, UNSETTLED, settled_of
 from campaigns.sweep import main as sweep_command
 from engine import load_scene, simulate
 from tests.campaigns.conftest import rows_of

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from campaigns.motions.tracing import Line, Scenes, Task, worked
+from campaigns.explore.tracing import Line, Scenes, Task, worked
 from campaigns.orbits import main
 from campaigns.orbits.tree import _on, _same
 from engine import load_scene

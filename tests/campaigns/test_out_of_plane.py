@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from campaigns import out_of_plane
-from campaigns.buoy_sweep.space import DIRECTIONS, SEED_MPS, in_space, velocity
 from campaigns.columns import names
+from campaigns.explore.space import DIRECTIONS, SEED_MPS, in_space, velocity
 from campaigns.machinery.folder import trajectory_path
 from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from campaigns.__main__ import _names
-from campaigns.buoy_sweep.answer import sentences
-from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.explore.answer import sentences
+from campaigns.explore.rows import COLUMNS
 from campaigns.machinery import progress
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Further, Job, Plan, length_of, name_of

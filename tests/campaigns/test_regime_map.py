@@ -5,15 +5,15 @@ import pytest
 
 from analysis.motions import Settled
 from campaigns import buoy_sweep
-from campaigns.motions import along as module
-from campaigns.motions.along import Lattice
-from campaigns.motions.starts import Ended
+from campaigns.explore import along as module
+from campaigns.explore.along import Lattice
+from campaigns.explore.starts import Ended
 from campaigns.regime_map import main, read_order
 from campaigns.regime_map.cells import Grid, Quadtree
 from campaigns.sweep import varied
 from tests.campaigns.conftest import finished, rows_of
+from tests.campaigns.explore.test_along import State
 from tests.campaigns.fake_engine import FakeEngine
-from tests.campaigns.motions.test_along import State
 
 SIDE = 10  # so that no cell lies on the line of symmetry, where an unstable state is reached
 VARY = "--vary", "waves.steepness", 0.02, 0.1, 3, "--vary", "water.depth_m", 21, 23, 2
@@ -69,7 +69,7 @@ class Scene:
 
 
 class Starts:
-    """As `campaigns.motions.starts.Starts`, of this system; count: how many were run."""
+    """As `campaigns.explore.starts.Starts`, of this system; count: how many were run."""
 
     def __init__(self, plan, named):
         self.ended, self.count = [], 0

@@ -13,8 +13,8 @@ import numpy
 import pytest
 
 from campaigns import buoy_sweep
-from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.columns import names
+from campaigns.explore.rows import COLUMNS
 from campaigns.machinery import session
 from campaigns.machinery.folder import CampaignStopped, keep_json, keep_row, kept_json, kept_row, made_by
 from campaigns.machinery.plan import Job
@@ -189,7 +189,7 @@ def test_a_row_comes_back_as_it_was_to_its_maker_alone_and_a_damaged_one_not_at_
 
 def test_the_maker_changes_with_settings_and_sources():
     makers = [made_by({"transient": 100}, "analysis"), made_by({"transient": 50}, "analysis")]
-    makers.append(made_by({"transient": 100}, "analysis", "campaigns/buoy_sweep/rows.py"))
+    makers.append(made_by({"transient": 100}, "analysis", "campaigns/explore/rows.py"))
     assert len(set(makers)) == 3 and made_by({"transient": 100}, "analysis") == makers[0]
     for absent in ("campaigns/rows_that_moved.py", "reports/templates"):
         with pytest.raises(FileNotFoundError):

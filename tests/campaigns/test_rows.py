@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from campaigns.buoy_sweep.rows import COLUMNS, buoy_row
 from campaigns.columns import names
+from campaigns.explore.rows import COLUMNS, buoy_row
 from engine import load_scene
 from engine.trajectory import TangentGrowth
 from tests.campaigns.fake_engine import STATISTICS, sines

@@ -10,8 +10,8 @@ from itertools import product
 
 import pytest
 
-from campaigns.buoy_sweep import rows as of_a_buoy
 from campaigns.columns import Column
+from campaigns.explore import rows as of_a_buoy
 from campaigns.machinery.folder import Table as Rows
 from campaigns.machinery.folder import write_json
 from campaigns.sweep import main, read_order
@@ -124,7 +124,7 @@ def test_the_campaign_of_the_page_is_complete(tmp_path):
 def test_the_column_of_the_page_reaches_the_table_and_its_dictionary(sweep, monkeypatch):
     page = (ROOT / "docs" / f"{PAGE}.md").read_text()
     column, line = re.findall(r"^    ((?:Column|row\[).*)$", page, re.MULTILINE)[:2]
-    source = (ROOT / "campaigns" / "buoy_sweep" / "rows.py").read_text()
+    source = (ROOT / "campaigns" / "explore" / "rows.py").read_text()
     measured = re.search(r"\n( +)row \|= .*measured.*\n", source)
     patched = source.replace("    STROBED,\n", f"    {column}\n    STROBED,\n")
     patched = patched.replace(measured[0], f"{measured[0]}{measured[1]}{line}\n")

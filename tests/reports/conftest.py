@@ -19,8 +19,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure as Drawing
 
 from campaigns import buoy_sweep
-from campaigns.buoy_sweep.rows import COLUMNS
 from campaigns.columns import dictionary
+from campaigns.explore.rows import COLUMNS
 from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (

@@ -16,7 +16,7 @@ import pandas
 import pytest
 
 from campaigns.accuracy.rows import COLUMNS as of_accuracy
-from campaigns.buoy_sweep.rows import COLUMNS as of_a_buoy
+from campaigns.explore.rows import COLUMNS as of_a_buoy
 from campaigns.machinery.folder import write_json, write_table
 from campaigns.out_of_plane.rows import COLUMNS as of_plane
 from engine import load_scene

@@ -13,7 +13,7 @@ import pytest
 from matplotlib.colors import same_color, to_hex
 
 import reports
-from campaigns.buoy_sweep.rows import COLUMNS
+from campaigns.explore.rows import COLUMNS
 from campaigns.machinery.folder import read_rows
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure, regime_items

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import same_color
 
-from campaigns.buoy_sweep.rows import COLUMNS, STEEPNESS
+from campaigns.explore.rows import COLUMNS, STEEPNESS
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure
 from reports.buoy_sweep.runs import read_sweep

@@ -5,8 +5,8 @@ import shutil
 import pytest
 
 from campaigns.basins.found import COLUMNS as of_basins
-from campaigns.buoy_sweep.rows import COLUMNS as of_sweeps
 from campaigns.columns import Column
+from campaigns.explore.rows import COLUMNS as of_sweeps
 from campaigns.out_of_plane.rows import COLUMNS as of_space
 from campaigns.regime_map.tables import motion_columns
 from engine import list_scenes, load_scene

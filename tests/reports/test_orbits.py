@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from campaigns.buoy_sweep.rows import COLUMNS, STEEPNESS
+from campaigns.explore.rows import COLUMNS, STEEPNESS
 from reports import content_of
 from reports.orbits.branches import read_branches
 from reports.orbits.report import report

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from campaigns.buoy_sweep.rows import COLUMNS, STEEPNESS
+from campaigns.explore.rows import COLUMNS, STEEPNESS
 from engine import load_scene
 from reports import build, content_of
 from reports.figures.regime_map import Cells, regime_maps

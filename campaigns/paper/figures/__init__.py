@@ -20,7 +20,7 @@ from campaigns.paper.measures import LARGE, SMALL
 
 LEFT_OUT = "left_out.json"
 MAKERS = ("figures", "measures.py", "measured.py")
-SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/buoy_sweep/rows.py")
+SHARED = ("analysis", "engine", "campaigns/figure_data.py", "campaigns/explore/rows.py")
 SOURCES = (*SHARED, *(f"campaigns/paper/{name}" for name in MAKERS))
 FIGURES = {  # of the paper -> what plans its data from the `Parts`; 1 and 8 are sketches
     **{number: partial(breaking, cases=FAST, quantity=quantity) for number, quantity in enumerate(SHOWN, 2)},

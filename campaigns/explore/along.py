@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 from string import ascii_uppercase
 
 from campaigns.columns import Column
+from campaigns.explore.proposals import kicks, proposals
+from campaigns.explore.starts import FOUND_BY, Asked, Ended, Start, Starts, as_it_is, settled_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan
-from campaigns.motions.proposals import kicks, proposals
-from campaigns.motions.starts import FOUND_BY, Asked, Ended, Start, Starts, as_it_is, settled_of
 
 MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
 MOTIONS = (

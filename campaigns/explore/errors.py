@@ -30,15 +30,15 @@ from functools import partial
 import numpy as np
 
 from campaigns.answers import PERIODIC, kilonewton, known
-from campaigns.buoy_sweep.answer import COARSE, OTHER
-from campaigns.buoy_sweep.batches import UNFOLLOWED, Batch, changed, finer
-from campaigns.buoy_sweep.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.columns import MESSAGE, PERIODS_RUN, RINGING, RUN_KEY, STATUS, WALL_S, Column, counted
+from campaigns.explore.answer import COARSE, OTHER
+from campaigns.explore.approach import orbit_ahead
+from campaigns.explore.batches import UNFOLLOWED, Batch, changed, finer
+from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
+from campaigns.explore.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
 from campaigns.judge import job_from, tighter_scene
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Plan, Summary
-from campaigns.motions.approach import orbit_ahead
-from campaigns.motions.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
 from engine import goes_in_lanes, simulate
 from engine.at_rest import static_tension_N
 

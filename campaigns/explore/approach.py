@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from analysis import Evidence, Verdict, approach_evidence, approached_period, next_look, poincare_section
-from campaigns.motions.multipliers import OrbitUnder, orbit_under
+from campaigns.explore.multipliers import OrbitUnder, orbit_under
 from engine.trajectory import Trajectory
 from engine.views import LONGEST_PERIOD, carries_tangents, state_of
 

@@ -3,9 +3,9 @@
 from functools import partial
 from types import SimpleNamespace
 
+from campaigns.explore.transients import TIMES, outlasting
 from campaigns.judge import going_on
 from campaigns.machinery.plan import Job
-from campaigns.motions.transients import TIMES, outlasting
 from engine import load_scene
 
 SCENE = load_scene("tethered_buoy", steepness=0.13)

@@ -22,10 +22,10 @@ from campaigns.columns import (
     names,
     number,
 )
+from campaigns.explore.along import MOTIONS
+from campaigns.explore.approach import judged_by_orbit
+from campaigns.explore.multipliers import MULTIPLIERS, orbit_row
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
-from campaigns.motions.along import MOTIONS
-from campaigns.motions.approach import judged_by_orbit
-from campaigns.motions.multipliers import MULTIPLIERS, orbit_row
 from engine.at_rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
 
@@ -122,7 +122,7 @@ def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int |
     origin are asked for too; the verdict does not rest on them. None: they are not made.
     A run gets a verdict (`campaigns.judge`) if it reached its end and lasts for two looks; in three dimensions, where
     no perturbations are carried, for 40 periods. A loop release after the transient leaves offplane_growth unknown,
-    because across the plane a loop has no rate of its own. `campaigns.buoy_sweep.space` fills the columns planar_.
+    because across the plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     row[HEIGHT.name] = height_m(scene, columns)

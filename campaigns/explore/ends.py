@@ -4,10 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
+from campaigns.explore.along import CARRIED, DOWN, MOTION, UP, Along, Motion
+from campaigns.explore.starts import JOINED, Asked, Ended, Start
 from campaigns.judge import tighter_scene
 from campaigns.machinery.folder import write_table
-from campaigns.motions.along import CARRIED, DOWN, MOTION, UP, Along, Motion
-from campaigns.motions.starts import JOINED, Asked, Ended, Start
 from engine.scene import scene_from_toml
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
@@ -111,8 +111,8 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
-    from campaigns.motions.orbit_tasks import lost
-    from campaigns.motions.tracing import Line, Task, work
+    from campaigns.explore.orbit_tasks import lost
+    from campaigns.explore.tracing import Line, Task, work
 
     span, tasks = max(along.values) - min(along.values), {}
     for end in ends:

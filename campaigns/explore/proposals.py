@@ -7,11 +7,11 @@ from functools import cache, partial
 import numpy as np
 
 import engine
+from campaigns.explore.starts import Start
 from campaigns.machinery.folder import keep_json, kept_json, made_by
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import opened
 from campaigns.machinery.progress import stage
-from campaigns.motions.starts import Start
 from engine.scales import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
@@ -72,7 +72,7 @@ def _key_of(scene, *settings) -> str:
 
 @cache
 def _made() -> str:
-    return made_by({}, "analysis", "campaigns/motions/proposals.py")
+    return made_by({}, "analysis", "campaigns/explore/proposals.py")
 
 
 def _proposed(kicked: np.ndarray, task: list[tuple]) -> list[list[dict]]:

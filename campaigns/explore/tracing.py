@@ -1,4 +1,4 @@
-"""Scenes along a key, and what workers do with their orbits (`campaigns.motions.orbit_tasks`).
+"""Scenes along a key, and what workers do with their orbits (`campaigns.explore.orbit_tasks`).
 
 Each is one task with a result of plain numbers, words and arrays, kept in a file of the folder under a key of all that
 it depends on: a campaign that was killed goes on behind the last one.
@@ -15,15 +15,15 @@ from pathlib import Path
 import numpy as np
 
 import engine
+from campaigns.explore.multipliers import TOLERANCE, cable_map
 from campaigns.machinery.folder import CampaignStopped, made_by
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import stage
-from campaigns.motions.multipliers import TOLERANCE, cable_map
 from engine.atomic import write_atomic
 from engine.scene import SceneError, scene_from_toml
 
-_OWN = (f"campaigns/motions/{name}.py" for name in ("tracing", "orbit_tasks", "multipliers"))
+_OWN = (f"campaigns/explore/{name}.py" for name in ("tracing", "orbit_tasks", "multipliers"))
 SOURCES = "analysis/orbits", "analysis/sampling.py", *_OWN
 
 

@@ -12,11 +12,11 @@ import pytest
 
 from analysis.motions import Settled, joins, share_of
 from campaigns.columns import Column
-from campaigns.motions import along as module
-from campaigns.motions import ends
-from campaigns.motions.along import Along
-from campaigns.motions.proposals import kicks
-from campaigns.motions.starts import Ended, Start
+from campaigns.explore import along as module
+from campaigns.explore import ends
+from campaigns.explore.along import Along
+from campaigns.explore.proposals import kicks
+from campaigns.explore.starts import Ended, Start
 
 FOLD = 2.0 / (3.0 * math.sqrt(3.0))
 VALUES = [round(-0.6 + 0.1 * step, 1) for step in range(13)]
@@ -48,7 +48,7 @@ class Scene:
 
 
 class FakeStarts:
-    """As `campaigns.motions.starts.Starts`, of this system."""
+    """As `campaigns.explore.starts.Starts`, of this system."""
 
     def __init__(self, plan, named):
         self.ended, self.count = [], 0

@@ -89,8 +89,8 @@ def job_of(order: Order, job: Job, motion, labels: dict, most: int | None = None
 
     most: as of `campaigns.judge.judged_job`.
     """
-    from campaigns.motions.along import FROM_REST, KICKED
-    from campaigns.motions.transients import as_long_as
+    from campaigns.explore.along import FROM_REST, KICKED
+    from campaigns.explore.transients import as_long_as
 
     if motion.found_by == FROM_REST:
         return replace(job, labels={**job.labels, **labels})
@@ -105,11 +105,11 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
     """
 
     def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.motions import ends
-        from campaigns.motions.along import FROM_REST, Along
-        from campaigns.motions.starts import DISPLACED, start_job
-        from campaigns.motions.tracing import Scenes
-        from campaigns.motions.transients import outlasting
+        from campaigns.explore import ends
+        from campaigns.explore.along import FROM_REST, Along
+        from campaigns.explore.starts import DISPLACED, start_job
+        from campaigns.explore.tracing import Scenes
+        from campaigns.explore.transients import outlasting
 
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
         later = plan.then or (lambda seconds: 0.0)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from campaigns.buoy_sweep.rows import buoy_row
-from campaigns.motions.approach import orbit_ahead
-from campaigns.motions.proposals import SCREENED, _motions
-from campaigns.motions.starts import settled_of
+from campaigns.explore.approach import orbit_ahead
+from campaigns.explore.proposals import SCREENED, _motions
+from campaigns.explore.rows import buoy_row
+from campaigns.explore.starts import settled_of
 from engine import load_scene, simulate
 
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 import engine
-from campaigns.motions.multipliers import COUNT
-from campaigns.motions.tracing import Line
+from campaigns.explore.multipliers import COUNT
+from campaigns.explore.tracing import Line
 
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
