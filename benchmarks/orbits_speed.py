@@ -11,9 +11,7 @@ from collections import Counter
 from dataclasses import replace
 
 from analysis.orbits import OrbitMap, find_orbit, follow_branch, scatter_of
-from analysis.oscillator import SnapOscillator
-from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import tangent_map
+from analysis.oscillator import SnapOscillator, snap_map
 from benchmarks.shared import on_one_core, parser, print_load, seconds
 from campaigns.explore.multipliers import cable_map
 from engine import load_scene, simulate
@@ -51,16 +49,6 @@ class Counted:
         return found[0]
 
 
-def snap_map() -> OrbitMap:
-    """Eq. (33) over its force."""
-
-    def step(z, force):
-        x, v, matrix = tangent_map(z[0], z[1], 1, tables(replace(SnapOscillator(), force=force)))
-        return [x, v], lambda V: matrix @ V
-
-    return OrbitMap(step)
-
-
 def measure(name, system, start, low, value, high, orbits):
     """An orbit from a start, and a branch of it, twice: the first compiles."""
     counted = Counted(system)
@@ -83,7 +71,7 @@ def main():
     on_one_core(asked.core)
     print_load()
     for _ in range(asked.rounds):
-        measure("eq. (33)", snap_map(), [0.68, 0.0], 0.2, 0.5, 2.0, 60)
+        measure("eq. (33)", snap_map(SnapOscillator()), [0.68, 0.0], 0.2, 0.5, 2.0, 60)
     if asked.cable:
 
         def scene_of(value):

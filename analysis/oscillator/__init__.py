@@ -1,4 +1,4 @@
-"""Eq. (33), the snap oscillator, integrated exactly: section, exponents, diagrams, basins, periodic orbits, grazing.
+"""Eq. (33), the snap oscillator, integrated exactly: section, exponents, diagrams, periodic orbits, grazing.
 
     from analysis.oscillator import SnapOscillator, snap_exponents
     print(snap_exponents(SnapOscillator()).first)
@@ -14,8 +14,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "attractors": [
-            "Grazing", "PeriodicOrbit", "SnapBasins", "clearance", "grazing_force", "periodic_orbit",
-            "search_periodic_orbits", "snap_basins", "start_grid",
+            "Grazing", "clearance", "grazing_force", "search_periodic_orbits", "settled_periods", "snap_map",
+            "start_grid",
         ],
         "equation": ["SnapOscillator"],
         "growth": ["SnapDiagram", "SnapExponents", "section_dimension", "snap_diagram", "snap_exponents"],

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent
-from analysis.oscillator.attractors import PAPER_BOX, snap_basins
+from analysis.oscillator.attractors import PAPER_BOX, settled_periods
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.strobing import growth_over_values
@@ -14,7 +14,7 @@ from analysis.sampling import checked_count, checked_series
 
 METHOD = "tangent map of eq. (33), QR every period (Benettin et al. 1980)"
 PARAMETERS = ("damping", "frequency", "force", "lift")
-_WATCHED = 1024  # periods after the averages in which a start may show that it was on a periodic orbit
+_WATCHED = 640  # periods after the averages in which a start may show that it was on a periodic orbit
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,6 @@ def snap_exponents(
     transient_periods: int = 500,
     periods: int = 2000,
     blocks: int = 20,
-    keep_periodic: bool = False,
     seed: int = 0,
 ) -> SnapExponents:
     """Both exponents of eq. (33) from the exact tangent map, averaged over independent starts.
@@ -75,8 +74,8 @@ def snap_exponents(
     lambda_i = mean of ln R_ii over the periods / T;   error = s.d. over starts/sqrt(n)
 
     Independent starts make the error honest: nothing is assumed about correlation in time. The error falls as n^-1/2.
-    A start that is on a periodic attractor by then (`snap_basins` over 1024 further periods, periods up to 32) belongs
-    to another attractor, and is counted in `elsewhere`; `keep_periodic` averages over all starts instead.
+    A start that is on a periodic attractor by then (`settled_periods` after 640 further periods) belongs to another
+    attractor, and is counted in `elsewhere`.
 
     starts              (n, 2) states (g, g') at time 0; None: `count` of them, uniformly random in the box
                         g in [-60, 20], g' in [-25, 25], from `seed`
@@ -94,9 +93,10 @@ def snap_exponents(
     if not np.isfinite(rates).all():
         reason = "an orbit could not be computed: more than 4096 pieces in one period"
     on = np.ones(len(rates), dtype=bool)
-    if not keep_periodic and not reason:
-        wandering = snap_basins(oscillator, end, _WATCHED).settled < 0
-        on = wandering if wandering.any() else on
+    if not reason:
+        wandering = settled_periods(oscillator, end, _WATCHED)[0] == 0
+        if wandering.any():
+            on = wandering
     return _averaged(oscillator, rates[on], slack[on], periods, int((~on).sum()), reason)
 
 

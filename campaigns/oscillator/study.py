@@ -20,7 +20,7 @@ from analysis.compiled import source_hash
 from analysis.oscillator import (
     SnapOscillator,
     search_periodic_orbits,
-    snap_basins,
+    settled_periods,
     snap_diagram,
     snap_exponents,
     snap_motion,
@@ -143,14 +143,12 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
 def orbits(o: SnapOscillator, order: Namespace) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
     guesses = _scaled(400, order.effort, 20)
-    basins = snap_basins(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
+    settled, ends = settled_periods(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
     starts = np.concatenate([strobed_states(o, START, guesses, 1000), start_grid(12, 8)])
     table, points = [], []
     for period in range(1, LONGEST_ORBIT + 1):
-        known = [orbit[:1] for orbit in basins.orbits if len(orbit) == period]
-        for orbit in search_periodic_orbits(o, period, np.concatenate([*known, starts])):
-            m = orbit.multipliers[np.argsort(-np.abs(orbit.multipliers), kind="stable")]
-            table.append([period, *m.view(float), orbit.residual, len(points)])
+        for orbit in search_periodic_orbits(o, period, np.concatenate([ends[settled == period][:1], starts])):
+            table.append([period, *orbit.multipliers.view(float), orbit.gap, len(points)])
             points.extend(orbit.points)
     arrays = {"table": np.array(table), "points": np.array(points)} if table else {}
     return arrays, {"points": len(table), "starts": len(starts)}

@@ -9,10 +9,9 @@ from analysis.oscillator import (
     SnapOscillator,
     clearance,
     grazing_force,
-    periodic_orbit,
     search_periodic_orbits,
     section_dimension,
-    snap_basins,
+    settled_periods,
     snap_diagram,
     snap_exponents,
     snap_motion,
@@ -38,7 +37,7 @@ def test_largest_exponent_within_three_standard_errors():
 @pytest.mark.parametrize("damping", [0.0, 0.025, 0.4, 1.9])
 def test_exponents_and_damping_add_up_to_zero(damping):
     oscillator = SnapOscillator(damping=damping)
-    found = snap_exponents(oscillator, count=8, transient_periods=20, periods=1000, keep_periodic=True)
+    found = snap_exponents(oscillator, count=8, transient_periods=20, periods=1000)
     assert abs(found.first.value + found.second.value + damping) < 1e-12
     assert np.abs(found.of_start.sum(axis=1) + damping).max() < 1e-12
 
@@ -89,7 +88,7 @@ def test_dimension_of_the_section():
 def test_diagram_agrees_with_single_runs():
     starts = random_starts(3, 4)
     diagram = snap_diagram(PAPER, "force", [0.15, 1.4], starts, transient_periods=100, periods=200, points=50)
-    alone = snap_exponents(PAPER, starts, transient_periods=100, periods=200, blocks=10, keep_periodic=True)
+    alone = snap_exponents(PAPER, starts, transient_periods=100, periods=200, blocks=10)
     assert np.allclose(diagram.exponents[1], alone.of_start, rtol=0, atol=1e-14)
     assert diagram.section.shape == (2, 3, 50, 2)
     assert (diagram.exponents.sum(axis=2) + 0.025 < 1e-12).all()
@@ -102,44 +101,33 @@ def test_faults_are_named():
         snap_exponents(PAPER, periods=101, blocks=20)
 
 
-@pytest.mark.slow
-def test_about_six_in_a_hundred_starts_end_on_the_orbit_of_period_8_with_its_multipliers():
-    basins = snap_basins(PAPER, random_starts(600, 8), 3000)
-    assert [len(orbit) for orbit in basins.orbits] == [8]
-    assert abs(basins.shares[0] - 0.06) < 3 * basins.errors[0]
-    assert basins.shares.sum() == pytest.approx(1.0)
-    orbit = periodic_orbit(PAPER, 8, basins.orbits[0][3] + [1e-3, -1e-3])
-    assert orbit.period == 8 and orbit.stable and orbit.residual < 1e-12
+def test_some_starts_end_on_the_orbit_of_period_8_which_attracts_as_its_multiplier_says():
+    starts, share = random_starts(150, 8), 0.06
+    periods, ends = settled_periods(PAPER, starts, 1500)
+    assert set(periods) == {0, 8}
+    assert abs((periods == 8).mean() - share) < 3 * np.sqrt(share * (1.0 - share) / len(starts))
+    beside = ends[periods == 8][0] + np.array([1e-3, -1e-3])
+    (orbit,) = search_periodic_orbits(PAPER, 8, beside)
+    assert orbit.stable and orbit.gap < 1e-12 and orbit.points[:, 0].argmin() == 0
     assert np.prod(orbit.multipliers).real == pytest.approx(np.exp(-0.025 * 8 * PAPER.period), rel=1e-12)
     # The slower multiplier is the rate at which a start really comes in.
-    away = strobed_states(PAPER, orbit.points[0] + [1e-4, 0.0], 401)[::8] - orbit.points[0]
-    distance = np.linalg.norm(away, axis=1)
+    offsets = strobed_states(PAPER, orbit.points[0] + [1e-4, 0.0], 401)[::8] - orbit.points[0]
+    distance = np.linalg.norm(offsets, axis=1)
     assert (distance[50] / distance[30]) ** (1 / 20) == pytest.approx(np.abs(orbit.multipliers).max(), rel=1e-3)
 
 
-@pytest.mark.slow
-def test_points_of_an_orbit_are_its_own_images():
-    for orbit in search_periodic_orbits(PAPER, 3, strobed_states(PAPER, (0.68, 0.0), 60, 100)):
-        again = strobed_states(PAPER, orbit.points[0], 4)
-        assert np.abs(again[:3] - orbit.points).max() < 1e-9 and np.abs(again[3] - again[0]).max() < 1e-11
-        assert not orbit.stable
+def test_orbits_are_found_once_and_of_the_least_period_alone():
+    starts = start_grid(10, 10)
+    (fixed,) = search_periodic_orbits(PAPER, 1, starts)
+    assert strobed_states(PAPER, fixed.points[0], 2)[1] == pytest.approx(fixed.points[0], abs=1e-12)
+    assert not search_periodic_orbits(PAPER, 6, fixed.points)
+    assert not search_periodic_orbits(SnapOscillator(lift=-0.5, damping=0.2), 1, (-5.0, 0.0))
 
 
-def test_a_divisor_is_reported_as_the_period_and_newton_gives_up_where_there_is_no_orbit():
-    fixed = search_periodic_orbits(PAPER, 1, start_grid(10, 10))[0]
-    assert periodic_orbit(PAPER, 6, fixed.points[0]).period == 1
-    assert periodic_orbit(SnapOscillator(lift=-0.5, damping=0.2), 1, (-5.0, 0.0)) is None
-
-
-def test_a_single_attractor_takes_every_start_of_a_grid_that_covers_the_box_evenly():
+def test_a_grid_covers_its_box_evenly():
     grid = start_grid(8, 5)
     assert np.allclose(grid.mean(axis=0), [-20.0, 0.0]) and grid[:, 0].min() == -55.0 and grid[:, 1].max() == 20.0
     assert np.array_equal(start_grid(2, 1, (0.0, 4.0, -1.0, 1.0)), [[1.0, 0.0], [3.0, 0.0]])
-    found = snap_basins(SnapOscillator(force=0.05), grid, 2000)
-    assert list(found.shares) == [1.0, 0.0] and found.periods == 2000
-    looked_longer = snap_basins(SnapOscillator(force=0.05), grid, 2000, longest_period=80)
-    assert np.array_equal(looked_longer.label, found.label) and looked_longer.settled.min() >= 160
-    assert (found.label == 0).all() and (found.settled > 0).all()
 
 
 @pytest.mark.parametrize("numbers", [{"damping": 0.3, "frequency": 0.4}, {"frequency": 2.5, "lift": 0.2, "phase": 1.0}])
