@@ -59,7 +59,7 @@ def approach_evidence(
     arrived = bool(distances[2] <= THERE)
     passed = attracts and (comes_nearer or arrived)
     shown = float(np.exp(-rates.mean() * period))
-    what = "attracts" if attracts else "is not known to attract"
+    attraction = "attracts" if attracts else "is not known to attract"
     way = f"the run comes nearer as that says ({shown:.4f} each time)"
     if arrived:
         way = "the run lies on it"
@@ -67,7 +67,7 @@ def approach_evidence(
         way = f"the run is not shown to come nearer as that says ({shown:.4f} each time)"
     sentence = (
         f"a period-{period} orbit lies {100.0 * distances[2]:.2g} % of the motion away; "
-        f"it {what} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
+        f"it {attraction} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
         f"and {way}"
     )
     return Evidence("approach", shown, float(moduli[0]), passed, sentence)

@@ -232,9 +232,9 @@ def choose_embedding(
             driven_away = next_coordinate > FALSE_RATIO * separation
             too_far = np.hypot(separation, next_coordinate) > FALSE_SIZE * np.std(x)
             share[m - 1] = np.mean(driven_away | too_far)
-        apart = radius > 0.0
-        if np.any(apart):
-            growth[m - 1] = np.mean(np.maximum(radius, next_coordinate)[apart] / radius[apart])
+        separated = radius > 0.0
+        if np.any(separated):
+            growth[m - 1] = np.mean(np.maximum(radius, next_coordinate)[separated] / radius[separated])
             change[m - 1] = np.mean(next_coordinate)
     with np.errstate(divide="ignore", invalid="ignore"):
         e1, e2 = growth[1:] / growth[:-1], change[1:] / change[:-1]

@@ -24,8 +24,7 @@ IRREGULAR = 0.9
 LEAST_ADVANTAGE = 0.2
 # The same in bands: noise that drives a cycle through a curved map reaches 0.35, chaos in 1 % of noise 0.7.
 LEAST_IN_BANDS = 0.5
-STAYS = 0.35
-NEAR = 0.35
+STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
 # A line nearer than this to j/N, in turns over the record, is one with period N as far as the record goes.
 LEAST_TURN = 0.25
 # What a line must carry: the weaker ones ride on noise.
@@ -138,12 +137,18 @@ def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Eviden
     return Evidence("exponent", exponent.value, 0.0, passed, sentence, exponent.error)
 
 
-def growth_evidence(section: np.ndarray) -> Evidence:
-    """Neighbours stay neighbours: the section is that of a torus (or of a period seen through noise)."""
+def growth_evidence(section: np.ndarray, least: float = 0.0) -> Evidence:
+    """Neighbours stay neighbours: the section is that of a torus (or of a period seen through noise).
+
+    least: distance, in sizes of the section, below which distances are one, because integration differs by as much.
+    """
     neighbours = neighbour_growth(section)
     growth = neighbours.growth
     if not np.isfinite(growth):
         return Evidence("neighbours", growth, STAYS, None, neighbours.reason)
+    if least > 0.0:
+        distance = np.log(np.maximum(neighbours.distance, least))
+        growth = float(distance[(len(distance) - 1) // 2 :].mean() - distance[1:4].mean())
     passed = bool(abs(growth) < STAYS and neighbours.late < NEAR)
     return Evidence("neighbours", growth, STAYS, passed, f"{neighbours.reason} (growth {growth:.2f} nats)")
 

@@ -32,9 +32,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.evidence import Evidence, drift_evidence, incommensurate_evidence, period_evidence
+from analysis.evidence import (
+    Evidence,
+    drift_evidence,
+    growth_evidence,
+    incommensurate_evidence,
+    period_evidence,
+)
 from analysis.exponents import Exponent
-from analysis.neighbours import neighbour_growth
 from analysis.periods import PeriodEstimate, detect_period
 from analysis.sampling import checked_columns, checked_count, checked_series
 from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov, turned
@@ -53,7 +58,6 @@ SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a 
 CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
-STAYS, NEAR = 0.35, 0.35  # nats by which neighbours may part; what they are apart at most, in sizes of the section
 CLEARLY = 3.0  # tolerances from its orbit within which a periodic motion has settled
 
 
@@ -101,8 +105,8 @@ def motion_regime(
     *earlier, _ = looks(periods)  # the last one is at the end of the record
     twice = False
     if earlier:
-        before = _look(x, growth, earlier[-1], scale, tolerance, max_period)
-        twice = word == before.word or (period is not None and period == before.estimate.period)
+        earlier_look = _look(x, growth, earlier[-1], scale, tolerance, max_period)
+        twice = word == earlier_look.word or (period is not None and period == earlier_look.estimate.period)
     if word not in OPEN and not twice and not _alone(last, tighter is not None):
         word, reason = "undecided", f"{word} at the last look only: {reason}"
     if word == "chaotic" and tighter:
@@ -175,7 +179,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     section = x[start : end + 1]
     estimate = detect_period(section, max_period, tolerance, scale)
     known = turned(growth[:end], start)
-    (whole,) = tangent_lyapunov(known)
+    (full,) = tangent_lyapunov(known)
     (later,) = tangent_lyapunov(known[len(known) // 2 :])
     evidence, repeats = period_evidence(estimate), ""
 
@@ -187,37 +191,39 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         sentence = "bits per period in the later half, which have to be positive by two errors for chaos"
         evidence.append(Evidence("later half", later.value, LATER * later.error, rising, sentence, later.error))
     if estimate.period is not None:
-        shrinks, alone = evidence[1].passed is not False, not np.isfinite(growth[:end]).any()
-        evidence.append(_confirmation(estimate, whole, later))
-        if (evidence[-1].passed or alone) and (later.found or shrinks):
-            most = f"; perturbations grow by {evidence[-1].value:.3f} bits per period at most" if later.found else ""
-            return look(f"period-{estimate.period}", estimate.reason + most)
+        shrinks, without_growth = evidence[1].passed is not False, not np.isfinite(growth[:end]).any()
+        evidence.append(_confirmation(estimate, full, later))
+        if (evidence[-1].passed or without_growth) and (later.found or shrinks):
+            reason = estimate.reason
+            if later.found:
+                reason += f"; perturbations grow by {evidence[-1].value:.3f} bits per period at most"
+            return look(f"period-{estimate.period}", reason)
         repeats = f"; yet the strobed state {estimate.reason}"
     if not later.found:
-        few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
-        return look("transient" if _comes_nearer(estimate) else "undecided", few)
-    exponent, bits = whole.value, whole.value * len(known)
-    positive, grown = bool(exponent > POSITIVE * whole.error), bool(bits > LEAST_BITS)
+        too_few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
+        return look("transient" if _comes_nearer(estimate) else "undecided", too_few)
+    exponent, bits = full.value, full.value * len(known)
+    positive, grown = bool(exponent > POSITIVE * full.error), bool(bits > LEAST_BITS)
     sentence = f"bits per period, of the tangent dynamics over {len(known)} periods"
     evidence += [
-        Evidence("exponent", exponent, POSITIVE * whole.error, positive, sentence, whole.error),
+        Evidence("exponent", exponent, POSITIVE * full.error, positive, sentence, full.error),
         Evidence("growth", bits, LEAST_BITS, grown, "bits by which a perturbation grew in all"),
     ]
-    rate = f"{exponent:.3f} ± {whole.error:.3f} bits per period"
+    rate = f"{exponent:.3f} ± {full.error:.3f} bits per period"
     if rising and positive and grown:
         return look("chaotic", f"perturbations grow by {rate}, and so they do in the later half")
     if repeats:
         return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
-    bound = abs(exponent) + 2.0 * whole.error
-    about_zero = bool(bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * whole.error))
+    bound = abs(exponent) + 2.0 * full.error
+    about_zero = bool(bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * full.error))
     sentence = f"|exponent| and two errors, bits per period; if it is positive, less than {SHEAR:g} bits in all"
     evidence.append(Evidence("about zero", bound, ABOUT_ZERO, about_zero, sentence))
-    neighbours = _neighbours(section, tolerance)
+    neighbours = growth_evidence(section, tolerance)
     drift = drift_evidence(section, neighbours)
     evidence += [neighbours, drift]
     if drift.passed:
         return look("transient", drift.sentence)
-    if exponent + LATER * whole.error < 0.0:
+    if exponent + LATER * full.error < 0.0:
         return look("transient", f"perturbations shrink ({rate}), but no period is met yet")
     if about_zero and neighbours.passed:
         evidence.append(incommensurate_evidence(section, max_period))
@@ -228,17 +234,17 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     return look("undecided", f"no period; {rate}; not met: {', '.join(lacking)}")
 
 
-def _confirmation(estimate: PeriodEstimate, whole: Exponent, later: Exponent) -> Evidence:
+def _confirmation(estimate: PeriodEstimate, full: Exponent, later: Exponent) -> Evidence:
     """The test that a state which repeats should pass, because the rest of the system need not repeat with it.
 
-    whole, later: exponents of the part and of its later half. Without them the state has to repeat more closely than
+    full, later: exponents of the part and of its later half. Without them the state has to repeat more closely than
     within the tolerance: a buoy misses its period by more than a fifth of it where its rope is chaotic.
     """
     if later.found:
-        most = min(found.value + LATER * found.error for found in (whole, later))
+        largest = min(full.value + LATER * full.error, later.value + LATER * later.error)
         rising = later.value > LATER * later.error
         sentence = "bits per period by which perturbations grow at most, two errors included"
-        return Evidence(NO_GROWTH, most, SEEN, bool(most < SEEN and not rising), sentence)
+        return Evidence(NO_GROWTH, largest, SEEN, bool(largest < SEEN and not rising), sentence)
     residual, bound = float(estimate.residual[estimate.period - 1]), CLOSELY * estimate.tolerance
     sentence = "share of the scale by which the period is missed, where perturbations do not tell"
     return Evidence(CLOSE, residual, bound, bool(residual <= bound), sentence)
@@ -253,29 +259,18 @@ def _comes_nearer(estimate: PeriodEstimate):
     return math.exp(min(trends) * (estimate.points // 4)) < COMES_NEARER
 
 
-def _neighbours(section, tolerance):
-    """Neighbours stay neighbours, where distances below the tolerance are one: integration differs by as much."""
-    found = neighbour_growth(section)
-    if not np.isfinite(found.growth):
-        return Evidence("neighbours", found.growth, STAYS, None, found.reason)
-    distance = np.log(np.maximum(found.distance, tolerance))
-    growth = float(distance[(len(distance) - 1) // 2 :].mean() - distance[1:4].mean())
-    passed = bool(abs(growth) < STAYS and found.late < NEAR)
-    return Evidence("neighbours", growth, STAYS, passed, f"nats; {found.reason}")
-
-
 def _settled(x, estimate: PeriodEstimate):
     """The period from which on a periodic motion is on its orbit."""
     orbit = estimate.orbit[(np.arange(len(x)) - len(x)) % estimate.period]
-    away = np.abs(x - orbit) / estimate.scale > CLEARLY * estimate.tolerance
-    off = np.flatnonzero(away.any(axis=1))
+    off_orbit = np.abs(x - orbit) / estimate.scale > CLEARLY * estimate.tolerance
+    off = np.flatnonzero(off_orbit.any(axis=1))
     return int(off[-1]) + 1 if len(off) else 0
 
 
 def _on_the_way(growth):
     """What a periodic motion went through before, where that was chaos."""
-    (found,) = tangent_lyapunov(growth[np.isfinite(growth)])
-    chaos = found.found and found.value > POSITIVE * found.error
+    (exponent,) = tangent_lyapunov(growth[np.isfinite(growth)])
+    chaos = exponent.found and exponent.value > POSITIVE * exponent.error
     return f", after a chaotic transient of {len(growth)} periods" if chaos else ""
 
 

@@ -99,8 +99,8 @@ def settled(
     across = max(_nearest(first, second).mean(), _nearest(second, first).mean())
     if across > LIKE * within or record_drift(rows[-2 * window :]).drifting:
         return None
-    apart = f"lie {across:.2g} of the scale apart, neighbours within them {within:.2g}"
-    reason = f"no period up to {max_period}; two windows of {window} periods {apart}"
+    distances = f"lie {across:.2g} of the scale apart, neighbours within them {within:.2g}"
+    reason = f"no period up to {max_period}; two windows of {window} periods {distances}"
     return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
 
 
@@ -119,13 +119,16 @@ def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, 
     """
     if len(strobed) != len(measures) + 1:
         raise ValueError(f"measures: {len(strobed) - 1} rows are needed, given {len(measures)}")
-    count = max((max((motion.period or 1) + LAST, 3 * _window(motion)) for motion in known), default=1)
+    count = 1
+    for motion in known:
+        count = max(count, (motion.period or 1) + LAST, 3 * _window(motion))
     x, e = checked_columns(strobed[-count - 1 :], "strobed"), checked_columns(measures[-count:], "measures")
     reached = {}
     for index, motion in enumerate(known):
-        away = (_from_orbit if motion.period else _from_cloud)(x, e, motion, tolerance)
-        if away is not None:
-            reached[index] = away
+        distance_from = _from_orbit if motion.period else _from_cloud
+        mean_distance = distance_from(x, e, motion, tolerance)
+        if mean_distance is not None:
+            reached[index] = mean_distance
     return min(reached, key=reached.get, default=None)
 
 
@@ -136,44 +139,50 @@ def distance(a: Settled, b: Settled) -> float:
     """
     scale = np.maximum(a.scale, b.scale)
     size = np.maximum(_size(a.measures), _size(b.measures))
-    one, other = (_rows(m.points, m.measures, scale, size) for m in (a, b))
-    apart = [
-        float(_nearest(from_, to).mean()) - (0.0 if motion.period else _spacing(to))
-        for from_, to, motion in ((one, other, b), (other, one, a))
-    ]
+    rows_a, rows_b = _rows(a.points, a.measures, scale, size), _rows(b.points, b.measures, scale, size)
+    distances = []
+    for rows, targets, motion in ((rows_a, rows_b, b), (rows_b, rows_a, a)):
+        distances.append(float(_nearest(rows, targets).mean()))
+        if not motion.period:
+            distances[-1] -= _spacing(targets)
+    if a.period or b.period:
+        return max(0.0, *distances)
     # A record of chaos may have stayed in one part of its cloud: then it lies on the other, and not the other on it.
-    return max(0.0, (max if a.period or b.period else min)(apart))
+    return max(0.0, min(distances))
 
 
-def grouped(found: Sequence[Settled], *, threshold: float = APART) -> np.ndarray:
+def grouped(motions: Sequence[Settled], *, threshold: float = APART) -> np.ndarray:
     """Which settled runs are one motion: labels (n,), 0 for that of the first, then in the order of appearance.
 
     threshold   mean `distance` below which two groups are joined (average linkage)
     """
-    if len(found) < 2:
-        return np.zeros(len(found), dtype=int)
+    if len(motions) < 2:
+        return np.zeros(len(motions), dtype=int)
     from scipy.cluster.hierarchy import fcluster, linkage
 
-    pairs = [distance(a, b) for i, a in enumerate(found) for b in found[i + 1 :]]
+    pairs = [distance(a, b) for i, a in enumerate(motions) for b in motions[i + 1 :]]
     label = fcluster(linkage(pairs, "average"), threshold, "distance")
     order = list(dict.fromkeys(label))
-    return np.array([order.index(one) for one in label])
+    return np.array([order.index(group) for group in label])
 
 
-def matched(before: Sequence[Settled], after: Sequence[Settled], *, threshold: float = 0.3) -> list[int | None]:
+def matched(earlier: Sequence[Settled], later: Sequence[Settled], *, threshold: float = 0.3) -> list[int | None]:
     """Which motion at the next value of a parameter continues which: the pairs of least total `distance`.
 
     threshold   distance beyond which a motion has ended or begun instead
-    Returns for each of `before` the index in `after`, or None.
+    Returns for each of `earlier` the index in `later`, or None.
     """
     from scipy.optimize import linear_sum_assignment
 
-    cost = np.array([[min(distance(a, b), 2.0 * threshold) for b in after] for a in before]).reshape(
-        len(before), len(after)
-    )
-    pairs = zip(*linear_sum_assignment(cost), strict=True)
-    kept = {int(i): int(j) for i, j in pairs if cost[i, j] < threshold}
-    return [kept.get(i) for i in range(len(before))]
+    cost = np.empty((len(earlier), len(later)))
+    for i, a in enumerate(earlier):
+        for j, b in enumerate(later):
+            cost[i, j] = min(distance(a, b), 2.0 * threshold)
+    partners: list[int | None] = [None] * len(earlier)
+    for i, j in zip(*linear_sum_assignment(cost), strict=True):
+        if cost[i, j] < threshold:
+            partners[i] = int(j)
+    return partners
 
 
 def share_of(count: int, of: int, confidence: float = 0.95) -> Share:
@@ -190,13 +199,13 @@ def _checked(strobed, measures, scale):
     if len(x) != len(e) + 1:
         raise ValueError(f"measures: {len(x) - 1} rows are needed for {len(x)} states, given {len(e)}")
     scale = np.broadcast_to(np.asarray(scale, dtype=float), x.shape[1])
-    for one in scale:
-        checked_positive(one, "scale")
+    for entry in scale:
+        checked_positive(entry, "scale")
     return x, e, scale
 
 
 def _kept(period, points, measures, scale, reason):
-    return Settled(period, *(locked(np.array(a)) for a in (points, measures, scale)), reason)
+    return Settled(period, *map(locked, map(np.array, (points, measures, scale))), reason)
 
 
 def _size(measures):
@@ -208,11 +217,11 @@ def _rows(points, measures, scale, size):
     return np.hstack([points / scale, measures / size])
 
 
-def _nearest(rows, others):
+def _nearest(rows, targets):
     """Distance of each row from the nearest of the others."""
     from scipy.spatial import cKDTree
 
-    return cKDTree(others).query(rows, p=np.inf)[0]
+    return cKDTree(targets).query(rows, p=np.inf)[0]
 
 
 def _spacing(rows):
@@ -227,13 +236,29 @@ def _from_orbit(x, e, motion, tolerance):
     count = motion.period + LAST
     if len(e) < count:
         return None
+    distances = _off_orbit(x, e, motion, count, count)
+    early, late = _rms(distances[: count // 2]), _rms(distances[-(count // 2) :])
+    comes = distances.max() <= tolerance and late <= COMES_NEARER * early
+    if comes or distances.max() <= THERE or _decays(x, e, motion, tolerance):
+        return float(distances.mean())
+    return None
+
+
+def _off_orbit(x, e, motion, count, judged):
+    """Distances (count,) of the last rows from the orbit, in that order of its points in which the last `judged` of
+    them lie nearest."""
     size, orbit = _in_rows(motion)
     rows = _rows(x[-count - 1 : -1], e[-count:], motion.scale, size)
-    turned = (np.abs(rows - orbit[(np.arange(count) + k) % motion.period]).max(axis=1) for k in range(motion.period))
-    away = min(turned, key=np.max)
-    early, late = (np.sqrt(np.mean(part**2)) for part in (away[: count // 2], away[-(count // 2) :]))
-    comes = away.max() <= tolerance and late <= COMES_NEARER * early
-    return float(away.mean()) if comes or away.max() <= THERE or _decays(x, e, motion, tolerance) else None
+    nearest = None
+    for shift in range(motion.period):
+        distances = np.abs(rows - orbit[(np.arange(count) + shift) % motion.period]).max(axis=1)
+        if nearest is None or distances[-judged:].max() < nearest[-judged:].max():
+            nearest = distances
+    return nearest
+
+
+def _rms(values):
+    return np.sqrt(np.mean(values**2))
 
 
 def _window(motion):
@@ -247,16 +272,12 @@ def _decays(x, e, motion, tolerance):
     window = _window(motion)
     if len(e) < 3 * window:
         return False
-    size, orbit = _in_rows(motion)
-    rows = _rows(x[-3 * window - 1 : -1], e[-3 * window :], motion.scale, size)
-    order = np.arange(3 * window)
-    turned = (np.abs(rows - orbit[(order + k) % motion.period]).max(axis=1) for k in range(motion.period))
-    away = min(turned, key=lambda one: one[-window:].max()).reshape(3, window)
-    first, second, third = np.sqrt(np.mean(away**2, axis=1))
-    before, now = first - second, second - third
-    if away[2].max() > tolerance or now < FADES * third:
+    windows = _off_orbit(x, e, motion, 3 * window, window).reshape(3, window)
+    first, second, third = map(_rms, windows)
+    earlier_loss, later_loss = first - second, second - third
+    if windows[2].max() > tolerance or later_loss < FADES * third:
         return False
-    return bool(before <= now or third - now**2 / (before - now) <= THERE)
+    return bool(earlier_loss <= later_loss or third - later_loss**2 / (earlier_loss - later_loss) <= THERE)
 
 
 def _from_cloud(x, e, motion, tolerance):
@@ -265,8 +286,10 @@ def _from_cloud(x, e, motion, tolerance):
         return None
     size, tree, spacing = _as_cloud(motion)
     rows = _rows(x[-LAST - 1 : -1], e[-LAST:], motion.scale, size)
-    away = float(tree.query(rows, p=np.inf)[0].mean())
-    return away if away <= max(AS_CLOSE * spacing, OF_CLOUD * tolerance) else None
+    mean_distance = float(tree.query(rows, p=np.inf)[0].mean())
+    if mean_distance > max(AS_CLOSE * spacing, OF_CLOUD * tolerance):
+        return None
+    return mean_distance
 
 
 @lru_cache(maxsize=512)
@@ -291,7 +314,7 @@ def _comes_nearer(x, estimate: PeriodEstimate):
         return False
     nearest = int(np.nanargmin(estimate.residual)) + 1
     step = (x[nearest:] - x[:-nearest]) / estimate.scale
-    early, late = (np.sqrt(np.mean(part**2)) for part in (step[: len(step) // 2], step[-(len(step) // 2) :]))
-    most = np.exp(estimate.trend_nats_per_period[nearest - 1] * (estimate.points // 4))
+    early, late = _rms(step[: len(step) // 2]), _rms(step[-(len(step) // 2) :])
+    projected = np.exp(estimate.trend_nats_per_period[nearest - 1] * (estimate.points // 4))
     near = estimate.residual[nearest - 1] < CLOSE * estimate.tolerance
-    return bool(near and late < COMES_NEARER * early and most < COMES_NEARER)
+    return bool(near and late < COMES_NEARER * early and projected < COMES_NEARER)

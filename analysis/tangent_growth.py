@@ -49,12 +49,12 @@ def tangent_lyapunov(
     counted = np.ones(len(growth), dtype=bool) if left_out is None else ~np.asarray(left_out, dtype=bool)
     if counted.shape != (len(growth),):
         raise ValueError(f"left_out: {len(growth)} values are needed, given {counted.shape}")
-    kept = growth[start:][counted[start:]] / np.log(2.0)
-    periods = len(kept)
+    bits = growth[start:][counted[start:]] / np.log(2.0)
+    periods = len(bits)
     if periods < LEAST_PERIODS:
         reason = f"too short: {LEAST_PERIODS} periods of growth are needed, given {periods}"
         return tuple(no_exponent(METHOD, reason, BITS_PER_PERIOD) for _ in range(growth.shape[1]))
-    values, errors = _tapered_mean(kept)
+    values, errors = _tapered_mean(bits)
     reason = f"tapered mean growth over {periods} forcing periods, error from this one run's slowest fluctuations"
     return tuple(
         Exponent(float(value), float(error), BITS_PER_PERIOD, METHOD, reason, {"periods": periods})
@@ -88,10 +88,10 @@ def transverse_lyapunov(
     events = np.zeros(len(growth), dtype=bool) if released is None else np.asarray(released, dtype=bool)
     if events.shape != growth.shape:
         raise ValueError(f"released: {len(growth)} values are needed, given {events.shape}")
-    (found,) = tangent_lyapunov(growth, transient_periods)
+    (exponent,) = tangent_lyapunov(growth, transient_periods)
     if count := int(events[transient_periods:].sum()):
         return no_exponent(METHOD, f"loops were released in {count} of the periods that count", BITS_PER_PERIOD)
-    return found
+    return exponent
 
 
 def _tapered_mean(values):

@@ -19,6 +19,7 @@ In the paper: eq. (32) Lyapunov exponent.
 """
 
 from collections.abc import Iterable
+from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -92,15 +93,19 @@ def wolf_lyapunov(
 def _plateau(run, details):
     """The Exponent of runs over all settings: pairs of a dimension and an evolution time."""
     grid = len(details["dimensions"]), len(details["evolutions"])
-    settings = [(m, e) for m in details["dimensions"] for e in details["evolutions"]]
-    runs = [run(m, e) for m, e in settings]
-    values, errors, ends = np.array([(one.value, one.error, _typical_end(one)) for one in runs]).T
+    settings = list(product(details["dimensions"], details["evolutions"]))
+    runs, measured = [], []
+    for setting in settings:
+        runs.append(run(*setting))
+        measured.append((runs[-1].value, runs[-1].error, _typical_end(runs[-1])))
+    values, errors, ends = np.array(measured).T
     qualified = np.isfinite(values) & (ends <= LONGEST_END)
     arrays = {"values": values, "errors": errors, "end_lengths": ends, "qualified": qualified}
     details |= {name: locked(array.reshape(grid)) for name, array in arrays.items()}
     if np.sum(qualified) < min(LEAST_SETTINGS, len(runs)):
-        none = next((one.reason for one in runs if not np.isfinite(one.value)), "")
-        why = none or f"vectors end longer than {LONGEST_END} rms radii: the growth is bounded, not exponential"
+        why = f"vectors end longer than {LONGEST_END} rms radii: the growth is bounded, not exponential"
+        if not np.isfinite(values).all():
+            why = runs[int(np.argmin(np.isfinite(values)))].reason
         return no_exponent(METHOD, f"{np.sum(qualified)} of {len(runs)} settings qualify; {why}", details=details)
     value, used = float(np.median(values[qualified])), np.flatnonzero(qualified)
     low, high = np.quantile(values[used], [0.16, 0.84])

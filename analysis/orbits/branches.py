@@ -79,23 +79,31 @@ def follow_branch(
     """
     if not orbit.found or not low <= orbit.parameter <= high:
         raise ValueError(f"orbit: one within {low:g} and {high:g} is needed, given {orbit.parameter:g}, {orbit.reason}")
-    how = _Follower(system, low, high, least, longest, most, count, tolerance, accuracy, told)
-    first = how.place(orbit)
-    ahead, events, end, closed = how.one_way(first, checked_positive(step, "step"))
+    follower = _Follower(system, low, high, least, longest, most, count, tolerance, accuracy, told)
+    first = follower.place(orbit)
+    ahead, events, end, closed = follower.one_way(first, checked_positive(step, "step"))
     places, begin = [first, *ahead], end
     if not closed:
-        back, before, begin, _ = how.one_way(_reversed(first), step)
-        places, events = [*map(_reversed, back[::-1]), *places], before[::-1] + events
+        back, earlier_events, begin, _ = follower.one_way(_reversed(first), step)
+        places, events = [*map(_reversed, back[::-1]), *places], earlier_events[::-1] + events
     rates = np.array([place.rate for place in places])
     return Branch(tuple(place.orbit for place in places), rates, closed, (begin, end), tuple(events))
 
 
+@dataclass(frozen=True, eq=False)
 class _Follower:
-    """What stays the same along a branch."""
+    """What stays the same along a branch: the arguments of `follow_branch`."""
 
-    def __init__(self, system, low, high, least, longest, most, count, tolerance, accuracy, told):
-        self.system, self.low, self.high, self.least, self.longest = system, low, high, least, longest
-        self.most, self.count, self.tolerance, self.accuracy, self.told = most, count, tolerance, accuracy, told
+    system: OrbitMap
+    low: float
+    high: float
+    least: float
+    longest: float
+    limit: int
+    count: int
+    tolerance: float
+    accuracy: float
+    callback: Callable[[Orbit], object] | None
 
     def place(self, orbit):
         """The orbit with its tangent in the direction of a growing parameter."""
@@ -112,49 +120,51 @@ class _Follower:
     def one_way(self, first, step):
         """Places after the first; events between them; why they end; whether they come back to the first."""
         places, events = [first], []
-        while len(places) <= self.most:
-            here, again = places[-1], None
-            end, limited = self._limit(here, step)
+        while len(places) <= self.limit:
+            last, closing = places[-1], None
+            end, limited = self._limit(last, step)
             if limited == 0.0:
                 return places[1:], events, f"reaches the end of the range, {end:g}", False
             try:
-                place, easy = self._next(here, limited, end)
-                if _meets_half(self.system, here.orbit.points, place.orbit.points):
-                    return places[1:], events, f"meets the orbit of period {here.orbit.period // 2}", False
+                place, easy = self._next(last, limited, end)
+                if _meets_half(self.system, last.orbit.points, place.orbit.points):
+                    return places[1:], events, f"meets the orbit of period {last.orbit.period // 2}", False
                 if len(places) > 2:
-                    again = _come_back(self.system, first, here, place)
-                events += events_between(self.system, here, again or place, self.count, self.tolerance, self.accuracy)
+                    closing = _come_back(self.system, first, last, place)
+                place = closing or place
+                events += events_between(self.system, last, place, self.count, self.tolerance, self.accuracy)
             except ArithmeticError as why:
                 step = 0.5 * limited
                 if step < self.least:
-                    where = f"{here.orbit.parameter:.6g}"
-                    return places[1:], events, f"at {where} no step above {self.least:g} succeeds: {why}", False
+                    parameter = f"{last.orbit.parameter:.6g}"
+                    return places[1:], events, f"at {parameter} no step above {self.least:g} succeeds: {why}", False
                 continue
-            places.append(again or place)
-            if again is not None:
+            places.append(place)
+            if closing is not None:
                 return places[1:], events, "comes back to its beginning", True
-            if self.told and self.told(place.orbit):
+            if self.callback and self.callback(place.orbit):
                 return places[1:], events, "followed as far as asked", False
-            step = min(step * GROW, self.longest) if easy else step
-        return places[1:], events, f"followed over {self.most} orbits", False
+            if easy:
+                step = min(step * GROW, self.longest)
+        return places[1:], events, f"followed over {self.limit} orbits", False
 
-    def _limit(self, here, step):
+    def _limit(self, place, step):
         """The end of the range that a step would reach, or None; and the step, cut there."""
-        end = self.high if here.rate > 0.0 else self.low
-        room = (end - here.orbit.parameter) / self.system.parameter_size
-        return (end, room / here.rate) if abs(here.rate) * step >= abs(room) else (None, step)
+        end = self.high if place.rate > 0.0 else self.low
+        room = (end - place.orbit.parameter) / self.system.parameter_size
+        return (end, room / place.rate) if abs(place.rate) * step >= abs(room) else (None, step)
 
-    def _next(self, here, step, end):
+    def _next(self, place, step, end):
         """The place one step on, and whether Newton's method was quick. Raises NoImage where there is none.
 
         end: value at which the parameter is held, at the end of the range; None within it.
         """
-        size, tangent = self.system.parameter_size, self.system.row(here.change[0], here.rate)
-        points = here.orbit.points + step * here.change
-        parameter = here.orbit.parameter + step * here.rate * size if end is None else end
-        across, directions = tangent if end is None else None, real_span(here.orbit.vectors)
-        how = near_orbits(self.tolerance)
-        solved = solved_near(self.system, points, parameter, how, across, directions, here.slopes)
+        size, tangent = self.system.parameter_size, self.system.row(place.change[0], place.rate)
+        points = place.orbit.points + step * place.change
+        parameter = place.orbit.parameter + step * place.rate * size if end is None else end
+        across, directions = tangent if end is None else None, real_span(place.orbit.vectors)
+        newton = near_orbits(self.tolerance)
+        solved = solved_near(self.system, points, parameter, newton, across, directions, place.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
             raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:
@@ -167,9 +177,9 @@ class _Follower:
         return Place(orbit, change, rate, slopes), solved.iterations <= FEW
 
 
-def tangent_of(system, space, slopes, before):
+def tangent_of(system, space, slopes, direction):
     """The tangent in the direction of the row before (n + 1,): change (N, n) of the points, rate of the parameter."""
-    change, rate = space.solve(np.zeros_like(slopes), slopes, before, 1.0)
+    change, rate = space.solve(np.zeros_like(slopes), slopes, direction, 1.0)
     length = system.length(change[0], rate)
     return change / length, rate / length
 
@@ -178,17 +188,17 @@ def _reversed(place):
     return place._replace(change=-place.change, rate=-place.rate)
 
 
-def _meets_half(system, before, after):
+def _meets_half(system, previous, following):
     """Whether the two halves of an orbit of even period have changed places in between."""
-    half, odd = divmod(len(before), 2)
+    half, odd = divmod(len(previous), 2)
     if odd or not half:
         return False
-    return float(system.row(before[0] - before[half], 0.0) @ np.append(after[0] - after[half], 0.0)) < 0.0
+    return float(system.row(previous[0] - previous[half], 0.0) @ np.append(following[0] - following[half], 0.0)) < 0.0
 
 
-def _come_back(system, first, here, place):
+def _come_back(system, first, last, place):
     """The first place, begun where the branch comes back to it, if that lies on the chord from here; else None."""
-    begin = np.append(here.orbit.points[0], here.orbit.parameter / system.parameter_size)
+    begin = np.append(last.orbit.points[0], last.orbit.parameter / system.parameter_size)
     chord = np.append(place.orbit.points[0], place.orbit.parameter / system.parameter_size) - begin
     across, length = system.row(chord[:-1], chord[-1]), system.length(chord[:-1], chord[-1])
     for k in range(first.orbit.period):

@@ -81,22 +81,22 @@ def near_orbits(tolerance: float) -> Newton:
 
 
 def events_between(
-    system: OrbitMap, before: Place, after: Place, count: int, tolerance: float, accuracy: float
+    system: OrbitMap, begin: Place, end: Place, count: int, tolerance: float, accuracy: float
 ) -> list[Event]:
     """Events between two neighbours of a branch; none where their multipliers are not settled.
 
     Raises NoImage where multipliers leap across the unit circle, or an orbit in between is not found.
     """
     events = []
-    if not (before.orbit.settled and after.orbit.settled):
+    if not (begin.orbit.settled and end.orbit.settled):
         return events
     for kind, factors in FACTORS.items():
-        chord = _Chord(system, factors, before.orbit, after, count, tolerance)
-        ends = [chord.test(place.orbit) for place in (before, after)]
+        chord = _Chord(system, factors, begin.orbit, end, count, tolerance)
+        ends = [chord.test(place.orbit) for place in (begin, end)]
         if min(np.abs(ends)) > ROUNDING and ends[0] * ends[1] < 0.0:
             event = chord.event(kind, accuracy)
             events += [event] if event else []
-    backwards = after.orbit.parameter < before.orbit.parameter
+    backwards = end.orbit.parameter < begin.orbit.parameter
     return sorted(events, key=lambda event: event.parameter, reverse=backwards)
 
 
@@ -122,17 +122,18 @@ class _Chord:
         shares = sorted(self.orbits)
         right = min(max(int(np.searchsorted(shares, share)), 1), len(shares) - 1)
         a, b = shares[right - 1 : right + 1] if 0.0 <= share <= 1.0 else (0.0, 1.0)
-        before, after, part = self.orbits[a], self.orbits[b], (share - a) / (b - a)
-        points = before.points + part * (after.points - before.points)
-        return points, before.parameter + part * (after.parameter - before.parameter)
+        lower, upper, part = self.orbits[a], self.orbits[b], (share - a) / (b - a)
+        points = lower.points + part * (upper.points - lower.points)
+        return points, lower.parameter + part * (upper.parameter - lower.parameter)
 
     def look(self, maps, share):
         """The orbit at a share of the way."""
-        guess, how, directions = self.between(share), near_orbits(self.tolerance), real_span(self.orbits[0.0].vectors)
+        guess, newton = self.between(share), near_orbits(self.tolerance)
+        directions = real_span(self.orbits[0.0].vectors)
         if maps is None:
-            solved = solved_near(self.system, *guess, how, self.across, directions, self.slopes)
+            solved = solved_near(self.system, *guess, newton, self.across, directions, self.slopes)
         else:
-            solved = corrected(maps, *guess, how, self.across, directions, self.slopes)
+            solved = corrected(maps, *guess, newton, self.across, directions, self.slopes)
         return described(solved, self.count)[0]
 
     def value(self, share):
@@ -169,8 +170,8 @@ class _Chord:
             if _unstable(sides[0]) == _unstable(sides[1]):
                 return None  # one that enters or leaves the largest ones
             leap = " to ".join(f"{np.abs(side.multipliers).max():.3g}" for side in sides)
-            where = f"{orbit.parameter:.6g}, where the map is not smooth"
-            raise NoImage(f"the largest multiplier leaps from {leap} in modulus at {where}")
+            parameter = f"{orbit.parameter:.6g}, where the map is not smooth"
+            raise NoImage(f"the largest multiplier leaps from {leap} in modulus at {parameter}")
         angle = _angle(kind, orbit.multipliers)
         if angle is None or not orbit.settled or (kind == "fold" and not self.turns(orbit)):
             return None
@@ -178,11 +179,11 @@ class _Chord:
             search = self.system.parameter_size * max(ROUNDING, orbit.gap)
             return Event(kind, orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search, orbit, angle)
         try:
-            every = [self.elsewhere(mesh, share) for mesh in range(self.system.meshes)]
+            parameters = np.array([self.elsewhere(mesh, share) for mesh in range(self.system.meshes)])
         except ArithmeticError:
             return Event(kind, orbit.parameter, np.inf, orbit, angle)
-        middle = float(np.median(every))
-        return Event(kind, middle, max(abs(middle - other) for other in every), orbit, angle)
+        middle = float(np.median(parameters))
+        return Event(kind, middle, float(np.abs(middle - parameters).max()), orbit, angle)
 
     def turns(self, orbit):
         """Whether the parameter turns back at an orbit. Where steps scatter it, it is compared a chord away on both
@@ -191,8 +192,8 @@ class _Chord:
         if self.maps is not None:
             half, odd = divmod(orbit.period, 2)
             ways = ends[1].points[0] - ends[0].points[0], orbit.points[0] - orbit.points[half]
-            chord, apart = (self.system.length(way, 0.0) for way in ways)
-            if half and not odd and apart < chord:
+            chord, halves_distance = (self.system.length(way, 0.0) for way in ways)
+            if half and not odd and halves_distance < chord:
                 return False
             with suppress(ArithmeticError):
                 ends = self.look(None, -1.0), self.look(None, 2.0)
@@ -202,9 +203,9 @@ class _Chord:
         """The parameter of the event with the steps of a mesh at the orbit that was found: one orbit there, and slopes
         from the chord, because those of a map in steps are rough from one orbit to the next."""
         orbit, far = self.orbits[share], max(self.values, key=lambda other: abs(other - share))
-        other = self.look(self.system.near(orbit.points, orbit.parameter, mesh), share)
+        shifted = self.look(self.system.near(orbit.points, orbit.parameter, mesh), share)
         slope = (self.orbits[far].parameter - orbit.parameter) / (self.values[far] - self.values[share])
-        return float(other.parameter + (self.values[share] - self.test(other)) * slope)
+        return float(shifted.parameter + (self.values[share] - self.test(shifted)) * slope)
 
 
 def _unstable(orbit):

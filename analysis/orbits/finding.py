@@ -128,24 +128,24 @@ def find_orbit(
         solved = solved_near(system, points, parameter, Newton(tolerance, iterations))
         if (least := _least_period(system, solved.points)) == period:
             return described(solved, count)[0]
-        how = {"count": count, "tolerance": tolerance, "iterations": iterations}
-        return find_orbit(system, solved.points[:least], parameter, least, **how)
+        settings = {"count": count, "tolerance": tolerance, "iterations": iterations}
+        return find_orbit(system, solved.points[:least], parameter, least, **settings)
     except ArithmeticError as why:
         return not_found(np.atleast_2d(guess), parameter, why)
 
 
 def scatter_of(system: OrbitMap, orbit: Orbit, *, tolerance: float = TOLERANCE) -> Scatter:
     """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
-    points, others = np.zeros_like(orbit.points), []
+    points, rivals = np.zeros_like(orbit.points), []
     try:
         for mesh in range(1, system.meshes):
             place = orbit.points, orbit.parameter
             solved = solved_near(system, *place, Newton(tolerance), None, real_span(orbit.vectors), mesh=mesh)
-            others.append(described(solved, len(orbit.multipliers))[0])
-            points = np.maximum(points, np.abs(others[-1].points - orbit.points))
+            rivals.append(described(solved, len(orbit.multipliers))[0])
+            points = np.maximum(points, np.abs(rivals[-1].points - orbit.points))
     except ArithmeticError:
-        return Scatter(np.full_like(points, np.inf), np.full_like(orbit.residuals, np.inf), tuple(others))
-    return Scatter(points, changes(orbit, others), tuple(others))
+        return Scatter(np.full_like(points, np.inf), np.full_like(orbit.residuals, np.inf), tuple(rivals))
+    return Scatter(points, changes(orbit, rivals), tuple(rivals))
 
 
 def middle_of(system: OrbitMap, orbit: Orbit) -> tuple[Orbit, np.ndarray]:
@@ -154,17 +154,17 @@ def middle_of(system: OrbitMap, orbit: Orbit) -> tuple[Orbit, np.ndarray]:
     One mesh in three may give a false value; its distance is then the error.
     """
     scatter = scatter_of(system, orbit)
-    every = sorted((orbit, *scatter.orbits), key=lambda one: abs(one.multipliers[0]))
-    middle = every[len(every) // 2]
-    lost = len(every) < system.meshes
-    return middle, np.full_like(middle.residuals, np.inf) if lost else changes(middle, every)
+    candidates = sorted((orbit, *scatter.orbits), key=lambda one: abs(one.multipliers[0]))
+    middle = candidates[len(candidates) // 2]
+    lost = len(candidates) < system.meshes
+    return middle, np.full_like(middle.residuals, np.inf) if lost else changes(middle, candidates)
 
 
-def changes(orbit: Orbit, others: Sequence[Orbit]) -> np.ndarray:
+def changes(orbit: Orbit, rivals: Sequence[Orbit]) -> np.ndarray:
     """Errors (k,) of the multipliers: largest |difference| to the nearest one of each of the others."""
     errors = orbit.residuals
-    for other in others:
-        errors = np.maximum(errors, np.abs(other.multipliers - orbit.multipliers[:, None]).min(axis=1))
+    for rival in rivals:
+        errors = np.maximum(errors, np.abs(rival.multipliers - orbit.multipliers[:, None]).min(axis=1))
     return errors
 
 
@@ -172,7 +172,7 @@ def corrected(
     maps: Sequence[OrbitMap],
     points: np.ndarray,
     parameter: float,
-    how: Newton,
+    newton: Newton,
     row: np.ndarray | None = None,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
@@ -184,11 +184,13 @@ def corrected(
     fails.
     """
     n, size, last = points.shape[1], maps[0].parameter_size, space
-    directions = np.empty((n, 0)) if directions is None else directions
-    enough = how.tolerance * max(1.0, np.abs(points).max())  # of the guess: far away any gap is small beside the points
+    if directions is None:
+        directions = np.empty((n, 0))
+    # of the guess: far away any gap is small beside the points
+    enough = newton.tolerance * max(1.0, np.abs(points).max())
     shots, taken = shoot(maps, points, parameter), 0
     while shots.residual > enough:
-        if taken == how.iterations:
+        if taken == newton.iterations:
             raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
         if fresh := space is None:
             space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]])
@@ -196,7 +198,7 @@ def corrected(
             slopes = slopes_of(maps, shots, points, parameter)
         change, delta = space.solve(shots.gaps, slopes, row)
         last, directions, reason = space, space.strongest(), "a Newton step does not shorten the gaps"
-        for share in 0.5 ** np.arange(how.halvings + 1):
+        for share in 0.5 ** np.arange(newton.halvings + 1):
             trial = points + share * change, parameter + share * delta * size
             try:
                 tried = shoot(maps, *trial)
@@ -204,7 +206,7 @@ def corrected(
                 reason = why
                 continue
             if tried.residual < shots.residual:
-                if tried.residual > how.kept * shots.residual:
+                if tried.residual > newton.kept * shots.residual:
                     space = slopes = None
                 (points, parameter), shots, taken = trial, tried, taken + 1
                 break
@@ -219,7 +221,7 @@ def solved_near(
     system: OrbitMap,
     points: np.ndarray,
     parameter: float,
-    how: Newton,
+    newton: Newton,
     row: np.ndarray | None = None,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
@@ -228,19 +230,19 @@ def solved_near(
     """`corrected`, roughly with the steps of the system at the guess, and then with those at the orbit."""
     maps = system.near(points, parameter, mesh)
     if system.frozen is None:
-        return corrected(maps, points, parameter, how, row, directions, slopes)
-    rough = corrected(maps, points, parameter, how._replace(tolerance=ROUGH), row, directions, slopes)
+        return corrected(maps, points, parameter, newton, row, directions, slopes)
+    rough = corrected(maps, points, parameter, newton._replace(tolerance=ROUGH), row, directions, slopes)
     if np.linalg.norm(rough.points - points, axis=1).max() > MOVED:
         maps = system.near(rough.points, rough.parameter, mesh)
-    how = how._replace(kept=max(how.kept, KEPT))
-    return corrected(maps, rough.points, rough.parameter, how, row, rough.directions, slopes, rough.space)
+    newton = newton._replace(kept=max(newton.kept, KEPT))
+    return corrected(maps, rough.points, rough.parameter, newton, row, rough.directions, slopes, rough.space)
 
 
 def described(solved: Solved, count: int) -> tuple[Orbit, Space]:
     """The Orbit that Newton's method has found, with its multipliers, and the space in which they were found."""
     space = Space(solved.shots.linearised, solved.directions)
-    found = space.multipliers(count)
-    return Orbit(solved.points, solved.parameter, *found, solved.shots.residual, solved.iterations), space
+    spectrum = space.multipliers(count)
+    return Orbit(solved.points, solved.parameter, *spectrum, solved.shots.residual, solved.iterations), space
 
 
 def not_found(points: np.ndarray, parameter: float, reason: object) -> Orbit:
@@ -268,7 +270,7 @@ def _least_period(system, points):
     """The least period of points, those of a computed system as close as its steps leave them."""
     close = MOVED if system.frozen else REPEATS * max(1.0, np.abs(points).max())
     for period in range(1, len(points)):
-        apart = points - np.roll(points, -period, axis=0)
-        if len(points) % period == 0 and max(system.length(change, 0.0) for change in apart) < close:
+        shifts = points - np.roll(points, -period, axis=0)
+        if len(points) % period == 0 and max(system.length(change, 0.0) for change in shifts) < close:
             return period
     return len(points)

@@ -93,5 +93,5 @@ def shoot(maps: Sequence[OrbitMap], points: np.ndarray, parameter: float) -> Sho
 
 def slopes_of(maps: Sequence[OrbitMap], shots: Shots, points: np.ndarray, parameter: float) -> np.ndarray:
     """dP/dlambda (N, n) at every point, in units of `parameter_size`."""
-    every = zip(maps, points, shots.images, strict=True)
-    return finite(np.array([m.slope(z, parameter, image) for m, z, image in every]))
+    shots_of_points = zip(maps, points, shots.images, strict=True)
+    return finite(np.array([m.slope(z, parameter, image) for m, z, image in shots_of_points]))

@@ -43,8 +43,8 @@ class Space:
         basis, lengths = self.ways[0], np.linalg.norm(vectors, axis=0)
         new = vectors[:, lengths > 0.0] / lengths[lengths > 0.0]
         new = new - basis @ (basis.T @ new)
-        left, sizes, _ = np.linalg.svd(new, full_matrices=False)
-        new = left[:, sizes > NEW_DIRECTION][:, : len(basis) - basis.shape[1]]
+        axes, sizes, _ = np.linalg.svd(new, full_matrices=False)
+        new = axes[:, sizes > NEW_DIRECTION][:, : len(basis) - basis.shape[1]]
         if not new.shape[1]:
             return False
         for _ in range(2):
@@ -69,19 +69,23 @@ class Space:
             matrix = basis - image
             if free:
                 matrix = np.block([[matrix, -parts[-1][:, 1:]], [tangent[:n] @ basis, tangent[n:]]])
-            found = np.linalg.lstsq(matrix, right, rcond=None)[0]
-            left = right - matrix @ found
-            settled = np.linalg.norm(left) <= LINEAR * np.linalg.norm(right)
-            if settled or basis.shape[1] >= MOST_DIRECTIONS or not self.grow(left[:n, None]):
+            solution = np.linalg.lstsq(matrix, right, rcond=None)[0]
+            rest = right - matrix @ solution
+            settled = np.linalg.norm(rest) <= LINEAR * np.linalg.norm(right)
+            if settled or basis.shape[1] >= MOST_DIRECTIONS or not self.grow(rest[:n, None]):
                 break
-        found, delta = (found[:-1], float(found[-1])) if free else (found, 0.0)
-        shares = np.array([1.0, delta])[: 1 + free]
-        return np.array([way @ found + part @ shares for way, part in zip(self.ways[:-1], parts, strict=False)]), delta
+        delta = 0.0
+        if free:
+            solution, delta = solution[:-1], float(solution[-1])
+        shares, update = np.array([1.0, delta])[: 1 + free], []
+        for way, part in zip(self.ways[:-1], parts, strict=False):
+            update.append(way @ solution + part @ shares)
+        return np.array(update), delta
 
     def strongest(self) -> np.ndarray:
         """Directions (n, k) that are left after a period."""
-        left, sizes, _ = np.linalg.svd(self.ways[-1], full_matrices=False)
-        return left[:, sizes > FORGOTTEN][:, :MOST_KEPT]
+        axes, sizes, _ = np.linalg.svd(self.ways[-1], full_matrices=False)
+        return axes[:, sizes > FORGOTTEN][:, :MOST_KEPT]
 
     def multipliers(self, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The largest: values (k,), their errors (k,) and eigenvectors (n, k) of length 1.
@@ -99,9 +103,9 @@ class Space:
             # of a pair, LAPACK gives the one with the positive imaginary part first
             order = order[: count + (len(order) > count and values[order[count - 1]].imag > 0.0)]
             values, duals, vectors = values[order], duals[:, order], vectors[:, order]
-            left = image @ vectors - (basis @ vectors) * values
-            sizes = np.linalg.norm(left, axis=0)
-            rough = left[:, sizes > RITZ * np.maximum(1.0, np.abs(values))]
+            rest = image @ vectors - (basis @ vectors) * values
+            sizes = np.linalg.norm(rest, axis=0)
+            rough = rest[:, sizes > RITZ * np.maximum(1.0, np.abs(values))]
             if not rough.shape[1] or basis.shape[1] == n or not self.grow(np.hstack([rough.real, rough.imag])):
                 break
         sizes = np.maximum(sizes, np.finfo(float).eps * np.linalg.norm(small, 2))

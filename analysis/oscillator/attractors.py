@@ -61,8 +61,8 @@ def search_periodic_orbits(
     return tuple(sorted(orbits, key=lambda orbit: (not orbit.stable, orbit.points[0, 0])))
 
 
-def _is_known(point: np.ndarray, orbits: Iterable[Orbit], same: float) -> bool:
-    return any(np.abs(point - known.points).max(axis=1).min() <= same for known in orbits)
+def _is_known(point: np.ndarray, orbits: Iterable[Orbit], closeness: float) -> bool:
+    return any(np.abs(point - known.points).max(axis=1).min() <= closeness for known in orbits)
 
 
 def start_grid(columns: int, rows: int, box: tuple[float, float, float, float] = PAPER_BOX) -> np.ndarray:
@@ -90,12 +90,12 @@ def settled_periods(
     """
     points = 12 * longest_period
     sections = strobed_orbits(checked_starts(starts), checked_count(periods, "periods"), points, tables(oscillator))
-    found = np.zeros(len(sections), dtype=int)
+    periods_found = np.zeros(len(sections), dtype=int)
     for place, section in enumerate(sections):
         if np.isfinite(section).all():
             scale = np.maximum(np.abs(section).max(axis=0), 1.0)
-            found[place] = detect_period(section, longest_period, scale=scale).period or 0
-    return found, sections[:, -1]
+            periods_found[place] = detect_period(section, longest_period, scale=scale).period or 0
+    return periods_found, sections[:, -1]
 
 
 @dataclass(frozen=True)
