@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
-from ..parts.provenance import appendix, provenance_items, timing_items
+from ..parts.provenance import page, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
@@ -27,9 +27,9 @@ def report(directory: str | Path) -> Report:
     items += [
         *peer_items(study),
         *sections.order_items(study),
-        *appendix(*timing_items(study.folder), *provenance_items(study.folder)),
     ]
-    return Report("Error against run time", "Work-precision of the engine and of other codes", tuple(items))
+    subtitle = "Work-precision of the engine and of other codes"
+    return page(study.folder, "Error against run time", items, timing_items(study.folder), subtitle)
 
 
 def _protocol(study: Study) -> str:

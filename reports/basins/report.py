@@ -10,13 +10,13 @@ from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
 from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text
+from ..parts.content import Figure, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, part_of, read_folder
-from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.provenance import limits, page
 from ..parts.sections import section_items
 from ..parts.style import BLUE, INK
 from ..parts.wording import count, listed, number, of_kicks
-from ..sweep.quantities import colours_of, further
+from ..sweep.quantities import colours_of, filled_table, further
 
 _AXES = {
     "vx": ("kick_x_mps", "velocity along the waves (m/s)"),
@@ -51,13 +51,7 @@ def report(directory: str | Path) -> Report:
     if motions:
         items += _motions(motion_runs, motions, edge)
     items += [*_shock(shock), *_edge(edge), Heading("Warnings"), _warnings(folder, across)]
-    scene_name = str(folder.provenance.get("scene") or folder.scene.name)
-    items += appendix(
-        *timing_items(folder),
-        *scene_items(folder.scene, scene_name, {}),
-        *provenance_items(folder),
-    )
-    return Report("Basins: which start ends in which motion", folder.scene.title or folder.scene.name, tuple(items))
+    return page(folder, "Basins: which start ends in which motion", items)
 
 
 def _colours(motions) -> dict[str, str]:
@@ -160,7 +154,7 @@ def _shock(part: Folder | None) -> Iterator[Item]:
     if part is not None:
         yield Heading("The smallest start")
         caption = "The smallest start that leads to the motion of the largest tension, bisected to 1 %, on two grids."
-        yield _table(part, caption)
+        yield from filled_table(part, caption)
 
 
 def _edge(part: Folder | None) -> Iterator[Item]:
@@ -171,19 +165,7 @@ def _edge(part: Folder | None) -> Iterator[Item]:
             "run side by side until they part, and bisected again (Skufca, Yorke and Eckhardt, Phys. Rev. Lett. 96, "
             "174101, 2006). Both settle on the edge state, which no start keeps. Its strobed states: `edge/orbit.csv`."
         )
-        yield _table(part, "The edge state.")
-
-
-def _table(part: Folder, caption: str) -> Table:
-    """The columns that say something."""
-    filled = []
-    for name in part.columns:
-        values = [row[name] for row in part.table]
-        beside_zeros = [value for value in values if value not in ("", 0.0)]
-        numbers = [value for value in values if value == value]  # not nan
-        if name != "run_key" and beside_zeros and numbers:
-            filled.append(name)
-    return table_of(part.columns, filled, part.table, caption)
+        yield from filled_table(part, "The edge state.")
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:
@@ -193,8 +175,6 @@ def _warnings(folder: Folder, across: list[str]) -> Notice:
             continue
         outcome = row["outcome"] if row["status"] == "ok" else row["status"]
         rows_of_outcomes.setdefault(outcome, []).append(row)
-    if not rows_of_outcomes:
-        return Notice("note", "Nothing to warn of", ("Every start has settled or joined a known motion.",))
     lines = []
     for outcome, rows in rows_of_outcomes.items():
         first = rows[0]
@@ -203,4 +183,4 @@ def _warnings(folder: Folder, across: list[str]) -> Notice:
         if first["message"]:
             line += f": {first['message']}"
         lines.append(f"{line}.")
-    return Notice("warning", "Starts that belong to no motion", tuple(lines))
+    return limits("Starts that belong to no motion", lines, "Every start has settled or joined a known motion.")

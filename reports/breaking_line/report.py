@@ -7,7 +7,7 @@ from ..figures.line_panels import named
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.provenance import page, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures
@@ -51,14 +51,10 @@ def report(directory: str | Path) -> Report:
         *_section("The paper's statements", statements_table(judged, verdicts)),
         *_section("Bending stiffness", table("stiffness")),
         *_section("Doubled grids", table("doubled")),
-        *appendix(
-            *timing_items(folder, table("cost")),
-            *_scene(folder),
-            *section_items("breaking_line_solved", law=folder.scene.tether.tension.law),
-            *provenance_items(folder),
-        ),
     ]
-    return Report("The breaking synthetic line", folder.scene.title or folder.scene.name, tuple(items))
+    solved = section_items("breaking_line_solved", law=folder.scene.tether.tension.law)
+    made = [*timing_items(folder, table("cost")), *_scene(folder), *solved]
+    return page(folder, "The breaking synthetic line", items, made)
 
 
 def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:

@@ -12,10 +12,10 @@ from analysis import read_evidence
 
 from ..figures.animations import Snap, tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
-from ..figures.orbit_diagram import NARROW_IN, Column, Range, orbit_diagram
+from ..figures.orbit_diagram import Column, OrbitDiagram, Range
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
-from ..parts.style import BLUE, INK, REGIME_COLOURS, WIDTH_IN
+from ..parts.style import BLUE, INK, REGIME_COLOURS
 from ..parts.wording import T_I, T_S, count, decimals, number, printed
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, PEAK, lines, shares_panel, tension_panel
@@ -63,7 +63,7 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
         static_N = sweep.modes.static_tension_N
         scale, unit = 1.0 / static_N, "over static"
     tension, exponent = _tension(sweep, drawn, scale, unit), _exponent_panel(sweep)
-    motions, ranges = {}, []
+    motions, ranges, labels = {}, [], ("wave steepness kA (–)", "strobed r (m)")
     if sweep.colours:
         below = [tension, *shares_panel(sweep)]
         if exponent is not None:
@@ -74,12 +74,9 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     else:
         below = list(filter(None, (_slack(drawn), exponent, tension)))
         ranges = _ranges(sweep, drawn)
-    shown = columns, ("wave steepness kA (–)", "strobed r (m)"), below, ranges, marks, missing
-    wide = orbit_diagram(*shown, WIDTH_IN, motions)
-    narrow = orbit_diagram(*shown, NARROW_IN, motions)
     caption = " ".join(filter(None, _caption(sweep, drawn, static_N)))
     alt = f"Orbit diagram over wave steepness: {_described(sweep, motions)}; see text."
-    return Figure(wide, caption, alt, narrow=narrow)
+    return OrbitDiagram(columns, labels, below, ranges, marks, missing, motions).figure(caption, alt)
 
 
 def _described(sweep: Sweep, motions: Mapping[str, tuple[str, str]]) -> str:

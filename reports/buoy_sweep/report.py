@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import appendix, provenance_items
+from ..parts.provenance import limits, page
 from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, decimals, number, percent
 from ..sweep.motions import every_motion
@@ -33,9 +33,8 @@ _NOTHING = (
 def report(directory: str | Path) -> Report:
     """The content of the report on a buoy sweep's folder. Raises FolderError for a folder that is not one."""
     sweep = read_sweep(directory)
-    scene, figure = sweep.folder.scene, orbit_figure(sweep)
     items = [
-        figure or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
+        orbit_figure(sweep) or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
         *motions_items(sweep),
         *_question(sweep),
         Heading("Warnings"),
@@ -46,14 +45,10 @@ def report(directory: str | Path) -> Report:
         *plane_items(sweep),
         *runs_items(sweep),
         *sheet_items(sweep),
-        *appendix(
-            *time_items(sweep),
-            *scene_and_modes(sweep),
-            *section_items("buoy_sweep_solved", law=scene.tether.tension.law),
-            *provenance_items(sweep.folder),
-        ),
     ]
-    return Report("Tethered buoy: a sweep of wave steepness", scene.title or scene.name, tuple(items))
+    solved = section_items("buoy_sweep_solved", law=sweep.folder.scene.tether.tension.law)
+    made = [*time_items(sweep), *scene_and_modes(sweep), *solved]
+    return page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
 
 
 def _question(sweep: Sweep) -> list[Item]:
@@ -81,9 +76,7 @@ def warnings(sweep: Sweep) -> Notice:
     for text, runs in (*_failures(sweep), *_numerical_limits(sweep), *_physical_limits(sweep)):
         if runs:
             lines.append(f"{text}: {sweep.at(runs)}.")
-    if not lines:
-        return Notice("note", "Nothing to warn of", (_NOTHING,))
-    return Notice("warning", "What limits these runs", tuple(lines))
+    return limits("What limits these runs", lines, _NOTHING)
 
 
 def _failures(sweep: Sweep) -> Iterator[Limit]:

@@ -1,13 +1,13 @@
 """The orbit diagram: strobed points over a parameter, what they are called above, curves over the same axis below."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import groupby
 from operator import attrgetter
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import content
 from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .curves import Curve, Panel, draw
 
@@ -50,101 +50,143 @@ class Range:
     holds: Sequence[bool]
 
 
-def orbit_diagram(
-    columns: Sequence[Column],
-    labels: tuple[str, str],
-    below: Sequence[Panel],
-    ranges: Sequence[Range] = (),
-    marks: Sequence[tuple[float, str]] = (),
-    missing: Sequence[float] = (),
-    width_in: float = WIDTH_IN,
-    motions: Motions | None = None,
-    orbits: Sequence[Curve] = (),
-) -> Picture:
+@dataclass(frozen=True, eq=False)
+class OrbitDiagram:
     """Bars with words and ranges, strobed points in the colours of the words, and panels below, on one axis.
 
-    columns: by their parameter, one of them at least with points where there are no orbits. labels: of parameter and
-    points, with units. ranges: each a bar above the points, and a shade over all panels. marks: (value, text) of
-    vertical lines. missing: runs without points (crosses). motions: where there are several, by letter; each has the
-    points in its colour, and a bar that tells its words by hatches. Motions whose points lie close together, from the
-    left on, are drawn again in what is left blank beside them, on a finer scale. orbits: lines and marks over the
-    points, in place of that; their names have a row of the legend.
+    columns   by their parameter, one of them at least with points where there are no orbits
+    labels    of parameter and points, with units
+    below     panels under the points
+    ranges    each a bar above the points, and a shade over all panels
+    marks     (value, text) of vertical lines
+    missing   runs without points (crosses)
+    motions   where there are several, by letter; each has the points in its colour, and a bar that tells its words by
+              hatches. Motions whose points lie close together, from the left on, are drawn again in what is left blank
+              beside them, on a finer scale
+    orbits    lines and marks over the points, in place of that; their names have a row of the legend
     """
-    judged = [column for column in columns if column.word]
-    at = np.array([column.at for column in columns])
-    words: dict[str, list[Span]] = {}  # letter, "" in a sweep of one motion -> the bar of its words
-    if judged:
-        for letter in motions or [""]:
-            words[letter] = _words(judged, letter)
-    range_bars = [_spans(at, part.holds, part.text) for part in ranges]
-    bar_in, main_in = _BAR_IN, _MAIN_IN
-    if motions:
-        bar_in, main_in = _BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN
-    if orbits:
-        main_in = _MAIN_OF_ORBITS_IN
-    bars = len(words) + len(range_bars)
-    heights = [bar_in] * bars + [main_in]
-    for panel in below:
-        heights.append(_LOWER_IN * panel.height)
-    legend = _legend(judged, len(judged) < len(columns), motions, int(width_in / _NAMED))
-    if orbits:
-        legend.append([])
-    top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
-    height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
-    with sheet(height_in, width_in) as figure:
-        grid = figure.add_gridspec(
-            len(heights), 1, height_ratios=heights, hspace=_GAP_IN * len(heights) / sum(heights),
-            left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,
-            top=1 - top_in / height_in,
-        )  # fmt: skip
-        top = figure.add_subplot(grid[bars])
-        lower = [figure.add_subplot(grid[place], sharex=top) for place in range(bars + 1, len(heights))]
-        lowest = (top, *lower)[-1]
-        places = np.concatenate([at, missing, *(orbit.x for orbit in orbits)])
+
+    columns: Sequence[Column]
+    labels: tuple[str, str]
+    below: Sequence[Panel]
+    ranges: Sequence[Range] = ()
+    marks: Sequence[tuple[float, str]] = ()
+    missing: Sequence[float] = ()
+    motions: Motions = field(default_factory=dict)
+    orbits: Sequence[Curve] = ()
+
+    def figure(self, caption: str, alt: str) -> content.Figure:
+        """The figure of a report, with its form for telephones."""
+        return content.Figure(self.drawn(), caption, alt, narrow=self.drawn(NARROW_IN))
+
+    def drawn(self, width_in: float = WIDTH_IN) -> content.Picture:
+        """The diagram in this width."""
+        words, ranges = self._words(), self._ranges()
+        bars = len(words) + len(ranges)
+        bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if self.motions else (_BAR_IN, _MAIN_IN)
+        if self.orbits:
+            main_in = _MAIN_OF_ORBITS_IN
+        heights = [bar_in] * bars + [main_in]
+        for panel in self.below:
+            heights.append(_LOWER_IN * panel.height)
+        legend = self._legend(int(width_in / _NAMED))
+        top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
+        height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
+        with sheet(height_in, width_in) as figure:
+            grid = figure.add_gridspec(
+                len(heights), 1, height_ratios=heights, hspace=_GAP_IN * len(heights) / sum(heights),
+                left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,
+                top=1 - top_in / height_in,
+            )  # fmt: skip
+            top = figure.add_subplot(grid[bars])
+            panels = [top]
+            for place in range(bars + 1, len(heights)):
+                panels.append(figure.add_subplot(grid[place], sharex=top))
+            enlarged = None if self.orbits else _small(self.columns, bool(self.motions))
+            inch = self._set_span(top, width_in, _NUMBERS_IN if enlarged else _EDGE_IN)
+            above = [figure.add_subplot(grid[place], sharex=top) for place in range(bars)]
+            for axes, (letter, spans) in zip(above, words.items(), strict=False):
+                colour = self.motions[letter][0] if self.motions else ""
+                _word_bar(axes, spans, inch, letter, colour)
+            for axes, spans in zip(above[len(words) :], ranges, strict=True):
+                _range_bar(axes, spans, inch)
+            for shade, spans in zip(SHADES, ranges, strict=False):
+                for axes in panels:
+                    for _, low, high in spans:
+                        axes.axvspan(low, high, color=shade, linewidth=0)
+            _points(top, self.columns, inch, self.motions)
+            if self.orbits:
+                draw(top, Panel(self.orbits))
+                legend[-1] = top.get_legend_handles_labels()[0]
+            if enlarged:
+                _enlarged(top, *enlarged, inch, self.motions)
+            low_places = np.full(len(self.missing), 0.03)
+            top.plot(self.missing, low_places, "x", color=VERMILION, transform=top.get_xaxis_transform())
+            self._finish(panels)
+            _lay_legend(figure, legend, height_in, bool(self.orbits))
+            for axes in panels:  # one below the other, left of the widest numbers
+                axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
+            return picture_of(figure)
+
+    @property
+    def _judged(self) -> list[Column]:
+        return [column for column in self.columns if column.word]
+
+    def _words(self) -> dict[str, list[Span]]:
+        """The bar of words of each motion, by its letter; "" in a sweep of one motion."""
+        judged, words = self._judged, {}
+        if judged:
+            for letter in self.motions or [""]:
+                words[letter] = _words(judged, letter)
+        return words
+
+    def _ranges(self) -> list[list[Span]]:
+        at = np.array([column.at for column in self.columns])
+        return [_spans(at, part.holds, part.text) for part in self.ranges]
+
+    def _legend(self, wide: int) -> list[list]:
+        """The rows of the legend, `wide` motions a row; that of the orbits, the last one, is still empty."""
+        judged = self._judged
+        legend = _legend(judged, len(judged) < len(self.columns), self.motions, wide)
+        if self.orbits:
+            legend.append([])
+        return legend
+
+    def _set_span(self, axes, width_in: float, left_in: float) -> float:
+        """Set the span of the parameter; the inches that it takes for a change by 1. left_in: left of the first run."""
+        at = [column.at for column in self.columns]
+        places = np.concatenate([at, self.missing, *(orbit.x for orbit in self.orbits)])
         places = places[np.isfinite(places)]
-        small = None if orbits else _small(columns, bool(motions))
-        left_in = _NUMBERS_IN if small else _EDGE_IN
         span = float(np.ptp(places)) or 0.04 * abs(float(at[0])) or 0.04
         inch = (width_in - _LEFT_IN - _RIGHT_IN - left_in - _EDGE_IN) / span
-        top.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)  # inch: of the parameter
-        above = [figure.add_subplot(grid[place], sharex=top) for place in range(bars)]
-        for axes, (letter, spans) in zip(above, words.items(), strict=False):
-            colour = motions[letter][0] if motions else ""
-            _word_bar(axes, spans, inch, letter, colour)
-        for axes, spans in zip(above[len(words) :], range_bars, strict=True):
-            _range_bar(axes, spans, inch)
-        for shade, spans in zip(SHADES, range_bars, strict=False):
-            for axes in (top, *lower):
-                for _, low, high in spans:
-                    axes.axvspan(low, high, color=shade, linewidth=0)
-        _points(top, columns, inch, motions)
-        if orbits:
-            draw(top, Panel(orbits))
-            legend[-1] = top.get_legend_handles_labels()[0]
-        if small:
-            _enlarged(top, *small, inch, motions)
-        top.plot(missing, np.full(len(missing), 0.03), "x", color=VERMILION, transform=top.get_xaxis_transform())
-        top.set_ylabel(labels[1])
-        for axes, panel in zip(lower, below, strict=True):
+        axes.set_xlim(places.min() - left_in / inch, places.max() + _EDGE_IN / inch)
+        return inch
+
+    def _finish(self, panels: Sequence) -> None:
+        """Draw the panels below the first one, the marks of all, and the labels."""
+        top, *lower = panels
+        top.set_ylabel(self.labels[1])
+        for axes, panel in zip(lower, self.below, strict=True):
             draw(axes, panel)
             if axes.get_legend_handles_labels()[1]:
                 axes.legend(loc="best", fontsize=6.5, borderpad=0.1, labelspacing=0.15)
-        for axes in (top, *lower):
+        lowest = panels[-1]
+        for axes in panels:
             axes.tick_params(labelbottom=axes is lowest)
-            for value, _ in marks:
+            for value, _ in self.marks:
                 axes.axvline(value, color=SOFT, linewidth=0.7, linestyle=(0, (3, 2)))
-        for value, text in marks:
+        for value, text in self.marks:
             lowest.annotate(text, (value, 0.05), (2, 0), ("data", "axes fraction"), "offset points", fontsize=7)
-        lowest.set_xlabel(labels[0])
-        tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1, "fontsize": 6.5}
-        for row, handles in enumerate(legend):
-            look = tight | {"loc": "upper left", "bbox_to_anchor": (0.0, 1.0 - _LEGEND_IN * row / height_in)}
-            if orbits and handles is legend[-1]:
-                look["handlelength"] = 1.9  # a dash is no dashed line
-            figure.legend(handles=handles, ncols=len(handles), **look)
-        for axes in (top, *lower):  # one below the other, left of the widest numbers
-            axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
-        return picture_of(figure)
+        lowest.set_xlabel(self.labels[0])
+
+
+def _lay_legend(figure, legend: Sequence[list], height_in: float, with_orbits: bool) -> None:
+    tight = {"handlelength": 0.7, "handletextpad": 0.3, "columnspacing": 0.7, "borderaxespad": 0.1, "fontsize": 6.5}
+    for row, handles in enumerate(legend):
+        look = tight | {"loc": "upper left", "bbox_to_anchor": (0.0, 1.0 - _LEGEND_IN * row / height_in)}
+        if with_orbits and row == len(legend) - 1:
+            look["handlelength"] = 1.9  # a dash is no dashed line
+        figure.legend(handles=handles, ncols=len(handles), **look)
 
 
 def cell_edges(at: np.ndarray) -> np.ndarray:
@@ -182,7 +224,7 @@ def _kind(word: str) -> str:
     return _PERIOD if word.startswith(_PERIOD) else word
 
 
-def _legend(judged: Sequence[Column], outside: bool, motions: Motions | None, wide: int) -> list[list]:
+def _legend(judged: Sequence[Column], outside: bool, motions: Motions, wide: int) -> list[list]:
     """Rows of what colours mean, and hatches where there are motions, `wide` a row; outside: some are not judged."""
     from matplotlib.patches import Patch
 
@@ -252,7 +294,7 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     axes.text(place, 0.45, text, ha=side, **look)
 
 
-def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | None) -> None:
+def _points(axes, columns: Sequence[Column], inch: float, motions: Motions) -> None:
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import cycle, groupby, pairwise
+from itertools import cycle, groupby
+from operator import itemgetter
 
 import numpy as np
 
@@ -41,25 +42,30 @@ class Branch:
         """Points at which it becomes stable or unstable; at an event that was located, or at an orbit."""
         return np.flatnonzero(self.stable[1:] != self.stable[:-1]) + 1
 
-    def lines(self, what: str) -> Iterator[Curve]:
-        """What is seen over the key: solid where the orbits are stable, dashed where they are not."""
+    def lines(self, quantity: str) -> Iterator[Curve]:
+        """A quantity of `seen` over the key: solid where the orbits are stable, dashed where they are not."""
         first = 0
         for stable, group in groupby(self.stable):
             part = slice(first, first + len(list(group)) + 1)
             first = part.stop - 1
-            x, y = (np.pad(one, ((0, 1), (0, 0)), constant_values=np.nan) for one in self._points(what, part))
-            look = {"line": "-", "width": 1.3} if stable else {"line": DASHED, "width": 0.9}
-            yield Curve(x.T.ravel(), y.T.ravel(), colour=self.colour, **look)
+            x, y = self._points(quantity, part)
+            line, width = ("-", 1.3) if stable else (DASHED, 0.9)
+            yield Curve(_with_gaps(x), _with_gaps(y), "", line, colour=self.colour, width=width)
 
-    def marks(self, what: str) -> Iterator[Curve]:
+    def marks(self, quantity: str) -> Iterator[Curve]:
         """The same at the events."""
         for kind, mark in EVENTS.items():
-            x, y = self._points(what, self.kinds == kind)
+            x, y = self._points(quantity, self.kinds == kind)
             yield Curve(x.ravel(), y.ravel(), line="", mark=mark, colour=INK, size=3.4)
 
-    def _points(self, what: str, part) -> tuple[np.ndarray, np.ndarray]:
-        y = self.seen[what][part]
+    def _points(self, quantity: str, part) -> tuple[np.ndarray, np.ndarray]:
+        y = self.seen[quantity][part]
         return np.broadcast_to(self.at[part][:, None], y.shape), y
+
+
+def _with_gaps(points: np.ndarray) -> np.ndarray:
+    """Columns (m, N), one after the other with nan behind each."""
+    return np.pad(points, ((0, 1), (0, 0)), constant_values=np.nan).T.ravel()
 
 
 def rows_of(folder: Folder, name: str) -> tuple[Row, ...]:
@@ -70,51 +76,70 @@ def rows_of(folder: Folder, name: str) -> tuple[Row, ...]:
 
 def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Branch]:
     """The branches, each in the colour of the motion on it; one that begins at an event of another has its colour."""
-    letters = {row["branch"]: row["motion"].partition(" ")[0] for row in rows_of(folder, "branches")}
+    letters, parents, strobes = {}, {}, {}
+    for row in rows_of(folder, "branches"):
+        letters[row["branch"]] = row["motion"].partition(" ")[0]
     events = [row for row in rows_of(folder, "events") if np.isfinite(row[key])]
-    parents, strobes = {row["leads_to"]: row["branch"] for row in events if row["leads_to"]}, {}
+    for row in events:
+        parents[row["leads_to"]] = row["branch"]
+    parents.pop("", None)
     for row in read_rows(folder.directory / "strobes.csv"):
         strobes.setdefault((row["branch"], int(row["place"])), []).append(float(row["radius_m"]))
-    of_motions, left, colours, found = colours_of(motions), cycle(COLOURS), {}, []
-    for name in dict.fromkeys(row["branch"] for row in folder.table):
-        own = [row for row in folder.table if row["branch"] == name and (name, row["place"]) in strobes]
-        own.sort(key=lambda row: row["place"])
-        events_of = [row for row in events if row["branch"] == name]
-        colour = of_motions.get(letters.get(name)) or colours.get(parents.get(name)) or next(left)
+    orbits_of_branches: dict[str, list[Row]] = {}
+    for row in folder.table:
+        orbits = orbits_of_branches.setdefault(row["branch"], [])
+        if (row["branch"], row["place"]) in strobes:
+            orbits.append(row)
+    colours_of_motions, free_colours, colours, branches = colours_of(motions), cycle(COLOURS), {}, []
+    for name, orbits in orbits_of_branches.items():
+        colour = colours_of_motions.get(letters.get(name)) or colours.get(parents.get(name)) or next(free_colours)
         colours[name] = colour
-        if own:
-            points = np.array([strobes[name, row["place"]] for row in own])
-            found.append(Branch(name, own, events_of, colour, *_with_events(own, events_of, key, points)))
-    return found
+        if not orbits:
+            continue
+        orbits.sort(key=itemgetter("place"))
+        points = np.array([strobes[name, row["place"]] for row in orbits])
+        on_branch = [row for row in events if row["branch"] == name]
+        branches.append(Branch(name, orbits, on_branch, colour, *_with_events(orbits, on_branch, key, points)))
+    return branches
 
 
 def _with_events(orbits: Sequence[Row], events: Sequence[Row], key: str, strobes: np.ndarray) -> tuple:
     """at, seen, kinds and stable of a `Branch`: an event stands between the two orbits whose chord is nearest."""
-    steady = [row["unstable"] == 0 for row in orbits]
-    table = np.column_stack([*(series(orbits, name) for name in (key, PEAK, MODULUS)), strobes])
+    steady = series(orbits, "unstable") == 0
+    table = np.column_stack([series(orbits, key), series(orbits, PEAK), series(orbits, MODULUS), strobes])
     nodes = [(float(place), "", steady[place], row) for place, row in enumerate(table)]
-    for event in events if len(table) > 1 else ():
-        where = np.array([value(event, key), value(event, PEAK)])
-        place, share = _nearest(table[:, :2], where)
-        changes = [one != other for one, other in pairwise(steady)]
-        for beside, at in ((place + 1, 0.0), (place - 1, 1.0)):  # what another accuracy moves to the chord beside
-            if not changes[place] and 0 <= beside < len(changes) and changes[beside]:
-                place, share = beside, at
-                break
-        sides, row = steady[place : place + 2], (1.0 - share) * table[place] + share * table[place + 1]
-        row[:2] = np.where(np.isfinite(where), where, row[:2])
-        row[2] = row[2] if all(sides) or not any(sides) else 1.0
-        nodes.append((place + 0.001 + 0.998 * share, event["kind"], any(sides), row))
-    _, kinds, stable, rows = map(np.array, zip(*sorted(nodes, key=lambda node: node[0]), strict=True))
+    if len(table) < 2:
+        events = ()
+    for event in events:
+        point = np.array([value(event, key), value(event, PEAK)])
+        place, share = _changing_chord(steady, *_nearest(table[:, :2], point))
+        row = (1.0 - share) * table[place] + share * table[place + 1]
+        row[:2] = np.where(np.isfinite(point), point, row[:2])
+        sides = steady[place : place + 2]
+        if sides.any() and not sides.all():
+            row[2] = 1.0
+        nodes.append((place + 0.001 + 0.998 * share, event["kind"], sides.any(), row))
+    nodes.sort(key=itemgetter(0))
+    _, kinds, stable, rows = map(np.array, zip(*nodes, strict=True))
     seen = {"strobes": rows[:, 3:], "peak": 1e-3 * rows[:, 1:2], "modulus": rows[:, 2:3]}
     return rows[:, 0], seen, kinds, stable[1:] & stable[:-1]
 
 
-def _nearest(points: np.ndarray, where: np.ndarray) -> tuple[int, float]:
-    """(i, share of the way from point i to the next) of the chord of points (m, 2) that is nearest to `where` (2,)."""
+def _changing_chord(steady: np.ndarray, place: int, share: float) -> tuple[int, float]:
+    """Place and share of an event; on the chord beside it, where the stability changes there and not here, because
+    another accuracy moves an event that far."""
+    changes = steady[1:] != steady[:-1]
+    for neighbour, end in ((place + 1, 0.0), (place - 1, 1.0)):
+        if not changes[place] and 0 <= neighbour < len(changes) and changes[neighbour]:
+            return neighbour, end
+    return place, share
+
+
+def _nearest(points: np.ndarray, target: np.ndarray) -> tuple[int, float]:
+    """(i, share of the way from point i to the next) of the chord of points (m, 2) that is nearest to a target (2,)."""
     scale = np.maximum(np.ptp(points, axis=0), 1e-12)
     starts, ways = points[:-1] / scale, np.diff(points / scale, axis=0)
-    off = np.nan_to_num(where / scale - starts)
+    off = np.nan_to_num(target / scale - starts)
     share = np.clip((off * ways).sum(axis=1) / np.maximum((ways**2).sum(axis=1), 1e-24), 0.0, 1.0)
     place = int(np.argmin(((off - share[:, None] * ways) ** 2).sum(axis=1)))
     return place, float(share[place])

@@ -1,7 +1,7 @@
 """The report of `campaigns.orbits`: what is said, in which order. Everything comes from the campaign's folder."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -11,15 +11,15 @@ import numpy as np
 from ..buoy_sweep.motions import MARKS
 from ..buoy_sweep.runs import strobed
 from ..figures.curves import Curve, Panel, curves
-from ..figures.orbit_diagram import NARROW_IN, Column, orbit_diagram
-from ..parts.columns import Quantity, table_of, value
+from ..figures.orbit_diagram import Column, OrbitDiagram
+from ..parts.columns import Quantity, value
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
 from ..parts.folder import Folder, FolderError, part_of, read_folder, read_rows
-from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.provenance import limits, page
 from ..parts.sections import section_items
-from ..parts.style import INK, SOFT, WIDTH_IN
+from ..parts.style import INK, SOFT
 from ..parts.wording import EMPTY, count, decimals, listed, number
-from ..sweep.quantities import colours_of, in_order, series
+from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
 
 _NEEDED = ("branch", "place", "period", "unstable", MODULUS, PEAK, "status", "message")
@@ -28,107 +28,146 @@ _WHOLE = "reaches", "comes back", "meets"  # how a branch ends that was followed
 _SHOWN = range(1, 5)  # multipliers
 _FAR, _OUT = 3.0, 2.0  # modulus, over the key and in the plane, at which a drawing ends
 _NOWHERE = np.full(1, np.nan)
-_EVENT = ("branch", "kind", "finer", "angle_rad", PEAK, "leads_to", "message")
+_EVENT = ("kind", "finer", "angle_rad", PEAK, "leads_to", "message")
 _BRANCH = ("branch", "period", "motion", "orbits", "closed", "begins", "ends", "message")
 _EVENTS = f"Events along the branches. ‡: error above {number(_ACCURATE)}. †: not found on a finer grid."
+_COMPLETE = "Every branch was followed to its end, every event is accurate."
 
 
 def report(directory: str | Path) -> Report:
     """The content of the report on a folder of orbits. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, _NEEDED)
-    named = [str(word) for word in folder.provenance.get("vary") or ()][:1]
-    key = next((folder.columns[one] for word in named for one in (word, word.rpartition(".")[2])
-                if one in folder.columns), None)  # fmt: skip
-    if key is None:
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+    key = _varied(folder)
     motions = [row for row in rows_of(folder, "motions") if row["status"] == "ok"]
     branches = read_branches(folder, key.name, motions)
-    located = partial(_located, key=key.name)
-    items = [
-        *(_diagram(folder, key, branches, motions) if branches else ()),
-        *_told(folder, "events", (*_EVENT[:2], key.name, *_EVENT[2:]), _EVENTS, **{key.name: located}),
-        *section_items("orbits", "Question"),
-        Heading("Warnings"),
-        _warnings(folder, key, branches),
-        *_chosen(folder, key, branches),
-        *(_multipliers(key, branches) if branches else ()),
-        Heading("Branches"),
-        *_told(folder, "branches", _BRANCH, "The branches, and why each ends both ways."),
-        *appendix(
-            *timing_items(folder),
-            *scene_items(folder.scene, str(folder.provenance.get("scene") or folder.scene.name), {}),
-            *provenance_items(folder),
-        ),
-    ]
-    title = f"Periodic orbits over {plain(key.head)}, stable and unstable"
-    return Report(title, folder.scene.title or folder.scene.name, tuple(items))
+    items: list[Item] = []
+    if branches:
+        items.append(_diagram(folder, key, branches, motions))
+    located = {key.name: partial(_located, key=key.name)}
+    items += filled_table(part_of(folder, "events"), _EVENTS, ("branch", _EVENT[0], key.name, *_EVENT[1:]), located)
+    items += [*section_items("orbits", "Question"), Heading("Warnings"), _warnings(folder, key, branches)]
+    items += _chosen(folder, key, branches)
+    if branches:
+        items += _multipliers(key, branches)
+    items.append(Heading("Branches"))
+    items += filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH)
+    return page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
 
 
-def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions: Sequence[Row]) -> Iterator[Item]:
+def _varied(folder: Folder) -> Quantity:
+    """The column of the key along which the orbits were followed, by its whole name or the last part of that."""
+    for name in list(folder.provenance.get("vary") or ())[:1]:
+        for column in (str(name), str(name).rpartition(".")[2]):
+            if column in folder.columns:
+                return folder.columns[column]
+    raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+
+
+def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
     """Branches over the strobed points of the motions, with tension and multiplier below."""
-    colours, part, columns, simulated, named = colours_of(motions), part_of(folder, "motions"), [], [], {}
-    for row in in_order(motions, [key.name]):
-        run, _ = part.trajectory(row)
-        points = strobed(run, int(row.get("transient_periods") or 0))[:, 0] if run is not None else np.empty(0)
-        columns.append(Column(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
-    for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
-        own = [row for row in motions if not colours or row["motion"] == letter]
-        x, y = series(own, key.name), 1e-3 * series(own, PEAK)
-        simulated.append(Curve(x, y, "", "", mark, colour, size=2.8))
-        if letter:
-            named[letter] = (colour, f"up to {number(np.nanmax(y), 3)} kN")
-    met = Counter(str(kind) for one in branches for kind in one.kinds if kind)
-    looks = (("stable orbit", "-", ""), ("unstable orbit", DASHED, ""), *((one, "", EVENTS[one]) for one in met))
-    legend = [Curve(_NOWHERE, _NOWHERE, name, line, mark, INK, size=3.4) for name, line, mark in looks]
-    lines = {what: [line for one in branches for line in one.lines(what)] for what in branches[0].seen}
-    for what, drawn in lines.items():  # marks stand over all lines
-        drawn += [mark for one in branches for mark in one.marks(what)]
-    lines["modulus"] += [_scatter(one, key) for one in branches]
-    top, far = (float(max(np.nanmax(one.seen[what]) for one in branches)) for what in ("peak", "modulus"))
-    top = max(top, *(float(np.nanmax(curve.y, initial=0.0)) for curve in simulated))
-    texts = [*_texts(branches, 0.14 * top)]
-    axis = {"ylim": (0.0, 1.25 * top)}
-    below = [
-        Panel([*simulated, *lines["peak"]], y_label="largest T\n(kN)", settings=axis, texts=texts, height=1.5),
-        Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, settings={"ylim": (0.0, min(1.05 * far, _FAR))}),
-    ]
-    told, over = (columns, (key.label, "strobed r (m)"), below), [*lines["strobes"], *legend]
-    pictures = [
-        orbit_diagram(*told, width_in=wide, motions=named or None, orbits=over) for wide in (WIDTH_IN, NARROW_IN)
-    ]
+    colours = colours_of(motions)
+    simulated, named = _simulated(key, motions, colours)
+    met = Counter()
+    for branch in branches:
+        met.update(str(kind) for kind in branch.kinds if kind)
+    lines = {}
+    for quantity in branches[0].seen:
+        lines[quantity] = []
+        for branch in branches:
+            lines[quantity] += branch.lines(quantity)
+        for branch in branches:  # marks stand over all lines
+            lines[quantity] += branch.marks(quantity)
+    for branch in branches:
+        lines["modulus"].append(_scatter(branch, key))
+    top, far = _largest(branches, "peak"), _largest(branches, "modulus")
+    for curve in simulated:
+        top = max(top, float(np.nanmax(curve.y, initial=0.0)))
+    tension = Panel(
+        [*simulated, *lines["peak"]],
+        y_label="largest T\n(kN)",
+        settings={"ylim": (0.0, 1.25 * top)},
+        texts=[*_texts(branches, 0.14 * top)],
+        height=1.5,
+    )
+    limits_of_modulus = {"ylim": (0.0, min(1.05 * far, _FAR))}
+    modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, settings=limits_of_modulus)
+    diagram = OrbitDiagram(
+        _points_of_motions(folder, key, motions, colours),
+        (key.label, "strobed r (m)"),
+        [tension, modulus],
+        motions=named,
+        orbits=[*lines["strobes"], *_legend(met)],
+    )
     caption = (
         "Lines: r of each orbit once a wave period, solid where it is stable, dashed where no run stays on it. Dashes "
         "and small dots: the motions that runs have found, in the same colours (`motions/table.csv`). Below: largest "
-        f"tension; modulus of the largest multiplier, with its error{f', up to {number(_FAR)}' if far > _FAR else ''}."
+        "tension; modulus of the largest multiplier, with its error"
     )
-    events = listed(count(many, kind, "torus points" if kind == "torus" else "") for kind, many in met.items())
-    alt = f"Orbit diagram with {count(len(branches), 'branch', 'branches')} of orbits and {events}; see text."
-    yield Figure(pictures[0], caption, alt, narrow=pictures[1])
+    if far > _FAR:
+        caption += f", up to {number(_FAR)}"
+    events = []
+    for kind, times in met.items():
+        events.append(count(times, kind, "torus points" if kind == "torus" else ""))
+    alt = f"Orbit diagram with {count(len(branches), 'branch', 'branches')} of orbits and {listed(events)}; see text."
+    return diagram.figure(f"{caption}.", alt)
+
+
+def _largest(branches: Sequence[Branch], quantity: str) -> float:
+    """The largest value of a quantity on all branches."""
+    return float(max(np.nanmax(branch.seen[quantity]) for branch in branches))
+
+
+def _points_of_motions(folder: Folder, key: Quantity, motions: Sequence[Row], colours: dict[str, str]) -> list[Column]:
+    """The strobed points of the motions that runs have found."""
+    part, columns = part_of(folder, "motions"), []
+    for row in in_order(motions, [key.name]):
+        run, _ = part.trajectory(row)
+        points = np.empty(0)
+        if run is not None:
+            points = strobed(run, int(row.get("transient_periods") or 0))[:, 0]
+        columns.append(Column(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
+    return columns
+
+
+def _simulated(key: Quantity, motions: Sequence[Row], colours: dict[str, str]) -> tuple[list[Curve], dict]:
+    """The largest tension of each motion over the key, and what the legend says of the motions."""
+    drawn, named = [], {}
+    for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
+        rows = [row for row in motions if not colours or row["motion"] == letter]
+        tension_kN = 1e-3 * series(rows, PEAK)
+        drawn.append(Curve(series(rows, key.name), tension_kN, "", "", mark, colour, size=2.8))
+        if letter:
+            named[letter] = (colour, f"up to {number(np.nanmax(tension_kN), 3)} kN")
+    return drawn, named
+
+
+def _legend(kinds: Sequence[str]) -> list[Curve]:
+    """Curves without a point, for the names of the lines and of the kinds of events."""
+    looks = [("stable orbit", "-", ""), ("unstable orbit", DASHED, "")]
+    for kind in kinds:
+        looks.append((kind, "", EVENTS[kind]))
+    return [Curve(_NOWHERE, _NOWHERE, *look, INK, size=3.4) for look in looks]
 
 
 def _scatter(branch: Branch, key: Quantity) -> Curve:
     """The errors of the modulus along a branch, as bars."""
-    at, modulus, error = (series(branch.orbits, name) for name in (key.name, MODULUS, "multiplier_1_error"))
-    return Curve(at, modulus, line="", colour=branch.colour, error=error)
+    at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
+    return Curve(at, modulus, line="", colour=branch.colour, error=series(branch.orbits, "multiplier_1_error"))
 
 
-def _texts(branches: Sequence[Branch], aside: float) -> Iterator[tuple[float, float, str, str]]:
+def _texts(branches: Sequence[Branch], offset: float) -> Iterator[tuple[float, float, str, str]]:
     """Beside the tension: the names of the branches, and the values at which one becomes stable or unstable."""
     changes = []
-    for one in branches:
-        at, peak = one.at, one.seen["peak"][:, 0]
+    for branch in branches:
+        at, peak = branch.at, branch.seen["peak"][:, 0]
         middle = int(np.argmin(np.abs(at - 0.5 * (at.min() + at.max())) - 0.01 * peak))
-        yield at[middle], peak[middle] + aside, one.name, one.colour
-        changes += [(at[k], peak[k]) for k in one.changes if one.kinds[k]]
-    for place, (value_there, pull) in enumerate(sorted(changes)):
-        yield value_there, pull + (-aside if place % 2 else aside), decimals(value_there, 4).lstrip("0"), INK
-
-
-def _told(folder: Folder, part: str, wanted: Sequence[str], caption: str, **own: Callable[[Row], str]) -> list[Item]:
-    """The table of a part of the folder, with those of the columns that say something; nothing without a row."""
-    rows = rows_of(folder, part)
-    names = [one for one in wanted if any(row.get(one, "") not in ("", 0.0) and row[one] == row[one] for row in rows)]
-    return [table_of(part_of(folder, part).columns, names, rows, caption, own)] if rows else []
+        yield at[middle], peak[middle] + offset, branch.name, branch.colour
+        for place in branch.changes:
+            if branch.kinds[place]:
+                changes.append((at[place], peak[place]))
+    for at, peak in sorted(changes):
+        yield at, peak + offset, decimals(at, 4).lstrip("0"), INK
+        offset = -offset
 
 
 def _located(row: Row, key: str) -> str:
@@ -147,92 +186,126 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     if not rows:
         return
     at = Counter(row[key.name] for row in rows).most_common(1)[0][0]
-    colours = colours_of(rows_of(folder, "motions")) | {one.name: one.colour for one in branches}
-    for row in (row for row in rows if row[key.name] == at):
+    colours = colours_of(rows_of(folder, "motions"))
+    for branch in branches:
+        colours[branch.name] = branch.colour
+    for row in rows:
+        if row[key.name] != at:
+            continue
         history = read_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
-        which = row["branch"] or row["motion"]  # an orbit whose branch could not be followed
-        name = f"{'branch' if row['branch'] else 'motion'} {which}, {'un' if row['unstable'] else ''}stable"
-        look = {"line": DASHED if row["unstable"] else "-", "colour": colours.get(which, INK), "width": 1.2}
-        closed = (series([*history, *history[:1]], one) for one in ("radius_m", "radius_rate_mps"))
-        plane.append(Curve(*closed, name, **look))
+        name = f"branch {row['branch']}" if row["branch"] else f"motion {row['motion']}"  # no branch could be followed
+        line, stability = (DASHED, "unstable") if row["unstable"] else ("-", "stable")
+        look = {"line": line, "colour": colours.get(row["branch"] or row["motion"], INK), "width": 1.2}
+        radius, rate = series(history, "radius_m"), series(history, "radius_rate_mps")
+        plane.append(Curve(np.append(radius, radius[:1]), np.append(rate, rate[:1]), f"{name}, {stability}", **look))
         time = series(history, "time_s")
-        pull.append(Curve(row["period"] * time / time[-1], 1e-3 * series(history, "tension_top_N"), name, **look))
+        tension_kN = 1e-3 * series(history, "tension_top_N")
+        pull.append(Curve(row["period"] * time / time[-1], tension_kN, f"{name}, {stability}", **look))
     yield Heading("Orbits")
     panels = Panel(plane, "r (m)", "dr/dt (m/s)"), Panel(pull, "time (wave periods)", "T at the top (kN)", level=0.0)
     caption = f"Orbits at {key.head} = {number(at)}: radial speed over r, and tension over one round (`orbits/`)."
-    yield Figure(curves([panels], 3.0, "below", widths=(1.0, 1.3)), caption, f"{listed(one.name for one in plane)}.")
+    picture = curves([panels], 3.0, "below", widths=(1.0, 1.3))
+    yield Figure(picture, caption, f"{listed(curve.name for curve in plane)}.")
     columns = heads("branch", (key.head, key.unit), *((f"μ{k}", "") for k in _SHOWN), ("gap", ""), "motion")
-    body = (
-        (row["branch"] or EMPTY, number(row[key.name]), *(_multiplier(row, k) for k in _SHOWN),
-         number(row["gap"], 1), row["motion"] or EMPTY) for row in rows
-    )  # fmt: skip
-    caption = "Multipliers, the largest first; in brackets their errors: what other steps change. Gap: what is left of "
-    yield Table(columns, tuple(body), f"{caption}the equation of the orbit.", small=True)
+    body = []
+    for row in rows:
+        multipliers = [_multiplier(row, k) for k in _SHOWN]
+        first, last = (row["branch"] or EMPTY, number(row[key.name])), (number(row["gap"], 1), row["motion"] or EMPTY)
+        body.append((*first, *multipliers, *last))
+    caption = (
+        "Multipliers, the largest first; in brackets their errors: what other steps change. Gap: what is left of the "
+        "equation of the orbit."
+    )
+    yield Table(columns, tuple(body), caption, small=True)
 
 
 def _multiplier(row: Row, k: int) -> str:
     """ "−0.732 (0.007)", "0.155 + 0.446i (0.02)"."""
-    real, imag, error = (value(row, f"multiplier_{k}_{name}") for name in ("real", "imag", "error"))
-    beside = f" {'−' if imag < 0.0 else '+'} {decimals(abs(imag), 3)}i" if imag else ""
-    return f"{decimals(real, 3)}{beside} ({number(error, 1)})" if np.isfinite(real) else EMPTY
+    mu, error = _complex(row, k), value(row, f"multiplier_{k}_error")
+    if not np.isfinite(mu.real):
+        return EMPTY
+    text = decimals(mu.real, 3)
+    if mu.imag:
+        text += f" {'−' if mu.imag < 0.0 else '+'} {decimals(abs(mu.imag), 3)}i"
+    return f"{text} ({number(error, 1)})"
+
+
+def _complex(row: Row, k: int) -> complex:
+    """A multiplier of a row; its real part is nan where it has none."""
+    return complex(value(row, f"multiplier_{k}_real"), value(row, f"multiplier_{k}_imag"))
 
 
 def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
-    low, high = (float(end(np.concatenate([one.at for one in branches]))) for end in (np.min, np.max))
-    out = min(_OUT, max(1.2, *(float(np.nanmax(one.seen["modulus"])) for one in branches)))
+    every_value = np.concatenate([branch.at for branch in branches])
+    low, high = float(every_value.min()), float(every_value.max())
+    out = min(_OUT, max(1.2, _largest(branches, "modulus")))
     turn, panels = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200)), []
-    for one in branches:
+    settings = {"aspect": "equal", "xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out)}
+    for branch in branches:
         dots = [Curve(turn.real, turn.imag, colour=SOFT)]
-        for row in one.orbits:
-            mu = np.array(
-                [value(row, f"multiplier_{k}_real") + 1j * value(row, f"multiplier_{k}_imag") for k in _SHOWN]
-            )
-            mu = mu[np.isfinite(mu)] / np.maximum(np.abs(mu[np.isfinite(mu)]) / out, 1.0)
+        for row in branch.orbits:
+            multipliers = np.array([_complex(row, k) for k in _SHOWN])
+            multipliers = multipliers[np.isfinite(multipliers)]
+            multipliers = multipliers / np.maximum(np.abs(multipliers) / out, 1.0)
             share = (row[key.name] - low) / (high - low or 1.0)
             look = {"colour": matplotlib.colormaps["viridis"](share), "size": 1.5 + 2.0 * share}
-            dots.append(Curve(mu.real, mu.imag, line="", mark="o", **look))
-        for row in one.events:
+            dots.append(Curve(multipliers.real, multipliers.imag, line="", mark="o", **look))
+        for row in branch.events:
             turned = np.exp(1j * value(row, "angle_rad") * np.array([1.0, -1.0]))
             dots.append(Curve(turned.real, turned.imag, "", "", EVENTS[row["kind"]], INK, size=5.5, filled=False))
-        settings = {"aspect": "equal", "xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out)}
-        title = f"branch {one.name}, {plain(key.head)} {number(one.at.min())} to {number(one.at.max())}"
+        span = f"{number(branch.at.min())} to {number(branch.at.max())}"
+        title = f"branch {branch.name}, {plain(key.head)} {span}"
         panels.append(Panel(dots, r"Re $\mu$ (–)", r"Im $\mu$ (–)", title, settings=settings))
-    rows = [panels[first : first + 3] for first in range(0, len(panels), 3)]
+    rows = batched(panels, 3)
     caption = (
         f"The largest multipliers of each orbit and the unit circle; {key.head} from {number(low)} (small, violet) to "
         f"{number(high)} (large, yellow). Open marks: events. Moduli above {number(out, 2)} are drawn as that."
     )
+    alt = f"Complex plane: {listed(panel.title for panel in panels)}."
     yield Heading("Multipliers")
-    yield Figure(
-        curves(rows, 2.6 * len(rows), share="xy"), caption, f"Complex plane: {listed(p.title for p in panels)}."
-    )
+    yield Figure(curves(rows, 2.6 * len(rows), share="xy"), caption, alt)
 
 
 def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Notice:
-    ended, events, lines = rows_of(folder, "branches"), rows_of(folder, "events"), []
-    for one in branches:
-        if missed := [number(one.at[k]) for k in one.changes if not one.kinds[k]]:
-            lines.append(f"Branch {one.name} changes its stability at {listed(missed)}: no event was located there.")
-    for row in ended:
-        ends = (row[end] for end in ("begins", "ends") if row[end] and not row[end].startswith(_WHOLE))
-        lines += [f"Branch {row['branch']} was not followed to its end: {end}." for end in ends]
-    if coarse := [row for row in events if _coarse(row, key.name)]:
-        at = listed(f"{row['kind']} of branch {row['branch']} at {decimals(value(row, key.name), 4)}" for row in coarse)
-        lines.append(f"Known to no better than {number(_ACCURATE)}: {at}.")
-    orbits = *folder.table, *rows_of(folder, "orbits")
-    if unsure := dict.fromkeys(f"{row['branch']} at {number(row[key.name])}" for row in orbits if _unsure(row)):
-        lines.append(f"Stable or not within the error of a multiplier: branch {listed(unsure)}.")
-    failed = (row for row in (*folder.table, *events, *ended) if row["status"] != "ok")
-    for row in failed:
-        known = (f"{name.capitalize()} {row[name]}" for name in ("branch", "motion", "period") if row.get(name, ""))
-        which = next(known, "An orbit")
-        lines.append(f"{which}: {row['status']}; {row['message']}.")
-    if not lines:
-        return Notice("note", "Nothing to warn of", ("Every branch was followed to its end, every event is accurate.",))
-    return Notice("warning", "What limits these orbits", tuple(dict.fromkeys(lines)))
+    followed, events = rows_of(folder, "branches"), rows_of(folder, "events")
+    lines = []
+    for branch in branches:
+        missed = [number(branch.at[place]) for place in branch.changes if not branch.kinds[place]]
+        if missed:
+            lines.append(f"Branch {branch.name} changes its stability at {listed(missed)}: no event was located there.")
+    for row in followed:
+        for end in (row["begins"], row["ends"]):
+            if end and not end.startswith(_WHOLE):
+                lines.append(f"Branch {row['branch']} was not followed to its end: {end}.")
+    coarse = []
+    for row in events:
+        if _coarse(row, key.name):
+            coarse.append(f"{row['kind']} of branch {row['branch']} at {decimals(value(row, key.name), 4)}")
+    if coarse:
+        lines.append(f"Known to no better than {number(_ACCURATE)}: {listed(coarse)}.")
+    unsure = []
+    for row in (*folder.table, *rows_of(folder, "orbits")):
+        if _unsure(row):
+            unsure.append(f"{row['branch']} at {number(row[key.name])}")
+    if unsure:
+        lines.append(f"Stable or not within the error of a multiplier: branch {listed(dict.fromkeys(unsure))}.")
+    for row in (*folder.table, *events, *followed):
+        if row["status"] != "ok":
+            lines.append(f"{_named(row)}: {row['status']}; {row['message']}.")
+    return limits("What limits these orbits", dict.fromkeys(lines), _COMPLETE)
+
+
+def _named(row: Row) -> str:
+    """The branch, motion or period of a row that failed."""
+    for name in ("branch", "motion", "period"):
+        if row.get(name, ""):
+            return f"{name.capitalize()} {row[name]}"
+    return "An orbit"
 
 
 def _unsure(row: Row) -> bool:
     """Whether a multiplier is no farther from the unit circle than its error."""
-    values = [[value(row, f"multiplier_{k}_{name}") for name in ("real", "imag", "error")] for k in _SHOWN]
-    return any(abs(np.hypot(real, imag) - 1.0) <= error for real, imag, error in values)
+    for k in _SHOWN:
+        if abs(abs(_complex(row, k)) - 1.0) <= value(row, f"multiplier_{k}_error"):
+            return True
+    return False

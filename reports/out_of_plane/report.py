@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Heading, Item, Notice, Report
-from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.provenance import page, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import count, listed, number
 from ..sweep.quantities import further
@@ -29,7 +29,6 @@ _RESOLVED_RAD = 0.5 * math.pi  # in one element
 def report(directory: str | Path) -> Report:
     """The content of the report on an out-of-plane folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    scene = study.folder.scene
     items = [
         *section_items("out_of_plane", "Question"),
         *sections.statement_items(study),
@@ -40,9 +39,8 @@ def report(directory: str | Path) -> Report:
         *_warnings(study),
         Heading("Table of runs"),
         study.table((*_RUNS, *further(study.folder.columns, _PLACED)), study.runs, "Every run."),
-        *appendix(*_scene_and_times(study), *provenance_items(study.folder)),
     ]
-    return Report("Tethered buoy: out of the plane of the waves", scene.title or scene.name, tuple(items))
+    return page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
 
 
 def _warnings(study: Study) -> Iterator[Item]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
-from .content import Heading, Item, Listing, Table, Text, heads, with_subscripts
+from .content import Heading, Item, Listing, Notice, Report, Table, Text, heads, with_subscripts
 from .folder import Folder
 from .wording import EMPTY, decimals, number
 
@@ -99,6 +99,29 @@ def provenance_items(folder: Folder) -> list[Item]:
         caption = "All of `provenance.json` but the command and the times."
         items.append(Table(heads("entry", "value"), rows, caption, small=True))
     return items
+
+
+def page(
+    folder: Folder, title: str, items: Iterable[Item], made: Iterable[Item] | None = None, subtitle: str = ""
+) -> Report:
+    """A report: its items, and how it was made in an appendix that ends with the provenance.
+
+    made: of the appendix, in front of the provenance; None: run times and scene. subtitle: "" for the title of the
+    scene.
+    """
+    scene = folder.scene
+    if made is None:
+        made = [*timing_items(folder), *scene_items(scene, str(folder.provenance.get("scene") or scene.name), {})]
+    subtitle = subtitle or scene.title or scene.name
+    return Report(title, subtitle, (*items, *appendix(*made, *provenance_items(folder))))
+
+
+def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:
+    """The warnings of a report in a box, or a note that says there are none."""
+    lines = tuple(lines)
+    if not lines:
+        return Notice("note", "Nothing to warn of", (nothing,))
+    return Notice("warning", title, lines)
 
 
 def appendix(*items: Item) -> list[Item]:

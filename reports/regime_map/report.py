@@ -10,7 +10,7 @@ from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
 from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
 from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
-from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.provenance import limits
 from ..parts.sections import section_items
 from ..parts.style import WIDTH_IN
 from ..parts.wording import listed, number, percent
@@ -43,13 +43,7 @@ def report(directory: str | Path) -> Report:
         for page, figure in zip(atlas.pages, other_figures, strict=True):
             items += [Heading(page.place), figure]
     items += [Heading("Warnings"), _warnings(folder, atlas)]
-    scene_name = str(folder.provenance.get("scene") or folder.scene.name)
-    items += appendix(
-        *timing_items(folder),
-        *scene_items(folder.scene, scene_name, {}),
-        *provenance_items(folder),
-    )
-    return Report(f"Regimes over {over}", folder.scene.title or folder.scene.name, tuple(items))
+    return page(folder, f"Regimes over {over}", items)
 
 
 _REGIMES = (
@@ -140,9 +134,7 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
         lines.append(
             f"{cheap} of {verdicts.total()} verdicts are cheap: the motion repeats at one look. Sheets say which."
         )
-    if not lines:
-        return Notice("note", "Nothing to warn of", ("Every cell was computed and has a full verdict.",))
-    return Notice("warning", "What the maps do not tell", tuple(lines))
+    return limits("What the maps do not tell", lines, "Every cell was computed and has a full verdict.")
 
 
 def _reasons(atlas: Atlas) -> str:

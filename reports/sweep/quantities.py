@@ -1,13 +1,14 @@
 """What a table measures, as a report draws it: its numbers with their errors, least and greatest values together."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import cycle
 
 import numpy as np
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts.columns import Quantity, number_of, value
+from ..parts.columns import Quantity, number_of, table_of, value
 from ..parts.content import Picture, Table, heads
+from ..parts.folder import Folder
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION
 from ..parts.wording import EMPTY, number
 
@@ -198,3 +199,18 @@ def errors_of(names: Iterable[str]) -> dict[str, str]:
             if f"{owner}_".startswith(stem) and not owner.endswith("_error"):
                 errors[owner] = name
     return errors
+
+
+def filled_table(
+    part: Folder | None, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
+) -> list[Table]:
+    """The table of a part of a folder, with those of the named columns (all, but for the key of a run) that say
+    something in some row; nothing without a part."""
+    if part is None:
+        return []
+    filled = []
+    for name in names or part.columns:
+        entries = [row.get(name, "") for row in part.table]
+        if name != "run_key" and any(entry not in ("", 0.0) and entry == entry for entry in entries):  # nan is not
+            filled.append(name)
+    return [table_of(part.columns, filled, part.table, caption, own_cells)]

@@ -10,7 +10,7 @@ from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
+from ..parts.provenance import limits, page, scene_items, timing_items
 from ..parts.wording import EMPTY, listed, number
 from .motions import every_motion
 from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
@@ -62,11 +62,9 @@ def report(directory: str | Path) -> Report:
         _warnings(run_keys, rows),
         Heading("Table of runs"),
         *_tables(folder.columns, key_cells, rows),
-        *appendix(
-            *timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE), *provenance_items(folder)
-        ),
     ]
-    return Report(f"Sweep of {key_names.replace('`', '')}", folder.scene.title or folder.scene.name, tuple(items))
+    made = [*timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE)]
+    return page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
 
 
 def _columns_of(shown: Sequence[Measured]) -> list[Quantity]:
@@ -134,11 +132,7 @@ def _warnings(keys: Sequence[Quantity], rows) -> Notice:
         runs = sum(phrase in str(row["message"]) for row in rows)
         if runs:
             lines.append(f"In {runs} of {len(rows)} runs {words} (column `message`).")
-    if not lines:
-        return Notice("note", "Nothing to warn of", (_SOUND,))
-    if failed:
-        return Notice("warning", "Runs that failed", tuple(lines))
-    return Notice("warning", "Runs that hold less", tuple(lines))
+    return limits("Runs that failed" if failed else "Runs that hold less", lines, _SOUND)
 
 
 def _tables(columns: Mapping[str, Quantity], key_cells: Mapping[str, Callable], rows) -> list[Table]:

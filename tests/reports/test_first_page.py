@@ -18,13 +18,14 @@ from campaigns.machinery.folder import read_rows
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure, regime_items
 from reports.buoy_sweep.runs import read_sweep
-from reports.figures.orbit_diagram import Column, Range, orbit_diagram
+from reports.figures.orbit_diagram import NARROW_IN, Column, OrbitDiagram, Range
 from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text, plain
 from reports.parts.first_page import how_long, opened
 from reports.parts.html import render_html
-from reports.parts.style import REGIME_COLOURS
+from reports.parts.style import REGIME_COLOURS, WIDTH_IN
 from tests.reports.conftest import Page, points_of, rows_in, write
 
+LABELS = "kA", "r (m)"
 VALUES = np.linspace(0.02, 0.16, 29)
 WORDS = ["period-1"] * 20 + ["quasi-periodic"] * 4 + ["chaotic"] * 5
 
@@ -45,7 +46,7 @@ def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_
     between = [Column(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
     every = sorted(columns_of() + between, key=lambda one: one.at)
     loops = Range("loops released", [one.at > 0.12 for one in every])
-    orbit_diagram(every, ("kA", "r (m)"), [], [loops], [(0.13, "paper")])
+    OrbitDiagram(every, LABELS, [], [loops], [(0.13, "paper")]).drawn()
     top, bar, released = drawn[0].axes
     found = points_of(top)
     assert sum(map(len, found.values())) == len(every)
@@ -62,7 +63,7 @@ def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_
 
 
 def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_others(drawn):
-    orbit_diagram(columns_of(), ("kA", "r (m)"), [])
+    OrbitDiagram(columns_of(), LABELS, []).drawn()
     top = drawn[0].axes[0]
     (inner,) = top.child_axes
     drawn[0].draw_without_rendering()
@@ -73,16 +74,16 @@ def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_ot
     place = inner.get_window_extent().transformed(top.transData.inverted())
     inside = [one for one in columns_of() if place.x0 <= one.at <= place.x1]
     assert all(((one.points < place.y0) | (one.points > place.y1)).all() for one in inside)
-    orbit_diagram(columns_of((8.0, 8.0)), ("kA", "r (m)"), [])
+    OrbitDiagram(columns_of((8.0, 8.0)), LABELS, []).drawn()
     assert not drawn[1].axes[0].child_axes, "nothing small, nothing larger"
 
 
 def test_both_forms_hold_the_same(drawn):
-    for width in ((), ([], [], [], 3.7)):
-        orbit_diagram(columns_of(), ("kA", "r (m)"), [], *width)
+    figure = OrbitDiagram(columns_of(), LABELS, []).figure("caption", "alternative")
+    assert figure.picture.data != figure.narrow.data
     wide, narrow = (points_of(figure.axes[0]) for figure in drawn)
     assert wide.keys() == narrow.keys() and all(np.array_equal(wide[key], narrow[key]) for key in wide)
-    assert drawn[0].get_figwidth() > 1.5 * drawn[1].get_figwidth()
+    assert [sheet.get_figwidth() for sheet in drawn] == [WIDTH_IN, NARROW_IN]
 
 
 @pytest.fixture
