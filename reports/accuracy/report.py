@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
-from ..parts.provenance import page, timing_items
+from ..parts.provenance import report_page, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
@@ -29,7 +29,7 @@ def report(directory: str | Path) -> Report:
         *sections.order_items(study),
     ]
     subtitle = "Work-precision of the engine and of other codes"
-    return page(study.folder, "Error against run time", items, timing_items(study.folder), subtitle)
+    return report_page(study.folder, "Error against run time", items, timing_items(study.folder), subtitle)
 
 
 def _protocol(study: Study) -> str:

@@ -82,7 +82,7 @@ def read_study(directory: str | Path) -> Study:
         raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     files = read_files(directory, wanted)
-    orders, columns = (files[name] for name in wanted)
+    orders, columns = files.values()
     return Study(folder, works, folder.table, tuple(_settings(folder.table)), tuple(orders), columns)
 
 
@@ -172,11 +172,13 @@ def _diagram(study: Study, work: str) -> Figure:
     names = list(dict.fromkeys(setting.method for setting in timed))
     series = []
     for name in names:
-        members = [setting for setting in timed if setting.method == name and setting.error < WORST]
-        time = factor * np.array([setting.wall_s for setting in members])
-        error = np.maximum([setting.error for setting in members], 1e-12)
-        is_peer = any(setting.peer for setting in members)
-        series.append((name, time, error, is_peer))
+        time, error, is_peer = [], [], False
+        for setting in timed:
+            if setting.method == name and setting.error < WORST:
+                time.append(setting.wall_s)
+                error.append(setting.error)
+                is_peer = setting.peer
+        series.append((name, factor * np.array(time), np.maximum(error, 1e-12), is_peer))
     ring = shipped(study, work)
     marked = (factor * ring.wall_s, ring.error) if ring else None
     picture = work_precision(series, f"stepping time ({unit})", f"error ({error_unit})", marked)
@@ -196,8 +198,10 @@ def _diagram(study: Study, work: str) -> Figure:
 
 def order_items(study: Study) -> Iterator[Item]:
     """Measured orders, work by work."""
-    judged = [row for row in study.orders if row["kind"] != TOLERANCE]
-    tolerances = [row for row in study.orders if row["kind"] == TOLERANCE]
+    judged, tolerances = [], []
+    for row in study.orders:
+        of_kind = tolerances if row["kind"] == TOLERANCE else judged
+        of_kind.append(row)
     yield Heading("Orders of convergence")
     if not judged:
         yield Text("No series of steps or grids was run.")

@@ -12,8 +12,9 @@ from ..figures.orbit_diagram import NARROW_IN
 from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, part_of, read_folder
-from ..parts.provenance import limits, page
+from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
+from ..parts.selecting import having
 from ..parts.style import BLUE, INK
 from ..parts.wording import count, listed, number, of_kicks
 from ..sweep.quantities import colours_of, filled_table, further
@@ -51,7 +52,7 @@ def report(directory: str | Path) -> Report:
     if motions:
         items += _motions(motion_runs, motions, edge)
     items += [*_shock(shock), *_edge(edge), Heading("Warnings"), _warnings(folder, across)]
-    return page(folder, "Basins: which start ends in which motion", items)
+    return report_page(folder, "Basins: which start ends in which motion", items)
 
 
 def _colours(motions) -> dict[str, str]:
@@ -68,12 +69,11 @@ def _value(row, axis: str) -> float:
 
 def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Iterator[Item]:
     x_axis, y_axis = across
-    x = np.unique([_value(row, x_axis) for row in folder.table])
-    y = np.unique([_value(row, y_axis) for row in folder.table])
+    x, across_place = np.unique([_value(row, x_axis) for row in folder.table], return_inverse=True)
+    y, up_place = np.unique([_value(row, y_axis) for row in folder.table], return_inverse=True)
     ended = np.full((len(y), len(x)), "", dtype=object)
-    for row in folder.table:
-        place = np.searchsorted(y, _value(row, y_axis)), np.searchsorted(x, _value(row, x_axis))
-        ended[place] = row["motion"] or _outcome(row)
+    for row, up, right in zip(folder.table, up_place, across_place, strict=True):
+        ended[up, right] = row["motion"] or _outcome(row)
     colours, names = _colours(motions), {}
     colours.pop("", None)
     for row in motions:
@@ -103,7 +103,7 @@ def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] |
     """(where the smallest start to the largest tension is on the map, its size in words); None without one."""
     if shock is None:
         return None
-    starts = [row for row in shock.table if row["status"] == "ok"]
+    starts = having(shock.table, status="ok")
     if not starts or not starts[0]["size"] > 0.0:
         return None
     unit = "m" if "x" in across else "m/s"

@@ -7,7 +7,7 @@ from ..figures.line_panels import named
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import page, scene_items, timing_items
+from ..parts.provenance import report_page, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.wording import count, decimals, listed, number, percent
 from . import figures
@@ -54,7 +54,7 @@ def report(directory: str | Path) -> Report:
     ]
     solved = section_items("breaking_line_solved", law=folder.scene.tether.tension.law)
     made = [*timing_items(folder, table("cost")), *_scene(folder), *solved]
-    return page(folder, "The breaking synthetic line", items, made)
+    return report_page(folder, "The breaking synthetic line", items, made)
 
 
 def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:

@@ -15,6 +15,7 @@ from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import Column, OrbitDiagram, Range
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
+from ..parts.selecting import entries
 from ..parts.style import BLUE, INK, REGIME_COLOURS
 from ..parts.wording import T_I, T_S, count, decimals, number, printed
 from ..sweep.quantities import in_order, series
@@ -81,9 +82,11 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
 
 def _described(sweep: Sweep, motions: Mapping[str, tuple[str, str]]) -> str:
     """The motions and how often each regime comes, for those who cannot see the figure."""
-    parts = [f"motion {letter} {title}" for letter, (_, title) in motions.items()]
-    counts = Counter(run["regime"] for run in sweep.judged)
-    regimes = [f"{word} {runs} times" for word, runs in counts.items()]
+    parts, regimes = [], []
+    for letter, (_, title) in motions.items():
+        parts.append(f"motion {letter} {title}")
+    for word, runs in Counter(entries(sweep.judged, "regime")).items():
+        regimes.append(f"{word} {runs} times")
     return "; ".join([*parts, ", ".join(regimes)])
 
 

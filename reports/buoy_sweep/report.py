@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import limits, page
+from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
 from ..parts.wording import T_I, TAU_0, decimals, number, percent
 from ..sweep.motions import every_motion
@@ -48,7 +48,7 @@ def report(directory: str | Path) -> Report:
     ]
     solved = section_items("buoy_sweep_solved", law=sweep.folder.scene.tether.tension.law)
     made = [*time_items(sweep), *scene_and_modes(sweep), *solved]
-    return page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
+    return report_page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
 
 
 def _question(sweep: Sweep) -> list[Item]:

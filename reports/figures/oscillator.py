@@ -12,9 +12,11 @@ STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
 
 def oscillator_section(states: np.ndarray, boxes: np.ndarray, orbit: np.ndarray | None) -> Picture:
     """The whole section: states (m, 2), the boxes (b, 4) of the zooms, points (p, 2) of a coexisting orbit or None."""
-    dots = Curve(*states.T, "", "", ",", INK, alpha=0.6 if len(states) > 20000 else 1.0)
-    attracting = [] if orbit is None else [Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION)]
-    return curves([[Panel([dots, *_frames(boxes, 1), *attracting], *STATE)]], 4.9, "upper left", kind="png")
+    alpha = 0.6 if len(states) > 20000 else 1.0
+    lines = [Curve(*states.T, "", "", ",", INK, alpha=alpha), *_frames(boxes, 1)]
+    if orbit is not None:
+        lines.append(Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION))
+    return curves([[Panel(lines, *STATE)]], 4.9, "upper left", kind="png")
 
 
 def oscillator_zooms(zooms: list[np.ndarray], boxes: np.ndarray) -> Picture:
@@ -32,16 +34,19 @@ def oscillator_zooms(zooms: list[np.ndarray], boxes: np.ndarray) -> Picture:
 def _frames(boxes: np.ndarray, first: int) -> list[Curve]:
     """The outlines of boxes (b, 4), with their numbers."""
     corners = boxes[:, [0, 1, 1, 0, 0]], boxes[:, [2, 2, 3, 3, 2]]
-    numbers = range(first, first + len(boxes))
-    return [Curve(x, y, f"zoom {k}", colour=(BLUE, GREEN)[k - 1]) for x, y, k in zip(*corners, numbers, strict=True)]
+    frames = []
+    for number, (x, y) in enumerate(zip(*corners, strict=True), first):
+        frames.append(Curve(x, y, f"zoom {number}", colour=(BLUE, GREEN)[number - 1]))
+    return frames
 
 
 def oscillator_history(periods: np.ndarray, displacement: np.ndarray, velocity: np.ndarray) -> Picture:
     """Histories over t/T (m,): displacement and velocity (m,); shaded where the tether is slack."""
     rows = []
     for values, label in ((displacement, r"$\gamma$ (–)"), (velocity, r"$\dot\gamma$ (–)")):
-        ends = (np.where(displacement < 0.0, end, np.nan) for end in (values.min(), values.max()))
-        history = Curve(periods, values, colour=INK, band=(periods, *ends))
+        slack = displacement < 0.0
+        band = periods, np.where(slack, values.min(), np.nan), np.where(slack, values.max(), np.nan)
+        history = Curve(periods, values, colour=INK, band=band)
         x_label = r"$t/T$ (forcing periods)" if rows else ""
         rows.append([Panel([history], x_label, label, level=0.0, settings={"xlim": (periods[0], periods[-1])})])
     return curves(rows, 2.9, share="x")
@@ -58,12 +63,11 @@ def oscillator_errors(convergence: np.ndarray, of_start: np.ndarray) -> Picture:
     running = Curve(time, mean, "mean over starts, ± 2 standard errors", colour=BLUE, band=band)
     labels = ("time of each start's average (–)", r"$\lambda_1$ (nats per time)")
     running_panel = Panel([running], *labels, level=float(mean[-1]))
-    sizes = np.array([2**i for i in range(20) if len(of_start) // 2**i >= 8] or [1])
-    groups = len(of_start) // sizes
-    means = [
-        of_start[: size * count].reshape(count, size).mean(axis=1) for size, count in zip(sizes, groups, strict=True)
-    ]
-    scatter = np.array([group_means.std(ddof=1) for group_means in means])
+    sizes = 2 ** np.arange(20)
+    sizes = sizes[(len(of_start) // sizes >= 8) | (sizes == 1)]
+    groups, scatter = len(of_start) // sizes, np.empty(len(sizes))
+    for place, (size, count) in enumerate(zip(sizes, groups, strict=True)):
+        scatter[place] = of_start[: size * count].reshape(count, size).mean(axis=1).std(ddof=1)
     observed = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
     ends = sizes[[0, -1]]
     law = Curve(ends, scatter[0] * ends**-0.5, r"$k^{-1/2}$ from $k = 1$", colour=VERMILION)
@@ -93,5 +97,7 @@ def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, ma
     share = Panel([dots(across, slack, "", BLUE, 1.0)], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)})
     below = [Panel(lines, y_label="exponents\n(nats per time)", level=0.0), share]
     inside = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
-    columns = [Column(at, points[np.isfinite(points)]) for at, points in zip(values, strobed, strict=True)]
+    columns = []
+    for at, points in zip(values, strobed, strict=True):
+        columns.append(Column(at, points[np.isfinite(points)]))
     return OrbitDiagram(columns, (label, r"strobed $\gamma$ (–)"), below, marks=inside).drawn()

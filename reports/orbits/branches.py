@@ -10,6 +10,7 @@ import numpy as np
 from ..figures.curves import COLOURS, Curve
 from ..parts.columns import value
 from ..parts.folder import Folder, part_of, read_rows
+from ..parts.selecting import having
 from ..parts.style import INK
 from ..sweep.quantities import colours_of, series
 
@@ -98,7 +99,7 @@ def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Bran
             continue
         orbits.sort(key=itemgetter("place"))
         points = np.array([strobes[name, row["place"]] for row in orbits])
-        on_branch = [row for row in events if row["branch"] == name]
+        on_branch = having(events, branch=name)
         branches.append(Branch(name, orbits, on_branch, colour, *_with_events(orbits, on_branch, key, points)))
     return branches
 

@@ -15,8 +15,9 @@ from ..figures.orbit_diagram import Column, OrbitDiagram
 from ..parts.columns import Quantity, value
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
 from ..parts.folder import Folder, FolderError, part_of, read_folder, read_rows
-from ..parts.provenance import limits, page
+from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
+from ..parts.selecting import entries, having
 from ..parts.style import INK, SOFT
 from ..parts.wording import EMPTY, count, decimals, listed, number
 from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
@@ -38,7 +39,7 @@ def report(directory: str | Path) -> Report:
     """The content of the report on a folder of orbits. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, _NEEDED)
     key = _varied(folder)
-    motions = [row for row in rows_of(folder, "motions") if row["status"] == "ok"]
+    motions = having(rows_of(folder, "motions"), status="ok")
     branches = read_branches(folder, key.name, motions)
     items: list[Item] = []
     if branches:
@@ -51,7 +52,7 @@ def report(directory: str | Path) -> Report:
         items += _multipliers(key, branches)
     items.append(Heading("Branches"))
     items += filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH)
-    return page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
+    return report_page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
 
 
 def _varied(folder: Folder) -> Quantity:
@@ -185,7 +186,7 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     rows, plane, pull = rows_of(folder, "orbits"), [], []
     if not rows:
         return
-    at = Counter(row[key.name] for row in rows).most_common(1)[0][0]
+    at = Counter(entries(rows, key.name)).most_common(1)[0][0]
     colours = colours_of(rows_of(folder, "motions"))
     for branch in branches:
         colours[branch.name] = branch.colour

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ..parts.content import Heading, Item, Notice, Report
-from ..parts.provenance import page, scene_items, timing_items
+from ..parts.provenance import report_page, scene_items, timing_items
 from ..parts.sections import section_items
+from ..parts.selecting import entries
 from ..parts.wording import count, listed, number
 from ..sweep.quantities import further
 from . import sections
@@ -40,7 +41,7 @@ def report(directory: str | Path) -> Report:
         Heading("Table of runs"),
         study.table((*_RUNS, *further(study.folder.columns, _PLACED)), study.runs, "Every run."),
     ]
-    return page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
+    return report_page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
 
 
 def _warnings(study: Study) -> Iterator[Item]:
@@ -73,7 +74,7 @@ def _warnings(study: Study) -> Iterator[Item]:
 
 
 def _end(run: Run) -> str:
-    return f"{run['status']}: {run['message']}" if run["message"] else run["status"]
+    return ": ".join(filter(None, (run["status"], run["message"])))
 
 
 def _name(run: Run) -> str:
@@ -93,10 +94,12 @@ def _scene_and_times(study: Study) -> Iterator[Item]:
         "nodes": "tether.nodes",
         "dimensions": "motion.dimensions",
     }
-    varied = {key: listed(map(number, sorted({run[name] for run in study.runs}))) for name, key in keys.items()}
+    varied = {}
+    for name, key in keys.items():
+        varied[key] = listed(map(number, sorted(set(entries(study.runs, name)))))
     varied["start.buoy_velocity_mps"] = "see the table of runs"
     if any(run.known("offplane_growth_bits_per_period") for run in study.runs):
         varied |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
-    if any(run["profiles"] for run in study.runs):
+    if any(entries(study.runs, "profiles")):
         varied["output.profiles"] = "yes in one run"
     yield from scene_items(study.folder.scene, "tethered_buoy", varied)

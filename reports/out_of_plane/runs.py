@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from ..parts.columns import Name, table_of
 from ..parts.content import Table
 from ..parts.folder import Folder, FolderError, Row, read_folder
+from ..parts.selecting import having
 from ..parts.wording import number
 
 VARIED = (
@@ -44,13 +46,13 @@ class Study:
         """Runs that ended as asked and are as the base but for `wanted`; None for a key that may have any value, in
         rising order of it."""
         keys = {**self.base, **wanted}
-        fixed = {key: entry for key, entry in keys.items() if entry is not None}
-        free = [key for key in keys if key not in fixed]
-        chosen = []
-        for run in self.runs:
-            if run.ok and all(run[key] == entry for key, entry in fixed.items()):
-                chosen.append(run)
-        return sorted(chosen, key=lambda run: [run[key] for key in free])
+        fixed, free = {"status": "ok"}, []
+        for key, entry in keys.items():
+            if entry is None:
+                free.append(key)
+            else:
+                fixed[key] = entry
+        return sorted(having(self.runs, **fixed), key=lambda run: [run[key] for key in free])
 
     def over(self, **wanted) -> list[Run]:
         """`select` at every steepness, the small wave first."""
@@ -68,7 +70,7 @@ class Study:
     def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
         """A table of runs in the words of the dictionary."""
         varied = {name: (lambda row, name=name: number(row[name])) for name in VARIED if name != "seed_direction"}
-        return table_of(self.folder.columns, names, [run.row for run in runs], caption, varied)
+        return table_of(self.folder.columns, names, list(map(attrgetter("row"), runs)), caption, varied)
 
 
 def read_study(directory: str | Path) -> Study:

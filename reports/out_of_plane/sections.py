@@ -1,6 +1,7 @@
 """Sections of the out-of-plane report: tables of the folder, figures of its runs, and the same sentences each time."""
 
 from collections.abc import Iterator
+from itertools import chain
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..parts.columns import table_of, value
 from ..parts.content import Bullets, Figure, Heading, Item, Text
 from ..parts.folder import read_columns, read_rows
 from ..parts.judged import counted, read_statements, statements_table
+from ..parts.selecting import entries, having
 from ..parts.wording import number
 from .runs import BODIES, DISPLACEMENT, Study, envelope, of_bodies
 
@@ -33,10 +35,12 @@ def statement_items(study: Study) -> Iterator[Item]:
 
 def _agreement(pairs: list[dict[str, str]]) -> str:
     """In how many pairs the planar run agrees with the run in three dimensions."""
-    agreeing = 0
+    agreeing = len(pairs)
     for pair in pairs:
-        verdicts = [verdict for name, verdict in pair.items() if name.startswith("same_")]
-        agreeing += "0" not in verdicts
+        for name, verdict in pair.items():
+            if name.startswith("same_") and verdict == "0":
+                agreeing -= 1
+                break
     return (
         f"Planar runs with loop release agree with the runs in three dimensions in {agreeing} of {len(pairs)} pairs: "
         "range of r, section, exponent and regime of the buoy, as far as the records tell. The planar run is no "
@@ -106,7 +110,7 @@ def dependence_items(study: Study) -> Iterator[Item]:
     if not large:
         return
     small = [run for run in study.over(bending_stiffness_Nm2=None) if run["steepness"] != study.base["steepness"]]
-    stiffnesses = sorted({run["bending_stiffness_Nm2"] for run in large})
+    stiffnesses = sorted(set(entries(large, "bending_stiffness_Nm2")))
     panels = []
     for body in BODIES:
         panels.append((body, [_curve(large, body, stiffness) for stiffness in stiffnesses]))
@@ -126,8 +130,8 @@ def dependence_items(study: Study) -> Iterator[Item]:
 
 
 def _curve(runs, body: str, stiffness: float) -> tuple:
-    chosen = [run for run in runs if run["bending_stiffness_Nm2"] == stiffness]
-    depth_m = np.array([run["depth_m"] for run in chosen])
+    chosen = having(runs, bending_stiffness_Nm2=stiffness)
+    depth_m = np.array(entries(chosen, "depth_m"))
     late_m = np.array([run[f"{body}_lateral_late_m"] for run in chosen])
     decays = np.array([run[f"{body}_motion"] == "decay" for run in chosen])
     return f"EI = {number(stiffness)} N m²", depth_m, late_m, decays
@@ -153,8 +157,7 @@ def comparison_items(study: Study) -> Iterator[Item]:
         "slack_fraction", ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
         ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "regime", "wall_s",
     ]  # fmt: skip
-    runs_of_pairs = [run for pair in pairs for run in pair]
-    yield study.table(names, runs_of_pairs, "Planar runs (D = 2) and their counterparts (D = 3).")
+    yield study.table(names, list(chain.from_iterable(pairs)), "Planar runs (D = 2) and their counterparts (D = 3).")
     columns = read_columns(study.folder.directory, PAIRS)
     shown = [name for name in columns if not name.endswith("_key")]
     yield table_of(columns, shown, pair_rows, "What the runs of a pair differ in. From `pairs.csv`.")

@@ -13,6 +13,7 @@ from ..out_of_plane.sections import comparison_items
 from ..parts.columns import Quantity, plus_minus, table_of, value
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, FolderError, provenance_of, read_files
+from ..parts.selecting import entries
 from ..parts.wording import EMPTY, number, percent
 
 if TYPE_CHECKING:
@@ -132,7 +133,7 @@ def _depth_figure(rows: list[dict]) -> Figure:
 
 def _treatments(rows: list[dict], key: str) -> list[str]:
     """The words of a column, each once, in the order of the table."""
-    return list(dict.fromkeys(row[key] for row in rows))
+    return list(dict.fromkeys(entries(rows, key)))
 
 
 def _regimes(rows: list[dict], quantities: dict[str, Quantity], steepness: float) -> Table:

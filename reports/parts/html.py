@@ -15,6 +15,7 @@ from functools import lru_cache
 from html import escape
 
 from .content import CellSheets, Equation, Explorer, Picture, Report, numbered, plain, spans
+from .selecting import entries
 
 _MEDIA = {"svg": "image/svg+xml", "png": "image/png", "gif": "image/gif"}
 _SNIPPET = """#set document(date: none)
@@ -36,7 +37,7 @@ def render_html(report: Report) -> bytes:
     environment.globals.update(equation_svg=equation_svg, explorer_json=explorer_json, packed=packed)
     template = environment.get_template("report.html.jinja")
     blocks = numbered(report.items)
-    kinds = [block["kind"] for block in blocks]
+    kinds = entries(blocks, "kind")
     first = kinds.index("heading") if "heading" in kinds else len(blocks)
     return template.render(report=report, blocks=blocks, parts=(blocks[:first], blocks[first:])).encode()
 

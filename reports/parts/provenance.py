@@ -57,9 +57,12 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
             source = f"set by the user (default {_shown(defaults[name])})"
         else:
             source = "set by the user"
-        shown = varied[name] if name in varied else _shown(values[name])
-        meaning = f"{key.meaning}, {key.symbol}" if key.symbol else key.meaning
-        unit = EMPTY if key.unit in ("", "1") else key.unit
+        meaning, unit = key.meaning, key.unit
+        if key.symbol:
+            meaning += f", {key.symbol}"
+        if unit in ("", "1"):
+            unit = EMPTY
+        shown = varied.get(name) or _shown(values[name])
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
     columns = heads("key", "parameter", ("value", ""), "unit", "source")
     origin = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
@@ -73,8 +76,7 @@ def _key(name: str) -> str:
 
 def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
     """What the runs cost: `costs`, where there are any, and the time split of a campaign; nothing for none of them."""
-    items = [item for item in costs if item is not None]
-    rows = []
+    items, rows = list(filter(None, costs)), []
     for name, time in _flat(folder.provenance.get("timing")):
         if isinstance(time, (int, float)):
             part = _TIMES.get(name, name.removesuffix("_s").replace("_", " "))
@@ -82,7 +84,9 @@ def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
     if rows:
         caption = "Where the time of the campaign went, from `provenance.json`."
         items.append(Table(heads("part", ("wall time", "s")), tuple(rows), caption))
-    return [Heading("Run times"), *items] if items else []
+    if not items:
+        return []
+    return [Heading("Run times"), *items]
 
 
 def provenance_items(folder: Folder) -> list[Item]:
@@ -92,16 +96,19 @@ def provenance_items(folder: Folder) -> list[Item]:
     entries.pop("timing", None)
     command = entries.pop("command", None)
     if command:
-        words = shlex.join(map(str, command)) if isinstance(command, list) else str(command)
-        items += [Text("The command:"), Listing(words)]
-    rows = tuple((f"`{key}`", _shown(entry)) for key, entry in _flat(entries))
+        if isinstance(command, list):
+            command = shlex.join(map(str, command))
+        items += [Text("The command:"), Listing(str(command))]
+    rows = []
+    for key, entry in _flat(entries):
+        rows.append((f"`{key}`", _shown(entry)))
     if rows:
         caption = "All of `provenance.json` but the command and the times."
-        items.append(Table(heads("entry", "value"), rows, caption, small=True))
+        items.append(Table(heads("entry", "value"), tuple(rows), caption, small=True))
     return items
 
 
-def page(
+def report_page(
     folder: Folder, title: str, items: Iterable[Item], made: Iterable[Item] | None = None, subtitle: str = ""
 ) -> Report:
     """A report: its items, and how it was made in an appendix that ends with the provenance.
@@ -130,7 +137,9 @@ def appendix(*items: Item) -> list[Item]:
         return []
     section: list[Item] = [Heading("Appendix: how this was made")]
     for item in items:
-        section.append(Heading(item.text, 2) if isinstance(item, Heading) else item)
+        if isinstance(item, Heading):
+            item = Heading(item.text, 2)
+        section.append(item)
     return section
 
 
@@ -154,7 +163,7 @@ def _shown(entry: object) -> str:
     if isinstance(entry, (list, tuple)):
         if any(isinstance(item, (list, tuple, dict)) for item in entry):
             return f"{len(entry)} entries"
-        words = [_shown(item) for item in entry]
+        words = list(map(_shown, entry))
         if len(words) > 6:
             return f"{words[0]}, {words[1]}, …, {words[-1]} ({len(words)} entries)"
         return f"[{', '.join(words)}]"

@@ -9,6 +9,7 @@ import numpy as np
 from ..figures.regime_map import HATCHES, Cells, Map
 from ..parts.columns import Quantity
 from ..parts.folder import Folder, part_of
+from ..parts.selecting import entries
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
 from ..parts.wording import listed, number
 from ..sweep.quantities import at, series
@@ -40,7 +41,7 @@ class Page:
 
     def on_top(self, source: str) -> np.ndarray:
         """(n,) which cells are of that source and not covered by others."""
-        sources = np.array([row["source"] for row in self.rows])
+        sources = np.array(entries(self.rows, "source"))
         return (self.area > 0.0) & (sources == source)
 
     def share(self, chosen: np.ndarray) -> float:
@@ -116,8 +117,9 @@ def _cells(rows, x: str, y: str) -> Cells:
     for name in (x, y):
         middle, width = series(rows, name), series(rows, f"width_{name}")
         edges += [middle - 0.5 * width, middle + 0.5 * width]
-    source = np.array([row["source"] for row in rows])
-    kinds = np.array([row["regime_rest"] or row["source"] for row in rows])
+    source = np.array(entries(rows, "source"))
+    kinds = np.array(entries(rows, "regime_rest"))
+    kinds = np.where(kinds == "", source, kinds)
     hatched = {}
     for name, reason in LIMITS.items():
         if name in rows[0]:
@@ -137,7 +139,7 @@ def colour_of(word: str) -> str:
 def regimes(page: Page) -> Map:
     """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
     kinds = page.cells.kinds
-    colours = np.array([colour_of(word) for word in kinds])
+    colours = np.array(list(map(colour_of, kinds)))
     texts = np.full(len(kinds), "", dtype=object)
     for cell, word in enumerate(kinds):
         if word.startswith(_PERIOD):
@@ -261,10 +263,9 @@ def numbers(atlas: Atlas) -> list[list[Map]]:
         ("share_of_largest", "share of kicks that end in that motion", even, Normalize(0.0, 1.0), None),
         (_EXPONENT, f"largest exponent ({unit})", signed, CenteredNorm(0.0, growth), None),
     )
-    known = [quantity for quantity in quantities if _has_values(atlas, quantity[0])]
     maps = []
     for page in atlas.pages:
-        maps.append([_shaded(page, *quantity) for quantity in known])
+        maps.append([_shaded(page, *quantity) for quantity in quantities if _has_values(atlas, quantity[0])])
     return maps
 
 

@@ -10,8 +10,9 @@ from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
 from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
 from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
-from ..parts.provenance import limits
+from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
+from ..parts.selecting import having
 from ..parts.style import WIDTH_IN
 from ..parts.wording import listed, number, percent
 from ..sweep.quantities import at
@@ -43,7 +44,7 @@ def report(directory: str | Path) -> Report:
         for page, figure in zip(atlas.pages, other_figures, strict=True):
             items += [Heading(page.place), figure]
     items += [Heading("Warnings"), _warnings(folder, atlas)]
-    return page(folder, f"Regimes over {over}", items)
+    return report_page(folder, f"Regimes over {over}", items)
 
 
 _REGIMES = (
@@ -128,7 +129,11 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
         share = atlas.limited(reason)
         if share:
             lines.append(f"On {percent(share)} of the map {_LIMIT_SENTENCES[name]}.")
-    verdicts = Counter(row["verdict"] for row in folder.table if row["status"] == "ok" and row.get("verdict"))
+    verdicts = Counter()
+    for row in having(folder.table, status="ok"):
+        verdicts[row.get("verdict")] += 1
+    verdicts.pop("", None)
+    verdicts.pop(None, None)
     cheap = verdicts["cheap"]
     if cheap:
         lines.append(

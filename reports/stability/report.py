@@ -18,6 +18,7 @@ from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, 
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
+from ..parts.selecting import entries, having
 from ..parts.wording import EMPTY, count, number
 
 
@@ -70,7 +71,7 @@ class Study:
 
     def judged(self, verdict: str) -> list[dict[str, str]]:
         """The cases with that verdict."""
-        return [row for row in self.cases if row["verdict"] == verdict]
+        return having(self.cases, verdict=verdict)
 
     def unsound(self) -> list[dict[str, str]]:
         """The random scenes in which the program is at fault."""
@@ -80,18 +81,18 @@ class Study:
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     files = read_files(directory, FILES)
-    table, columns, random, provenance = (files[name] for name in FILES)
+    table, columns, random, provenance = files.values()
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
         raise FolderError(Path(directory), ["table.csv cannot be read: it has no rows, or not those of this campaign"])
-    cases = [row for row in table if row["part"] == "case"]
+    cases = having(table, part="case")
     return Study(provenance, columns, cases, random)
 
 
 def case_items(study: Study) -> list[Item]:
     """One table of all cases, a row with its title before each group."""
     rows = []
-    for about in dict.fromkeys(row["about"] for row in study.cases):
-        rows += [{"case": f"— {about} —"}, *(row for row in study.cases if row["about"] == about)]
+    for about in dict.fromkeys(entries(study.cases, "about")):
+        rows += [{"case": f"— {about} —"}, *having(study.cases, about=about)]
 
     def cell(name: str):
         return lambda row: study.columns[name].cell(row[name]) if "group" in row else row.get(name, "")
@@ -103,22 +104,23 @@ def case_items(study: Study) -> list[Item]:
 
 def stiffness_items(study: Study) -> Iterator[Item]:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
-    rows = [row for row in study.judged("ok") if row["measured_tension"] and not own_words(row["message"])]
-    rows = [row for row in rows if row["group"] == "EA" or row["how"] == "waves in a bar"]
-    costs = {row["run_key"]: value(row, "newton_iterations") / value(row, "length_s") for row in rows}
-    unit = [costs[row["run_key"]] for row in rows if (row["group"], row["case"]) == DEFAULT]
-    checks: dict[str, list[tuple[float, ...]]] = {}
-    if not unit:
+    measured: dict[str, list[tuple[float, ...]]] = {}
+    unit = math.nan
+    for row in study.judged("ok"):
+        shown = row["group"] == "EA" or row["how"] == "waves in a bar"
+        if not shown or not row["measured_tension"] or own_words(row["message"]):
+            continue
+        cost, stiffness_N = value(row, "newton_iterations") / value(row, "length_s"), value(row, "stiffness_N")
+        if (row["group"], row["case"]) == DEFAULT:
+            unit = cost
+        if math.isfinite(stiffness_N):
+            measured.setdefault(row["how"], []).append((stiffness_N, value(row, "measured_tension"), cost))
+    if not measured or math.isnan(unit):
         return
-    for row in rows:
-        if math.isfinite(value(row, "stiffness_N")):
-            point = value(row, "stiffness_N"), value(row, "measured_tension"), costs[row["run_key"]] / unit[0]
-            checks.setdefault(row["how"], []).append(point)
-    if not checks:
-        return
-    points = {name: np.array(series).T for name, series in checks.items()}
-    worst = max(series[1].max() for series in points.values())
-    largest = max(series[2].max() for series in points.values())
+    points, worst, largest = {}, 0.0, 0.0
+    for name, checks in measured.items():
+        points[name] = np.array(checks).T / np.array([[1.0], [1.0], [unit]])
+        worst, largest = max(worst, points[name][1].max()), max(largest, points[name][2].max())
     seen = f"errors up to {number(worst, 2)}, {number(largest, 2)} times as many iterations at most"
     yield Heading("Tension and cost over stiffness")
     yield Figure(
@@ -139,7 +141,10 @@ def limit_items(study: Study) -> Iterator[Item]:
     for heading, verdict, names, caption in sections:
         rows = sorted(study.judged(verdict), key=lambda row: row["limit"])
         yield heading
-        yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", cells) if rows else Text("None.")
+        if rows:
+            yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", cells)
+        else:
+            yield Text("None.")
 
 
 def random_items(study: Study) -> Iterator[Item]:

@@ -10,7 +10,8 @@ from ..figures.maps import Map, maps
 from ..parts.columns import Quantity, table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import limits, page, scene_items, timing_items
+from ..parts.provenance import limits, report_page, scene_items, timing_items
+from ..parts.selecting import having
 from ..parts.wording import EMPTY, listed, number
 from .motions import every_motion
 from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
@@ -64,7 +65,7 @@ def report(directory: str | Path) -> Report:
         *_tables(folder.columns, key_cells, rows),
     ]
     made = [*timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE)]
-    return page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
+    return report_page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
 
 
 def _columns_of(shown: Sequence[Measured]) -> list[Quantity]:
@@ -86,7 +87,7 @@ def _maps_of_each(keys: Sequence[Quantity], rows, shown: Sequence[Measured], mot
         return _maps(keys, rows, shown, "")
     items: list[Item] = []
     for letter in motions:
-        members = [row for row in rows if row["motion"] == letter]
+        members = having(rows, motion=letter)
         items += _maps(keys, members, shown, f", motion {letter}")
     return items
 
