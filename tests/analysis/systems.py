@@ -34,8 +34,9 @@ FLOWS = {  # start; which coordinate is observed; sampling step; steps of integr
     "ueda": ((2.5, 0.0), 0, 2 * np.pi / 50, 5),
     "pendulum": ((0.1, 0.0), 1, 2 * np.pi / 0.7 / 50, 8),
     "van_der_pol": ((1.0, 0.0), 0, 0.1, 4),
+    "wells": ((0.1, 0.1), 0, 2 * np.pi / 48, 1),  # Duffing's with a force of .26: several motions
 }
-LORENZ, ROSSLER, DUFFING, UEDA, PENDULUM, _ = range(len(FLOWS))
+LORENZ, ROSSLER, DUFFING, UEDA, PENDULUM, _, WELLS = range(len(FLOWS))
 
 
 @numba.njit(cache=True)
@@ -44,8 +45,8 @@ def _rate(flow, t, y):
         return np.array([10.0 * (y[1] - y[0]), y[0] * (28.0 - y[2]) - y[1], y[0] * y[1] - 8.0 / 3.0 * y[2]])
     if flow == ROSSLER:
         return np.array([-y[1] - y[2], y[0] + 0.2 * y[1], 0.2 + y[2] * (y[0] - 5.7)])
-    if flow == DUFFING:
-        force = -0.25 * y[1] + y[0] - y[0] ** 3 + 0.4 * np.cos(t)
+    if flow == DUFFING or flow == WELLS:
+        force = -0.25 * y[1] + y[0] - y[0] ** 3 + (0.4 if flow == DUFFING else 0.26) * np.cos(t)
     elif flow == UEDA:
         force = -0.05 * y[1] - y[0] ** 3 + 7.5 * np.cos(t)
     elif flow == PENDULUM:
@@ -70,6 +71,13 @@ def _march(flow, y, step, substeps, skip, samples):
             k4 = _rate(flow, t + h, y + h * k3)
             y = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
     return out
+
+
+def wells(start, periods):
+    """Strobed states (p + 1, 2) of Duffing's two wells, and measures (p, 2) of each period: least and largest x."""
+    found = _march(WELLS, np.array(start), FLOWS["wells"][2], 1, 0, 48 * periods + 1)
+    x = np.column_stack([found[:-1, 0].reshape(periods, 48), found[48::48, 0]])
+    return found[::48], np.column_stack([x.min(axis=1), x.max(axis=1)])
 
 
 @cache
@@ -151,3 +159,29 @@ def nonchaotic_map(sigma, points, skip=1000):
 def circle(turns):
     """(cos, sin) of angles in turns."""
     return np.column_stack([np.cos(2.0 * np.pi * turns), np.sin(2.0 * np.pi * turns)])
+
+
+def logistic_growth(rate, orbit):
+    """Growth of a perturbation of `logistic` in each step, in nats: ln 2 in the mean where the rate is 4."""
+    return np.log(np.maximum(np.abs(rate * (1.0 - 2.0 * orbit[:-1])), 1e-12))
+
+
+def henon_growth(orbit, a=1.4, b=0.3):
+    """The same along an orbit of `henon`."""
+    (u, w), growth = (1.0, 0.0), np.empty(len(orbit) - 1)
+    for k, (x, _) in enumerate(orbit[:-1]):
+        u, w = -2.0 * a * x * u + w, b * u
+        length = np.hypot(u, w)
+        growth[k], u, w = np.log(length), u / length, w / length
+    return growth
+
+
+def logistic_step(z, rate):
+    """`logistic` as `analysis.orbits` takes a map: its image, and its derivative times vectors."""
+    return rate * z * (1.0 - z), lambda vectors: rate * (1.0 - 2.0 * z[:, None]) * vectors
+
+
+def henon_step(z, a, b=0.3):
+    """`henon` in the same way."""
+    x, y = z
+    return np.array([1.0 - a * x * x + y, b * x]), lambda vectors: np.array([[-2.0 * a * x, 1.0], [b, 0.0]]) @ vectors

@@ -6,6 +6,7 @@ import pytest
 from analysis import approach_evidence, approached_period, next_look
 from analysis.looks import looks
 from analysis.orbits import OrbitMap, find_orbit
+from tests.analysis.systems import henon, henon_step
 
 SCALE, MOST = np.ones(2), 1500
 
@@ -95,18 +96,12 @@ def test_a_drift_a_torus_and_chaos_come_to_no_period():
 def test_an_orbit_of_several_points_is_found_from_a_run_that_still_rings(parameter, period):
     """The Hénon map just beyond the flips of its periods 1 and 2, where the doubled period attracts slowly."""
 
-    def step(z):
-        return np.array([1.0 - parameter * z[0] ** 2 + z[1], 0.3 * z[0]])
-
-    def with_derivative(z, _):
-        return step(z), lambda V: np.array([[-2.0 * parameter * z[0], 1.0], [0.3, 0.0]]) @ V
-
-    orbit = find_orbit(OrbitMap(with_derivative), record(step, (0.1, 0.1), 5000)[-1], 0.0, period)
+    orbit = find_orbit(OrbitMap(henon_step), henon(1, parameter, skip=5000)[0], parameter, period)
     assert orbit.period == period and 0.95 < abs(orbit.multipliers[0]) < 1.0
-    states = record(step, orbit.points[0] + np.array([1e-2, 0.0]))
-    told = first_look(states, orbit.multipliers, np.roll(orbit.points, 1, axis=0))
+    states = henon(MOST, parameter, skip=0, start=orbit.points[0] + np.array([1e-2, 0.0]))
+    told = first_look(states, orbit.multipliers, orbit.points)
     assert told is not None and approached_period(states[: told + 1], SCALE) == period
-    half = find_orbit(OrbitMap(with_derivative), orbit.points[: period // 2].mean(axis=0), 0.0, period // 2)
+    half = find_orbit(OrbitMap(henon_step), orbit.points[: period // 2].mean(axis=0), parameter, period // 2)
     assert first_look(states, half.multipliers, half.points) is None
 
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import motion_regime
-from tests.analysis.systems import circle, henon, logistic
-from tests.analysis.test_looks import henon_growth, logistic_growth
+from tests.analysis.systems import circle, henon, henon_growth, logistic, logistic_growth
 
 LENGTHS = range(100, 1501, 100)
 RANDOM = np.random.default_rng(4)
@@ -86,11 +85,8 @@ def test_perturbations_that_were_not_carried_ask_for_a_closer_period():
 def test_a_word_holds_beside_and_within_windows_of_the_logistic_map(rate):
     """3.8284 lies below the window of period 3: its orbits seem to repeat for 140 points and more, again and again."""
     for start in (0.05, 0.35, 0.62, 0.81):
-        orbit = np.empty(10_001)
-        orbit[0] = start
-        for k in range(10_000):
-            orbit[k + 1] = rate * orbit[k] * (1.0 - orbit[k])
-        growth = np.log(np.maximum(np.abs(rate * (1.0 - 2.0 * orbit[:-1])), 1e-12))
+        orbit = logistic(rate, 10_001, start, skip=0)
+        growth = logistic_growth(rate, orbit)
         for length in (310, 735, 1500):
             verdict = told(orbit, growth, length)
             assert verdict.period is None or growth[5000:].mean() < 0.0, (start, length)

@@ -34,6 +34,17 @@ def test_a_swing_that_grows_or_decays_has_its_rate(rate, noise):
     assert found.span_nats == pytest.approx(rate * (found.end - found.begin), rel=0.05)
 
 
+def test_the_error_of_a_rate_is_between_one_and_a_half_and_three_times_the_scatter_of_noise():
+    """It is wide on purpose: quarters of the straight part may differ by more than noise."""
+    t, rate = times(150), 0.01
+    deviations = []
+    for seed in range(60):
+        noise = np.random.default_rng(seed).lognormal(0.0, 0.5, len(t))
+        found = growth_or_bursts(1e-6 * np.exp(rate * t) * noise, STEP, PERIOD).rate
+        deviations.append((found.value - rate) / found.error)
+    assert 0.33 < np.std(deviations) < 0.67
+
+
 def mathieu(frequency, strength, periods, starts):
     """x'' + (frequency + strength cos 2t) x = 0, forced with a period of pi, from a start: x, x' at steps of pi/200."""
     t = math.pi / 200 * np.arange(200 * periods + 1)
@@ -133,7 +144,8 @@ def test_units_of_size_and_time_change_nothing_but_themselves():
 @pytest.mark.parametrize("values", [np.zeros(5001), np.empty(0), np.zeros(1), np.ones(300)])
 def test_nothing_to_tell_is_told_with_a_reason(values):
     found = growth_or_bursts(values, STEP, PERIOD)
-    assert found.kind == "neither" and found.reason
+    assert found.kind == "neither"
+    assert any(words in found.reason for words in ("every value is zero", "no values", "no straight part"))
     assert math.isnan(found.rate.value) and math.isnan(found.begin) and len(found.burst_time) == 0
 
 

@@ -5,22 +5,9 @@ import pytest
 
 from analysis import motion_regime
 from analysis.exponents import Exponent
-from tests.analysis.systems import circle, circle_map, henon, logistic
+from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth
 
 M = np.arange(1001)
-
-
-def logistic_growth(rate, orbit):
-    return np.log(np.abs(rate * (1.0 - 2.0 * orbit[:-1])))
-
-
-def henon_growth(orbit, a=1.4, b=0.3):
-    (u, w), growth = (1.0, 0.0), np.empty(len(orbit) - 1)
-    for k, (x, _) in enumerate(orbit[:-1]):
-        u, w = -2.0 * a * x * u + w, b * u
-        length = np.hypot(u, w)
-        growth[k], u, w = np.log(length), u / length, w / length
-    return growth
 
 
 def circle_growth(coupling, turns):

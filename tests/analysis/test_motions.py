@@ -6,31 +6,9 @@ import numpy as np
 import pytest
 
 from analysis import Settled, distance, grouped, joins, matched, settled, share_of
-from tests.analysis.systems import circle_map, henon
+from tests.analysis.systems import circle_map, henon, wells
 
-PERIODS, STEPS = 200, 48
-
-
-def duffing(starts, force=0.26):
-    """Strobed states (k, p + 1, 2) and measures (k, p, 2), least and largest x, of x'' + x'/4 - x + x^3 = f cos t."""
-    x, v, h = *np.array(starts, dtype=float).T, 2.0 * np.pi / STEPS
-    states, measures = [np.stack([x, v], axis=-1)], []
-
-    def pull(t, x, v):
-        return force * math.cos(t) - 0.25 * v + x - x**3
-
-    for _ in range(PERIODS):
-        least, largest = x, x
-        for i in range(STEPS):
-            a1 = pull(i * h, x, v)
-            a2 = pull((i + 0.5) * h, x + h / 2 * v, v + h / 2 * a1)
-            a3 = pull((i + 0.5) * h, x + h / 2 * v + h * h / 4 * a1, v + h / 2 * a2)
-            a4 = pull((i + 1.0) * h, x + h * v + h * h / 2 * a2, v + h * a3)
-            x, v = x + h * v + h * h / 6 * (a1 + a2 + a3), v + h / 6 * (a1 + 2 * (a2 + a3) + a4)
-            least, largest = np.minimum(least, x), np.maximum(largest, x)
-        states.append(np.stack([x, v], axis=-1))
-        measures.append(np.stack([least, largest], axis=-1))
-    return np.stack(states, axis=1), np.stack(measures, axis=1)
+PERIODS = 200
 
 
 def of_map(orbit):
@@ -40,8 +18,8 @@ def of_map(orbit):
 
 def test_every_start_is_put_to_its_motion():
     """Duffing's two wells at force .26 have a period 1 each, and both of them a period 5. Who joins is right later."""
-    x, e = duffing(np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2)))
-    late = [settled(*run, scale=(1.0, 1.0)) for run in zip(x, e, strict=True)]
+    runs = [wells(start, PERIODS) for start in np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2))]
+    late = [settled(*run, scale=(1.0, 1.0)) for run in runs]
     assert None not in late
     label = grouped(late)
     known = [late[list(label).index(motion)] for motion in range(3)]
@@ -49,7 +27,7 @@ def test_every_start_is_put_to_its_motion():
     well = [np.sign(motion.points[:, 0].mean()) for motion in known if motion.period == 1]
     assert sorted(well) == [-1.0, 1.0]
     joined = []
-    for run, measures, ends in zip(x, e, label, strict=True):
+    for (run, measures), ends in zip(runs, label, strict=True):
         reached = ((n, joins(run[: n + 1], measures[:n], known)) for n in range(1, PERIODS))
         when, motion = next((n, index) for n, index in reached if index is not None)
         assert motion == ends

@@ -155,7 +155,8 @@ def test_flows_within_a_fifth_by_rosenstein(name):
 )
 def test_regular_motion_and_noise_have_none(series):
     found = rosenstein_lyapunov(series, 0.1)
-    assert np.isnan(found.value) and found.reason
+    assert np.isnan(found.value) and np.isnan(found.error)
+    assert "straight" in found.reason or "samples of a series that moves" in found.reason
 
 
 def test_settings_of_ones_own_are_used():

@@ -24,6 +24,11 @@ def test_exponents_of_maps_are_found_within_three_errors_and_a_tenth(section, bi
         assert abs(one.value - bits) < max(3.0 * one.error, 0.1)
 
 
+def test_the_error_covers_the_scatter_of_the_exponent_and_is_at_most_three_times_as_wide():
+    found = [section_lyapunov(logistic(4.0, 400, start, 50))[0] for start in np.linspace(0.07, 0.93, 60)]
+    assert 0.33 < np.std([(one.value - 1.0) / one.error for one in found]) < 1.0
+
+
 def test_a_period_seen_through_noise_has_a_negative_exponent():
     """The noise of one period says nothing of that of the next."""
     whole = section_lyapunov(noisy(logistic(3.5, 600), 0.01, 1))[0]

@@ -20,7 +20,7 @@ from matplotlib.figure import Figure as Drawing
 
 from campaigns import buoy_sweep
 from campaigns.columns import dictionary
-from campaigns.explore.rows import COLUMNS
+from campaigns.explore.rows import COLUMNS, STEEPNESS
 from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (
@@ -46,6 +46,7 @@ from reports.parts.html import render_html
 from reports.parts.sections import equation
 from tests.campaigns.fake_engine import FakeEngine, sines
 
+WORD = COLUMNS[2]
 MESSAGE = "Newton's method did not converge <at> t = 12 s, #step $x$ 1e-9"
 ODD_TITLE = '<b>#odd$ *title* _x_ @ref `code` \\ "q" & [z] //c é\u2028 </title>'
 WHOLE = MapPlace((0.0, 0.0, 1.0, 1.0), (0.0, 1.0, 0.0, 1.0))
@@ -211,6 +212,15 @@ def write(place, rows, columns=COLUMNS):
         writer = csv.DictWriter(file, [one.name for one in columns], extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def columns_of(rows, words, symbols=None):
+    """Columns for rows of a toy: those named are words, the others numbers."""
+    columns = []
+    for name in rows[0]:
+        usual = WORD if name in words else STEEPNESS
+        columns.append(replace(usual, name=name, symbol=(symbols or {}).get(name, "")))
+    return tuple(columns)
 
 
 def rows_in(place) -> list[dict]:

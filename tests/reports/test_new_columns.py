@@ -19,8 +19,8 @@ from reports.parts.provenance import scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
 from reports.sweep.quantities import further
-from tests.reports.conftest import rows_in, write
-from tests.reports.test_regime_map import columns_of, folder_of
+from tests.reports.conftest import columns_of, rows_in, write
+from tests.reports.test_regime_map import SYMBOLS, WORDS, folder_of
 
 __all__ = ["folder_of"]  # a fixture
 NEW = Column("snaps_per_period", "1/T", "snaps", "snaps in a wave period", 2)
@@ -67,7 +67,7 @@ def test_a_new_column_is_in_the_table_of_runs_of_a_buoy_sweep(folder, tmp_path):
 def test_a_new_column_is_in_the_sheets_of_a_map(folder_of):
     place = folder_of()
     rows = [{**row, NEW.name: 0.75} for row in rows_in(place)]
-    write(place, rows, columns_of(rows))
+    write(place, rows, columns_of(rows, WORDS, SYMBOLS))
     folder = read_folder(place)
     sheets = cell_sheets(folder, read_atlas(folder))
     assert [head for head, _ in sheets.heads].count(NEW.name.replace("_", " ")) == 1

@@ -7,23 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from campaigns.explore.rows import COLUMNS, STEEPNESS
+from campaigns.explore.rows import COLUMNS
 from reports import content_of
 from reports.orbits.branches import read_branches
 from reports.orbits.report import report
 from reports.parts.content import Figure, Notice, Table
 from reports.parts.folder import FolderError, read_folder
-from tests.reports.conftest import rows_in, write
+from tests.reports.conftest import columns_of, rows_in, write
 from tests.reports.test_words_apart import crowded
 
 WORDS = ("branch", "kind", "motion", "begins", "ends", "leads_to", "found_by", "status", "message")
+SYMBOLS = {"steepness": "kA"}
 FOLD, FLIP = 0.06, 0.11  # at the fold the orbits are 21 m and the multiplier is 1
-
-
-def columns_of(rows):
-    """Columns for rows: words or numbers."""
-    own = (replace(COLUMNS[2], name=name) if name in WORDS else replace(STEEPNESS, name=name) for name in rows[0])
-    return tuple(STEEPNESS if one.name == "steepness" else one for one in own)
 
 
 @pytest.fixture
@@ -45,7 +40,7 @@ def orbits(folder, tmp_path):
             rows.append(
                 {**usual, **where, **first, "multiplier_modulus": abs(mu), "tension_top_max_N": pull, "gap": 1e-12}
             )
-    write(place, rows, columns_of(rows))
+    write(place, rows, columns_of(rows, WORDS, SYMBOLS))
     strobes = ["branch,place,strobe,radius_m"]
     for row in rows:
         strobes += [
@@ -58,13 +53,13 @@ def orbits(folder, tmp_path):
         {**event, "kind": "flip", "steepness": FLIP, "tension_top_max_N": 3000.0 + 5000.0 * np.sqrt(FLIP - FOLD),
          "error": 9e-4, "finer": "", "leads_to": "2", "angle_rad": np.pi},
     ]  # fmt: skip
-    write(place / "events", events, columns_of(events))
+    write(place / "events", events, columns_of(events, WORDS, SYMBOLS))
     end = {**usual, "begins": "reaches the end of the range, 0.15", "ends": "meets the orbit of period 1"}
     failed = "at 0.15 no step above 0.001 succeeds: a loop is released"
     ends = [{**end, "branch": "1"}, {**end, "branch": "2", "motion": "", "ends": failed}]
-    write(place / "branches", ends, columns_of(ends))
+    write(place / "branches", ends, columns_of(ends, WORDS, SYMBOLS))
     chosen = [{**row, "found_by": "Newton"} for row in rows if (row["branch"], row["place"]) in {("1", 2), ("1", 11)}]
-    write(place / "orbits", chosen, columns_of(chosen))
+    write(place / "orbits", chosen, columns_of(chosen, WORDS, SYMBOLS))
     for row in chosen:
         history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"
         (place / "orbits" / f"1_{row['place']}.csv").write_text(history)

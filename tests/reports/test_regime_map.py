@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from campaigns.explore.rows import COLUMNS, STEEPNESS
 from engine import load_scene
 from reports import build, content_of
 from reports.figures.regime_map import Cells, regime_maps
@@ -23,7 +22,7 @@ from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, Map, legend, 
 from reports.regime_map.report import _regimes, _warnings
 from reports.regime_map.sheets import cell_sheets
 from tests.campaigns.fake_engine import sines
-from tests.reports.conftest import write
+from tests.reports.conftest import columns_of, write
 from tests.reports.test_browser import violations
 from tests.reports.test_words_apart import crowded
 
@@ -40,13 +39,6 @@ BLIND = {
     "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
     "tritan": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
 }
-
-
-def columns_of(rows):
-    """Columns for rows: words or numbers."""
-    return tuple(
-        replace(COLUMNS[2] if name in WORDS else STEEPNESS, name=name, symbol=SYMBOLS.get(name, "")) for name in rows[0]
-    )
 
 
 def cell(x, y, level, page=""):
@@ -99,8 +91,8 @@ def folder_of(tmp_path):
                     cells += [cell(*at, 1, page) for at in quarter]
         rows = [one for row in cells for one in motions_of(row)]
         rows[0] |= {name: rows[0].get(name, "") for one in rows for name in one}
-        write(place / "cells", cells, columns_of(cells))
-        write(place, rows, columns_of(rows))
+        write(place / "cells", cells, columns_of(cells, WORDS, SYMBOLS))
+        write(place, rows, columns_of(rows, WORDS, SYMBOLS))
         key = rows[0]["run_key"]
         sines(load_scene("tethered_buoy"), 8).save(place / "trajectories" / f"{key}.nc", {"run_key": key})
         kept = {"radius_m": np.linspace(19.0, 21.0, 64)[None], "tension_N": np.full((1, 64), 2400.0)}

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analysis.orbits import OrbitMap, doubled_orbit, find_orbit, follow_branch, middle_of
+from tests.analysis.systems import logistic_step as logistic
 
 
 def bent(left, right, square=0.0):
@@ -30,10 +31,6 @@ def collision(left, right):
 def quintic(z, r, c=0.2):
     """x' = -(1 + r) x - c x^3 + x^5: period 2 with r = -c x^2 + x^4 leaves the flip at 0 and folds at -c^2/4."""
     return -(1.0 + r) * z - c * z**3 + z**5, lambda V: (-(1.0 + r) - 3.0 * c * z**2 + 5.0 * z**4)[:, None] * V
-
-
-def logistic(z, r):
-    return r * z * (1.0 - z), lambda V: r * (1.0 - 2.0 * z[:, None]) * V
 
 
 def in_steps(size, seed, step=logistic):

@@ -7,17 +7,10 @@ from analysis.orbits import NoImage, OrbitMap, doubled_orbit, find_orbit, follow
 from analysis.orbits.finding import Newton, described, solved_near
 from analysis.oscillator import SnapOscillator, grazing_force, search_periodic_orbits, snap_map, strobed_states
 from analysis.oscillator.growth import random_starts
+from tests.analysis.systems import henon_step as henon
+from tests.analysis.systems import logistic_step as logistic
 
 PAPER, B = SnapOscillator(), 0.3
-
-
-def logistic(z, r):
-    return r * z * (1.0 - z), lambda V: r * (1.0 - 2.0 * z[:, None]) * V
-
-
-def henon(z, a):
-    x, y = z
-    return np.array([1.0 - a * x * x + y, B * x]), lambda V: np.array([[-2.0 * a * x, 1.0], [B, 0.0]]) @ V
 
 
 def delayed_logistic(z, r):
