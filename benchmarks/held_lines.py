@@ -18,7 +18,8 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
-from reports.figures.offplane_history import rope_shapes
+from reports.figures.curves import Curve, Panel, curves
+from reports.parts.content import Picture
 from tests.engine.spatial.rods import Localised
 from tests.engine.spatial.test_held_lines import LENGTH as L
 from tests.engine.spatial.test_held_lines import G, fall
@@ -54,11 +55,33 @@ def line_at(profiles, time_s):
     return np.stack([profiles.x_m[i], profiles.y_m[i], profiles.z_m[i]], 1)
 
 
+def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]) -> Picture:
+    """Three views: x-z in true proportion, y-z and x-y with y enlarged by its own axis.
+
+    Args: per moment a label and x, y, z (nn,) in m of the nodes, from the anchor to the upper end.
+    """
+    from matplotlib import colormaps
+
+    panels = []
+    for title, across, up in (("from the side", "x", "z"), ("along x", "y", "z"), ("from above", "x", "y")):
+        lines = []
+        for k, (label, *places) in enumerate(moments):
+            shade = colormaps["viridis"](0.85 * k / max(len(moments) - 1, 1))
+            horizontal, vertical = places["xyz".index(across)], places["xyz".index(up)]
+            lines.append(Curve(horizontal, vertical, label, mark=".", colour=shade, size=2.0, width=0.8))
+            lines.append(Curve(horizontal[-1:], vertical[-1:], line="", mark="o", colour=shade, size=5.0))
+        settings = {}
+        if title == "from the side":
+            settings = {"aspect": "equal", "adjustable": "datalim"}
+        panels.append(Panel(lines, f"${across}$ (m)", f"${up}$ (m)", title, settings=settings, ticks=4))
+    return curves([panels], 3.6, "below", kind="png")
+
+
 def draw(name, profiles, times, **more):
     """docs/NAME.png: the line at some times, and more lines (n, 3), from three sides."""
     lines = more | {f"{time_s:g} s": line_at(profiles, time_s) for time_s in times}
     path = DOCS / f"{name}.png"
-    path.write_bytes(rope_shapes([(label, *x.T) for label, x in lines.items()], "png").data)
+    path.write_bytes(rope_shapes([(label, *x.T) for label, x in lines.items()]).data)
     shrink(path, 128)
 
 

@@ -1,4 +1,4 @@
-"""Lateral motion over time on a logarithmic axis (the paper's figure 20), and over the depth; shapes of the rope."""
+"""Lateral motion over time on a logarithmic axis (the paper's figure 20), and over the depth."""
 
 from dataclasses import dataclass
 
@@ -62,25 +62,3 @@ def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, n
             lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
         drawn.append(Panel(lines, "depth $H$ (m)", label, title, log="y"))
     return curves([drawn], 2.9, "below")
-
-
-def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]], kind: str = "svg") -> Picture:
-    """Three views: x-z in true proportion, y-z and x-y with y enlarged by its own axis.
-
-    Args: per moment a label and x, y, z (nn,) in m of the nodes, from the anchor to the upper end.
-    """
-    from matplotlib import colormaps
-
-    panels = []
-    for title, across, up in (("from the side", "x", "z"), ("along x", "y", "z"), ("from above", "x", "y")):
-        lines = []
-        for k, (label, *places) in enumerate(moments):
-            shade = colormaps["viridis"](0.85 * k / max(len(moments) - 1, 1))
-            horizontal, vertical = places["xyz".index(across)], places["xyz".index(up)]
-            lines.append(Curve(horizontal, vertical, label, mark=".", colour=shade, size=2.0, width=0.8))
-            lines.append(Curve(horizontal[-1:], vertical[-1:], line="", mark="o", colour=shade, size=5.0))
-        settings = {}
-        if title == "from the side":
-            settings = {"aspect": "equal", "adjustable": "datalim"}
-        panels.append(Panel(lines, f"${across}$ (m)", f"${up}$ (m)", title, settings=settings, ticks=4))
-    return curves([panels], 3.6, "below", kind=kind)

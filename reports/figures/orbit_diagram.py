@@ -133,24 +133,46 @@ class OrbitDiagram:
         return [column for column in self.columns if column.word]
 
     def _words(self) -> dict[str, list[Span]]:
-        """The bar of words of each motion, by its letter; "" in a sweep of one motion."""
-        judged, words = self._judged, {}
-        if judged:
-            for letter in self.motions or [""]:
-                words[letter] = _words(judged, letter)
-        return words
+        """The bar of words of each motion, with nothing where a value has it not; "" in a sweep of one motion."""
+        judged, spans = self._judged, {}
+        at = sorted({column.at for column in judged})
+        if not judged:
+            return spans
+        for letter in self.motions or [""]:
+            words = dict.fromkeys(at, "")
+            for column in judged:
+                if column.motion == letter:
+                    words[column.at] = column.word
+            spans[letter] = _spans(np.array(at), list(words.values()))
+        return spans
 
     def _ranges(self) -> list[list[Span]]:
         at = np.array([column.at for column in self.columns])
         return [_spans(at, part.holds, part.text) for part in self.ranges]
 
     def _legend(self, wide: int) -> list[list]:
-        """The rows of the legend, `wide` motions a row; that of the orbits, the last one, is still empty."""
-        judged = self._judged
-        legend = _legend(judged, len(judged) < len(self.columns), self.motions, wide)
+        """Rows of what colours mean, and hatches where there are motions, `wide` of them a row; that of the orbits, the
+        last one, is still empty."""
+        from matplotlib.patches import Patch
+
+        judged, rows, names = self._judged, [], {}
+        for column in judged:
+            kind = _kind(column.word)
+            names[kind] = kind.replace(_PERIOD, "periodic")
+        if judged and self.motions:
+            patches = []
+            for letter, (colour, title) in self.motions.items():
+                patches.append(Patch(color=colour, label=f"{letter}: {title}"))
+            for first in range(0, len(patches), wide):
+                rows.append(patches[first : first + wide])
+            rows.append([Patch(**_hatched(kind, SOFT), label=name) for kind, name in names.items()])
+        elif judged:
+            rows.append([Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in names.items()])
+            if len(judged) < len(self.columns):
+                rows[0].append(Patch(color=_NEUTRAL, label=_BETWEEN))
         if self.orbits:
-            legend.append([])
-        return legend
+            rows.append([])
+        return rows
 
     def _set_span(self, axes, width_in: float, left_in: float) -> float:
         """Set the span of the parameter; the inches that it takes for a change by 1. left_in: left of the first run."""
@@ -209,42 +231,9 @@ def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[Span]:
     return spans
 
 
-def _words(judged: Sequence[Column], motion: str) -> list[Span]:
-    """The spans of the words of a motion; none where a value has it not."""
-    words = dict.fromkeys((column.at for column in judged), "")
-    for column in judged:
-        if column.motion == motion:
-            words[column.at] = column.word
-    at = sorted(words)
-    return _spans(np.array(at), [words[value] for value in at])
-
-
 def _kind(word: str) -> str:
     """The word, one for all periods."""
     return _PERIOD if word.startswith(_PERIOD) else word
-
-
-def _legend(judged: Sequence[Column], outside: bool, motions: Motions, wide: int) -> list[list]:
-    """Rows of what colours mean, and hatches where there are motions, `wide` a row; outside: some are not judged."""
-    from matplotlib.patches import Patch
-
-    if not judged:
-        return []
-    names = {}
-    for column in judged:
-        kind = _kind(column.word)
-        names[kind] = kind.replace(_PERIOD, "periodic")
-    if not motions:
-        row = [Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in names.items()]
-        if outside:
-            row.append(Patch(color=_NEUTRAL, label=_BETWEEN))
-        return [row]
-    patches = [Patch(color=colour, label=f"{letter}: {title}") for letter, (colour, title) in motions.items()]
-    rows = []
-    for first in range(0, len(patches), wide):
-        rows.append(patches[first : first + wide])
-    rows.append([Patch(**_hatched(kind, SOFT), label=name) for kind, name in names.items()])
-    return rows
 
 
 def _hatched(kind: str, colour: str) -> dict[str, object]:

@@ -6,7 +6,7 @@ from ..parts.columns import table_of
 from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
-from ..parts.provenance import appendix, provenance_items
+from ..parts.provenance import report_page
 from ..parts.sections import section_items
 from ..parts.wording import count, decimals
 from .dependence import dependence_items, written
@@ -58,10 +58,9 @@ def report(directory: str | Path) -> Report:
         Text("Whoever programs the paper needs these corrections; with the equations as printed some runs go wrong."),
         written("misprints"),
         *index_items(),
-        *appendix(*provenance_items(folder)),
     ]
     subtitle = "Tjavaras, Zhu, Liu, Triantafyllou and Yue, Journal of Sound and Vibration 213(4), 709-737, 1998"
-    return Report("The mechanics of highly-extensible cables, run again", subtitle, tuple(items))
+    return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
 
 
 def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:

@@ -12,7 +12,7 @@ from ..figures.curves import Curve, Panel, curves
 from ..parts.columns import table_of, value
 from ..parts.content import Figure, Heading, Item, Report, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
-from ..parts.provenance import appendix, provenance_items, timing_items
+from ..parts.provenance import report_page, timing_items
 from ..parts.sections import section_items
 from ..parts.style import BLUE, VERMILION
 from ..parts.wording import count, number
@@ -60,12 +60,9 @@ def report(directory: str | Path) -> Report:
     items += [
         Heading("Runs"),
         table_of(study.folder.columns, RUNS, study.folder.table, "Every run, from `table.csv`."),
-        *appendix(*timing_items(study.folder), *provenance_items(study.folder)),
     ]
-    cases_text = count(len(study.cases), "case")
-    return Report(
-        "Beside measurements and other codes", f"{cases_text}, each with its source, a bar and a verdict", tuple(items)
-    )
+    subtitle = f"{count(len(study.cases), 'case')}, each with its source, a bar and a verdict"
+    return report_page(study.folder, "Beside measurements and other codes", items, timing_items(study.folder), subtitle)
 
 
 def summary(study: Study) -> Table:
