@@ -5,9 +5,9 @@ from functools import partial
 
 import engine.scene
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
+from tables import OPEN
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
-OPEN = ("undecided", "transient")  # regimes that decide nothing
 LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 

@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 import engine
-from campaigns.columns import Column
 from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import counting, last
 from campaigns.machinery.runner import run, write_scene
+from tables import Column
 
 
 @dataclass(frozen=True)

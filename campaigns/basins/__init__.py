@@ -21,10 +21,10 @@ from campaigns.explore.settings import ROW_SOURCES
 from campaigns.explore.sweep import ONLY, SPEED_MPS
 from campaigns.judge import judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
+from tables import read_table, write_table
 
 COUNT, MOVED_M, BUDGET = 15, 2.0, 1500
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -130,7 +130,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("motions", "shock", "edge"), ())
     for folder in parts:
         with contextlib.suppress(OSError, ValueError):  # none, as where there is one motion
-            parts[folder] = read_rows(order.how.out / folder / "table.csv")
+            parts[folder] = read_table(order.how.out / folder / "table.csv")
     return sentences(rows, order.own.grid.across, order.cases[0].scene, parts)
 
 

@@ -14,15 +14,14 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.answers import greatest
-from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
 from campaigns.explore.along import MOTION, from_rest
-from campaigns.explore.answer import CAPPED
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of, run
 from engine.scene import scene_from_toml
+from tables import CAPPED, LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
 
 ROLE = Column("role", symbol="role", meaning="what was changed in the run of table.csv")
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from campaigns.columns import Column
+from tables import SHEET, Column
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,8 +28,11 @@ MULTIPLIERS = (
         "multiplier_modulus", "", "|μ|",
         "modulus of the leading multiplier of the periodic orbit: what a period of it makes of a perturbation", 3,
     ),
-    Column("multiplier_angle_rad", "rad", "arg μ", "angle of the leading multiplier in the complex plane, 0 to π", 3),
-    Column("multiplier_error", "", "± μ", "largest change of the multiplier over steps of the same tolerance", 3),
+    Column(
+        "multiplier_angle_rad", "rad", "arg μ",
+        "angle of the leading multiplier in the complex plane, 0 to π", 3, SHEET,
+    ),
+    Column("multiplier_error", "", "± |μ|", "largest change of the multiplier over steps of the same tolerance", 3),
 )  # fmt: skip
 
 

@@ -31,7 +31,7 @@ ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
-_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports")
+_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports", "tables")
 _GO_ON = "finished runs are kept; mend the cluster and run the same command again"
 _REFUSED = "refused, not the same version as here: {}; install there what is installed here, and start it again"
 

@@ -16,12 +16,12 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.fuzz import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
 from engine.excursions import own_words
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0

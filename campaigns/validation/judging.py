@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from campaigns.columns import Column
 from campaigns.machinery.folder import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
 from engine import Trajectory
+from tables import Column
 
 POINTS = (
     Column("case", symbol="case", meaning="name of the case"),

@@ -30,7 +30,7 @@ Span = tuple[str, float, float]  # a word, and where on the axis it begins and e
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
+class Strobes:
     """The points (n,) of one run over its parameter, and the word for its motion, "" for one that nobody judged.
 
     motion: its letter, where one value may have several motions.
@@ -51,7 +51,7 @@ class Range:
 
 
 def orbit_diagram(
-    columns: Sequence[Column],
+    columns: Sequence[Strobes],
     labels: tuple[str, str],
     below: Sequence[Panel],
     ranges: Sequence[Range] = (),
@@ -167,7 +167,7 @@ def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[Span]:
     return spans
 
 
-def _words(judged: Sequence[Column], motion: str) -> list[Span]:
+def _words(judged: Sequence[Strobes], motion: str) -> list[Span]:
     """The spans of the words of a motion; none where a value has it not."""
     words = dict.fromkeys((column.at for column in judged), "")
     for column in judged:
@@ -182,7 +182,7 @@ def _kind(word: str) -> str:
     return _PERIOD if word.startswith(_PERIOD) else word
 
 
-def _legend(judged: Sequence[Column], outside: bool, motions: Motions | None, wide: int) -> list[list]:
+def _legend(judged: Sequence[Strobes], outside: bool, motions: Motions | None, wide: int) -> list[list]:
     """Rows of what colours mean, and hatches where there are motions, `wide` a row; outside: some are not judged."""
     from matplotlib.patches import Patch
 
@@ -252,11 +252,11 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     axes.text(place, 0.45, text, ha=side, **look)
 
 
-def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | None) -> None:
+def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions | None) -> None:
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
-    groups: dict[tuple[str, str], list[Column]] = {}
+    groups: dict[tuple[str, str], list[Strobes]] = {}
     for column in columns:
         groups.setdefault((column.word, column.motion), []).append(column)
     for (word, motion), members in sorted(groups.items()):
@@ -281,7 +281,7 @@ def _points(axes, columns: Sequence[Column], inch: float, motions: Motions | Non
         axes.plot(np.concatenate(x), np.concatenate(y), "_", color=colour, alpha=alpha, **look)
 
 
-def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tuple[float, float], float] | None:
+def _small(columns: Sequence[Strobes], several: bool) -> tuple[list[Strobes], tuple[float, float], float] | None:
     """The columns from the left on whose points together take a small part of the range, the ends of their points,
     and where in the panel there is more room for them, 0 below and 1 above; None where there are not many.
     """
@@ -302,7 +302,7 @@ def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tupl
     return members, ends, above
 
 
-def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: float, inch: float, motions) -> None:
+def _enlarged(axes, columns: list[Strobes], ends: tuple[float, float], above: float, inch: float, motions) -> None:
     """The columns again, over the same parameter, in what is blank below or above them."""
     (bottom, top), (x_min, x_max) = axes.get_ylim(), axes.get_xlim()
     edges, room = cell_edges(np.unique([column.at for column in columns])), 0.12 * (top - bottom)

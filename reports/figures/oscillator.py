@@ -5,7 +5,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, INK, SOFT, VERMILION
 from .curves import Curve, Panel, curves
-from .orbit_diagram import Column, orbit_diagram
+from .orbit_diagram import Strobes, orbit_diagram
 
 STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
 
@@ -93,5 +93,5 @@ def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, ma
     share = Panel([dots(across, slack, "", BLUE, 1.0)], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)})
     below = [Panel(lines, y_label="exponents\n(nats per time)", level=0.0), share]
     inside = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
-    columns = [Column(at, points[np.isfinite(points)]) for at, points in zip(values, strobed, strict=True)]
+    columns = [Strobes(at, points[np.isfinite(points)]) for at, points in zip(values, strobed, strict=True)]
     return orbit_diagram(columns, (label, r"strobed $\gamma$ (–)"), below, marks=inside)

@@ -6,15 +6,16 @@ from itertools import cycle, groupby, pairwise
 
 import numpy as np
 
+from tables import PEAK, any_rows, number_of
+
 from ..figures.curves import COLOURS, Curve
-from ..parts.columns import value
-from ..parts.folder import Folder, part_of, read_rows
+from ..parts.folder import Folder, part_of
 from ..parts.style import INK
 from ..sweep.quantities import colours_of, series
 
 EVENTS = {"fold": "D", "flip": "s", "torus": "^"}  # kinds, with their marks
 DASHED = (0, (3.5, 1.5))
-PEAK, MODULUS = "tension_top_max_N", "multiplier_modulus"
+MODULUS = "multiplier_modulus"
 Row = Mapping[str, object]
 
 
@@ -73,7 +74,7 @@ def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Bran
     letters = {row["branch"]: row["motion"].partition(" ")[0] for row in rows_of(folder, "branches")}
     events = [row for row in rows_of(folder, "events") if np.isfinite(row[key])]
     parents, strobes = {row["leads_to"]: row["branch"] for row in events if row["leads_to"]}, {}
-    for row in read_rows(folder.directory / "strobes.csv"):
+    for row in any_rows(folder.directory / "strobes.csv"):
         strobes.setdefault((row["branch"], int(row["place"])), []).append(float(row["radius_m"]))
     of_motions, left, colours, found = colours_of(motions), cycle(COLOURS), {}, []
     for name in dict.fromkeys(row["branch"] for row in folder.table):
@@ -94,7 +95,7 @@ def _with_events(orbits: Sequence[Row], events: Sequence[Row], key: str, strobes
     table = np.column_stack([*(series(orbits, name) for name in (key, PEAK, MODULUS)), strobes])
     nodes = [(float(place), "", steady[place], row) for place, row in enumerate(table)]
     for event in events if len(table) > 1 else ():
-        where = np.array([value(event, key), value(event, PEAK)])
+        where = np.array([number_of(event, key), number_of(event, PEAK)])
         place, share = _nearest(table[:, :2], where)
         changes = [one != other for one, other in pairwise(steady)]
         for beside, at in ((place + 1, 0.0), (place - 1, 1.0)):  # what another accuracy moves to the chord beside

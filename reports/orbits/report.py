@@ -8,17 +8,18 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from tables import EMPTY, Column, any_rows, count, decimals, listed, number, number_of
+
 from ..buoy_sweep.motions import MARKS
 from ..buoy_sweep.runs import strobed
 from ..figures.curves import Curve, Panel, curves
-from ..figures.orbit_diagram import NARROW_IN, Column, orbit_diagram
-from ..parts.columns import Quantity, table_of, value
+from ..figures.orbit_diagram import NARROW_IN, Strobes, orbit_diagram
+from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
-from ..parts.folder import Folder, FolderError, part_of, read_folder, read_rows
+from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.style import INK, SOFT, WIDTH_IN
-from ..parts.wording import EMPTY, count, decimals, listed, number
 from ..sweep.quantities import colours_of, in_order, series
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
 
@@ -64,13 +65,13 @@ def report(directory: str | Path) -> Report:
     return Report(title, folder.scene.title or folder.scene.name, tuple(items))
 
 
-def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions: Sequence[Row]) -> Iterator[Item]:
+def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Iterator[Item]:
     """Branches over the strobed points of the motions, with tension and multiplier below."""
     colours, part, columns, simulated, named = colours_of(motions), part_of(folder, "motions"), [], [], {}
     for row in in_order(motions, [key.name]):
         run, _ = part.trajectory(row)
         points = strobed(run, int(row.get("transient_periods") or 0))[:, 0] if run is not None else np.empty(0)
-        columns.append(Column(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
+        columns.append(Strobes(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
     for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
         own = [row for row in motions if not colours or row["motion"] == letter]
         x, y = series(own, key.name), 1e-3 * series(own, PEAK)
@@ -106,7 +107,7 @@ def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions:
     yield Figure(pictures[0], caption, alt, narrow=pictures[1])
 
 
-def _scatter(branch: Branch, key: Quantity) -> Curve:
+def _scatter(branch: Branch, key: Column) -> Curve:
     """The errors of the modulus along a branch, as bars."""
     at, modulus, error = (series(branch.orbits, name) for name in (key.name, MODULUS, "multiplier_1_error"))
     return Curve(at, modulus, line="", colour=branch.colour, error=error)
@@ -133,15 +134,15 @@ def _told(folder: Folder, part: str, wanted: Sequence[str], caption: str, **own:
 
 def _located(row: Row, key: str) -> str:
     """ "0.12371 ± 0.00003", with the marks of its caveats."""
-    flags = "‡" * _coarse(row, key) + "†" * (not np.isfinite(value(row, "finer")))
-    return f"{decimals(value(row, key), 5)}\u00a0±\u00a0{number(value(row, 'error'), 1)}{flags}"
+    flags = "‡" * _coarse(row, key) + "†" * (not np.isfinite(number_of(row, "finer")))
+    return f"{decimals(number_of(row, key), 5)}\u00a0±\u00a0{number(number_of(row, 'error'), 1)}{flags}"
 
 
 def _coarse(row: Row, key: str) -> bool:
-    return not value(row, "error") <= _ACCURATE * max(1.0, abs(value(row, key)))
+    return not number_of(row, "error") <= _ACCURATE * max(1.0, abs(number_of(row, key)))
 
 
-def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
+def _chosen(folder: Folder, key: Column, branches: Sequence[Branch]) -> Iterator[Item]:
     """The orbits themselves at the value that has most of them, and the multipliers of all that were chosen."""
     rows, plane, pull = rows_of(folder, "orbits"), [], []
     if not rows:
@@ -149,7 +150,7 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     at = Counter(row[key.name] for row in rows).most_common(1)[0][0]
     colours = colours_of(rows_of(folder, "motions")) | {one.name: one.colour for one in branches}
     for row in (row for row in rows if row[key.name] == at):
-        history = read_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
+        history = any_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
         which = row["branch"] or row["motion"]  # an orbit whose branch could not be followed
         name = f"{'branch' if row['branch'] else 'motion'} {which}, {'un' if row['unstable'] else ''}stable"
         look = {"line": DASHED if row["unstable"] else "-", "colour": colours.get(which, INK), "width": 1.2}
@@ -172,12 +173,12 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
 
 def _multiplier(row: Row, k: int) -> str:
     """ "−0.732 (0.007)", "0.155 + 0.446i (0.02)"."""
-    real, imag, error = (value(row, f"multiplier_{k}_{name}") for name in ("real", "imag", "error"))
+    real, imag, error = (number_of(row, f"multiplier_{k}_{name}") for name in ("real", "imag", "error"))
     beside = f" {'−' if imag < 0.0 else '+'} {decimals(abs(imag), 3)}i" if imag else ""
     return f"{decimals(real, 3)}{beside} ({number(error, 1)})" if np.isfinite(real) else EMPTY
 
 
-def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
+def _multipliers(key: Column, branches: Sequence[Branch]) -> Iterator[Item]:
     low, high = (float(end(np.concatenate([one.at for one in branches]))) for end in (np.min, np.max))
     out = min(_OUT, max(1.2, *(float(np.nanmax(one.seen["modulus"])) for one in branches)))
     turn, panels = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200)), []
@@ -185,14 +186,14 @@ def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
         dots = [Curve(turn.real, turn.imag, colour=SOFT)]
         for row in one.orbits:
             mu = np.array(
-                [value(row, f"multiplier_{k}_real") + 1j * value(row, f"multiplier_{k}_imag") for k in _SHOWN]
+                [number_of(row, f"multiplier_{k}_real") + 1j * number_of(row, f"multiplier_{k}_imag") for k in _SHOWN]
             )
             mu = mu[np.isfinite(mu)] / np.maximum(np.abs(mu[np.isfinite(mu)]) / out, 1.0)
             share = (row[key.name] - low) / (high - low or 1.0)
             look = {"colour": matplotlib.colormaps["viridis"](share), "size": 1.5 + 2.0 * share}
             dots.append(Curve(mu.real, mu.imag, line="", mark="o", **look))
         for row in one.events:
-            turned = np.exp(1j * value(row, "angle_rad") * np.array([1.0, -1.0]))
+            turned = np.exp(1j * number_of(row, "angle_rad") * np.array([1.0, -1.0]))
             dots.append(Curve(turned.real, turned.imag, "", "", EVENTS[row["kind"]], INK, size=5.5, filled=False))
         settings = {"aspect": "equal", "xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out)}
         title = f"branch {one.name}, {plain(key.head)} {number(one.at.min())} to {number(one.at.max())}"
@@ -208,7 +209,7 @@ def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
     )
 
 
-def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Notice:
+def _warnings(folder: Folder, key: Column, branches: Sequence[Branch]) -> Notice:
     ended, events, lines = rows_of(folder, "branches"), rows_of(folder, "events"), []
     for one in branches:
         if missed := [number(one.at[k]) for k in one.changes if not one.kinds[k]]:
@@ -217,7 +218,9 @@ def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Noti
         ends = (row[end] for end in ("begins", "ends") if row[end] and not row[end].startswith(_WHOLE))
         lines += [f"Branch {row['branch']} was not followed to its end: {end}." for end in ends]
     if coarse := [row for row in events if _coarse(row, key.name)]:
-        at = listed(f"{row['kind']} of branch {row['branch']} at {decimals(value(row, key.name), 4)}" for row in coarse)
+        at = listed(
+            f"{row['kind']} of branch {row['branch']} at {decimals(number_of(row, key.name), 4)}" for row in coarse
+        )
         lines.append(f"Known to no better than {number(_ACCURATE)}: {at}.")
     orbits = *folder.table, *rows_of(folder, "orbits")
     if unsure := dict.fromkeys(f"{row['branch']} at {number(row[key.name])}" for row in orbits if _unsure(row)):
@@ -234,5 +237,5 @@ def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Noti
 
 def _unsure(row: Row) -> bool:
     """Whether a multiplier is no farther from the unit circle than its error."""
-    values = [[value(row, f"multiplier_{k}_{name}") for name in ("real", "imag", "error")] for k in _SHOWN]
+    values = [[number_of(row, f"multiplier_{k}_{name}") for name in ("real", "imag", "error")] for k in _SHOWN]
     return any(abs(np.hypot(real, imag) - 1.0) <= error for real, imag, error in values)

@@ -7,13 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from analysis.oscillator import SnapOscillator
+from tables import Column, decimals, number, number_of
 
-from ..parts.columns import Quantity, value
 from ..parts.content import Item, Table, Text, heads
 from ..parts.folder import PARTS as FILES
 from ..parts.folder import FolderError, read_files
 from ..parts.sections import section_items
-from ..parts.wording import decimals, number
 
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
 NUMBERS = {  # symbol, what it is, source of the usual value
@@ -35,7 +34,7 @@ class Study:
 
     directory: Path
     provenance: dict
-    columns: dict[str, Quantity]
+    columns: dict[str, Column]
     rows: dict[str, dict[str, str]]
     arrays: dict[str, dict[str, np.ndarray]]
     oscillator: dict[str, float]
@@ -54,12 +53,12 @@ class Study:
     @property
     def chaotic(self) -> bool:
         """Whether the largest exponent is positive by more than two standard errors."""
-        value, error = self.exponent
-        return value - 2 * error > 0.0
+        number_of, error = self.exponent
+        return number_of - 2 * error > 0.0
 
     def number(self, part: str, column: str) -> float:
         """A cell of table.csv as a number; NaN where it is empty."""
-        return value(self.rows.get(part, {}), column)
+        return number_of(self.rows.get(part, {}), column)
 
 
 def read_study(directory: str | Path) -> Study:
@@ -126,9 +125,9 @@ def orbit_items(study: Study, arrays: dict) -> list[Item]:
 
 
 def _complex(value: complex) -> str:
-    if value.imag == 0.0:
-        return number(value.real, 6)
-    return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
+    if number_of.imag == 0.0:
+        return number(number_of.real, 6)
+    return f"{number(number_of.real, 6)} {'+' if number_of.imag > 0 else '−'} {number(abs(number_of.imag), 6)}i"
 
 
 def method_items(study: Study) -> list[Item]:

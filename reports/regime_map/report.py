@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tables import COMPUTED, FAILED, SCREENED, listed, number, percent
+
 from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
 from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
@@ -13,9 +15,8 @@ from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
 from ..parts.provenance import appendix, provenance_items, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.style import WIDTH_IN
-from ..parts.wording import listed, number, percent
 from ..sweep.quantities import at
-from .maps import COMPUTED, FAILED, LIMITS, PULL, SCREENED, Atlas, legend, numbers, read_atlas, regimes
+from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
 from .sheets import cell_sheets
 
 

@@ -11,14 +11,14 @@ from statistics import median
 import numpy as np
 
 from engine.excursions import own_words
+from tables import EMPTY, Column, count, number, number_of
 
 from ..figures.stability import stiffness
-from ..parts.columns import Quantity, table_of, value
+from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
-from ..parts.wording import EMPTY, count, number
 
 
 def report(directory: str | Path) -> Report:
@@ -64,7 +64,7 @@ class Study:
     """What the campaign left: `cases` and `random`, rows of text by column."""
 
     provenance: dict
-    columns: dict[str, Quantity]
+    columns: dict[str, Column]
     cases: list[dict[str, str]]
     random: list[dict[str, str]]
 
@@ -94,7 +94,7 @@ def case_items(study: Study) -> list[Item]:
         rows += [{"case": f"— {about} —"}, *(row for row in study.cases if row["about"] == about)]
 
     def cell(name: str):
-        return lambda row: study.columns[name].cell(row[name]) if "group" in row else row.get(name, "")
+        return lambda row: study.columns[name].cell(row) if "group" in row else row.get(name, "")
 
     caption = "Cases and verdicts, from `table.csv`."
     cells = {name: cell(name) for name in SHOWN}
@@ -105,14 +105,14 @@ def stiffness_items(study: Study) -> Iterator[Item]:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
     rows = [row for row in study.judged("ok") if row["measured_tension"] and not own_words(row["message"])]
     rows = [row for row in rows if row["group"] == "EA" or row["how"] == "waves in a bar"]
-    costs = {row["run_key"]: value(row, "newton_iterations") / value(row, "length_s") for row in rows}
+    costs = {row["run_key"]: number_of(row, "newton_iterations") / number_of(row, "length_s") for row in rows}
     unit = [costs[row["run_key"]] for row in rows if (row["group"], row["case"]) == DEFAULT]
     checks: dict[str, list[tuple[float, ...]]] = {}
     if not unit:
         return
     for row in rows:
-        if math.isfinite(value(row, "stiffness_N")):
-            point = value(row, "stiffness_N"), value(row, "measured_tension"), costs[row["run_key"]] / unit[0]
+        if math.isfinite(number_of(row, "stiffness_N")):
+            point = number_of(row, "stiffness_N"), number_of(row, "measured_tension"), costs[row["run_key"]] / unit[0]
             checks.setdefault(row["how"], []).append(point)
     if not checks:
         return
@@ -157,7 +157,7 @@ def random_items(study: Study) -> Iterator[Item]:
     walls: dict[tuple[str, ...], list[float]] = {}
     for row in sorted(study.random, key=lambda row: (row["kind"] != "valid", row["outcome"] != "ok")):
         named = row["kind"], row["outcome"], row["status"] or EMPTY, row["meaning"]
-        walls.setdefault(named, []).append(value(row, "wall_s"))
+        walls.setdefault(named, []).append(number_of(row, "wall_s"))
     rows = []
     for named, values in walls.items():
         rows.append((*named, str(len(values)), number(median(values), 2), number(max(values), 3)))

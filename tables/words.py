@@ -1,22 +1,39 @@
-"""Numbers as a reader wants them, and lists as a sentence needs them."""
+"""Words that stand in tables, and numbers and lists as a reader wants them: campaigns write them, reports read them."""
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import groupby
 from operator import itemgetter
 
-from .content import sub
+# Regimes, as `analysis` names them. "period-" begins that of a periodic motion.
+PERIODIC, QUASI, CHAOTIC, TRANSIENT, UNDECIDED = "period-", "quasi-periodic", "chaotic", "transient", "undecided"
+OPEN = (UNDECIDED, TRANSIENT)  # regimes that decide nothing
 
-EMPTY = "–"
+# Statements of the paper: the table of them, its columns, and what a verdict on some of them is in a sentence.
+STATEMENTS = "statements.csv"
+STATEMENT_COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
+HOLDS, HOLDS_IF, FAILS, NOT_JUDGED = "holds", "holds if", "does not hold", "–"
+VERDICTS = {
+    HOLDS: "hold",
+    HOLDS_IF: "hold under a condition",
+    FAILS: "do not hold",
+    NOT_JUDGED: "are not decided",
+}
 
-
-def of_kicks(row: Mapping[str, object]) -> str:
-    """ "7 of 8": how many kicks end in the motion of a row; its share where their number is not known."""
-    share, kicks = row.get("share", math.nan), row.get("kicks", math.nan)
-    if math.isfinite(share * kicks):
-        return f"{share * kicks:.0f} of {kicks:.0f}"
-    return number(share, 2)
+SETTLED, JOINED, UNSETTLED = OUTCOMES = "settled", "joined", "unsettled"  # of a start
+COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # where the regime of a cell of a map comes from
+CAPPED = "wetted cap"  # role of a companion
+OTHER_MOTION = "becomes another motion"  # in a row's message: with smaller elements and steps
+PEAK, PEAK_ERROR = "tension_top_max_N", "tension_top_max_error_N"
+TANGENT, TANGENT_ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
+WOLF, WOLF_ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"
+HEIGHT = "max_buoy_height_above_water_m"
+COARSE = 0.05  # of the largest tension: an error above it is told in words
+SMALL, LARGE = PAPER_STEEPNESS = 0.016, 0.13  # kA of sections 4.2.1 and 4.2.2 of the paper
+BODIES = {"buoy": "y_m", "rope": "offplane_m"}  # what leaves the plane of the waves -> column of a trajectory
+ANSWER, PROVENANCE = "answer.txt", "provenance.json"
+EMPTY = "–"  # in print, where a table has no entry
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -70,7 +87,7 @@ def count(how_many: int, singular: str, plural: str = "") -> str:
 
 
 def listed(words: Iterable[str]) -> str:
-    """ "a", "a and b", "a, b and c"."""
+    """ "a", "a and b", "a, b and c"; "none" of nothing."""
     words = list(words)
     if not words:
         return "none"
@@ -79,8 +96,8 @@ def listed(words: Iterable[str]) -> str:
     return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
-    """The chosen of the values in words, neighbours in the full list joined into "a to b".
+def ranges(values: Sequence[float], chosen: Sequence[bool], least: int = 3) -> str:
+    """The chosen of the values in words; `least` neighbours in the full list, or more, are joined into "a to b".
 
     >>> ranges([0.01, 0.02, 0.03, 0.05], [True, True, True, False])
     '0.01 to 0.03'
@@ -88,16 +105,17 @@ def ranges(values: Sequence[float], chosen: Sequence[bool]) -> str:
     parts = []
     for wanted, group in groupby(zip(values, chosen, strict=True), key=itemgetter(1)):
         numbers = [number(value) for value, _ in group]
-        if wanted and len(numbers) > 2:
+        if wanted and len(numbers) >= least:
             parts.append(f"{numbers[0]} to {numbers[-1]}")
         elif wanted:
             parts += numbers
     return listed(parts)
 
 
-L_0 = "l" + sub("0")  # unstretched length
-OMEGA_I, OMEGA_R, OMEGA_THETA = ("ω" + sub(letter) for letter in ("i", "r", "θ"))  # wave, radial and pendulum frequency
-RHO_W = "ρ" + sub("w")  # density of the water
-TAU_0 = "τ" + sub("0")  # start of the spectral window
-T_I = "T" + sub("i")  # wave period
-T_S = "T" + sub("s")  # static tension
+# A character of Unicode's private area: no text from outside carries it, so no text from outside becomes a subscript.
+DOWN, UP = "\ue000", "\ue001"
+
+
+def sub(text: str) -> str:
+    """The text as a subscript, which a report prints so: "T" + sub("i")."""
+    return f"{DOWN}{text}{UP}"
