@@ -16,8 +16,8 @@ from tables import (
     PERIODIC,
     QUASI,
     STATEMENTS,
-    TANGENT,
     TANGENT_ERROR,
+    TANGENT_EXPONENT,
     TRANSIENT,
     UNDECIDED,
     VERDICTS,
@@ -92,7 +92,7 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
         if word == CHAOTIC:
             growth = _growth([row for row, regime in zip(rows, words, strict=True) if regime == word])
         others.append(f"{word.capitalize()} at {symbol} = {at(word)}{growth}.")
-    value, error = TANGENT, TANGENT_ERROR
+    value, error = TANGENT_EXPONENT, TANGENT_ERROR
     growing = []
     for row in rows:
         grows = number_of(row, value) > 2.0 * number_of(row, error)

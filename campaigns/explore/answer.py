@@ -14,10 +14,10 @@ from campaigns.explore.along import from_rest
 from campaigns.machinery.session import MOST_LINES
 from engine.views import in_regular_waves
 from tables import (
+    BUOY_HEIGHT,
     CAPPED,
     COARSE,
     EMPTY,
-    HEIGHT,
     OTHER_MOTION,
     PEAK,
     PEAK_ERROR,
@@ -162,7 +162,7 @@ def _checks(row: Row, scene, searched: bool) -> str:
     checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
     if scene.buoy is not None and waves is not None:
         wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
-        checks["wetted buoy"] = wetted or math.isfinite(number_of(row, HEIGHT))
+        checks["wetted buoy"] = wetted or math.isfinite(number_of(row, BUOY_HEIGHT))
     if in_regular_waves(scene):
         checks["that the motion has settled"] = row.get("regime") not in (None, "", *OPEN_WORDS)
         checks |= {"other motions": searched, "an irregular sea": False}
@@ -188,7 +188,7 @@ def _of(row: Row, key: str) -> tuple:
 def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
     if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
-        if row.get("role") != CAPPED and number_of(row, HEIGHT) > scene.buoy.diameter_m:
+        if row.get("role") != CAPPED and number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m:
             yield FLIES
     if number_of(row, "loop_releases") > 0 and number_of(row, "dimensions") != 3:
         yield LOOPS

@@ -44,6 +44,7 @@ from tables import (
     JOINED,
     MESSAGE,
     OTHER_MOTION,
+    PEAK,
     PERIODIC,
     PERIODS_RUN,
     RINGING,
@@ -169,7 +170,7 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str
     """
     if companion["status"] != "ok":
         return math.nan, [f"error of the largest tension not known: {CHANGED} the run ended, {companion['status']}"]
-    largest_N, again_N = number_of(row, "tension_top_max_N"), number_of(companion, USUAL.name)
+    largest_N, again_N = number_of(row, PEAK), number_of(companion, USUAL.name)
     error = largest_N - usual_N + 2.0 * abs(again_N - usual_N) + (row.get(RINGING.name) or 0.0)
     said = []
     if companion[OUTCOME.name] == UNSETTLED:

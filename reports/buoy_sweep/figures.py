@@ -16,10 +16,10 @@ from tables import (
     PEAK,
     PERIODIC,
     REGIMES,
-    TANGENT,
     TANGENT_ERROR,
-    WOLF,
+    TANGENT_EXPONENT,
     WOLF_ERROR,
+    WOLF_EXPONENT,
     count,
     decimals,
     number,
@@ -54,7 +54,7 @@ _DEFINED = (
 def exponents(sweep: Sweep) -> list[tuple[str, str]]:
     """The pairs of columns, value and error, in which some run has an exponent."""
     pairs = []
-    for value, error in ((TANGENT, TANGENT_ERROR), (WOLF, WOLF_ERROR)):
+    for value, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
         if np.isfinite(_of(sweep.judged, value)).any():
             pairs.append((value, error))
     return pairs
@@ -203,10 +203,10 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
     for run in sweep.judged:
         word = PERIODIC if run["regime"].startswith(PERIODIC) else run["regime"]
         exponent, error = math.nan, math.nan
-        if run.known(TANGENT):
-            exponent, error = run[TANGENT], run[TANGENT_ERROR]
+        if run.known(TANGENT_EXPONENT):
+            exponent, error = run[TANGENT_EXPONENT], run[TANGENT_ERROR]
         elif word != PERIODIC:
-            exponent, error = run[WOLF], run[WOLF_ERROR]
+            exponent, error = run[WOLF_EXPONENT], run[WOLF_ERROR]
         y.append(exponent)
         bars.append(2.0 * error)
         words.append(word)

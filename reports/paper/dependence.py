@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tables import EMPTY, TANGENT, TANGENT_ERROR, Column, by_columns, number, percent
+from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
 
 from ..figures.depth_exponents import Exponents, depth_exponents
 from ..out_of_plane.runs import read_study
@@ -98,7 +98,7 @@ def curve(name: str, rows: list[dict], over: str) -> Exponents:
     points = []
     for row in rows:
         if row["status"] == "ok":
-            points.append((row[over], row[TANGENT], row[TANGENT_ERROR], row["regime"]))
+            points.append((row[over], row[TANGENT_EXPONENT], row[TANGENT_ERROR], row["regime"]))
     return name, points
 
 
@@ -154,9 +154,9 @@ def _cell(row: dict | None, columns: dict[str, Column]) -> str:
     if row["status"] != "ok":
         return row["status"]
     regime = row["regime"] or "no verdict"
-    if not math.isfinite(row[TANGENT]):
+    if not math.isfinite(row[TANGENT_EXPONENT]):
         return regime
-    return f"{regime}, {plus_minus(columns[TANGENT], columns[TANGENT_ERROR])(row)}"
+    return f"{regime}, {plus_minus(columns[TANGENT_EXPONENT], columns[TANGENT_ERROR])(row)}"
 
 
 def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
@@ -181,7 +181,7 @@ def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
         "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."
     )
     picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
-    names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", TANGENT)
+    names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", TANGENT_EXPONENT)
     table = table_of(columns, names, shown, "What the bending stiffness changes.")
     return [heading, Figure(picture, caption, "Exponent over bending stiffness, at each depth a curve."), table]
 

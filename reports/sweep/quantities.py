@@ -5,7 +5,7 @@ from itertools import cycle
 
 import numpy as np
 
-from tables import EMPTY, Column, errors_of, number, number_of
+from tables import EMPTY, PEAK, Column, errors_of, number, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..parts.content import Picture, Table, heads
@@ -53,7 +53,7 @@ def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
     peaks: dict[str, float] = {}
     for row in in_order(rows, []):
         letter = row.get("motion") or ""
-        peaks[letter] = max(peaks.get(letter, 0.0), number_of(row, "tension_top_max_N"))
+        peaks[letter] = max(peaks.get(letter, 0.0), number_of(row, PEAK))
     nameless = peaks.pop("", None)
     if len(peaks) < 2:
         return {}

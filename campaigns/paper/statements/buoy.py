@@ -22,7 +22,7 @@ from campaigns.paper.statements.judging import (
     passed,
 )
 from campaigns.statements import Measured, shown, told
-from tables import BODIES, LARGE, SMALL, Row, listed, number_of
+from tables import BODIES, LARGE, SMALL, WOLF_ERROR, WOLF_EXPONENT, Row, listed, number_of
 
 EARLIEST = f"the first {EARLY[1]} periods"
 PRINTED_DIGIT = 0.05  # the paper's estimates are printed to one digit
@@ -89,7 +89,7 @@ def on_estimates(results: Results) -> Measured:
 def exponent_to_zero(results: Results) -> Measured:
     """The exponent of the long run by two methods."""
     row = results.buoy.get(SMALL, {})
-    wolf, error = number_of(row, "lyapunov_wolf_bits_per_period"), number_of(row, "lyapunov_wolf_error")
+    wolf, error = number_of(row, WOLF_EXPONENT), number_of(row, WOLF_ERROR)
     if math.isnan(wolf):
         return Measured()
     words = f"Wolf's method on r(t) {shown(wolf, '.3f')} ± {shown(error, '.3f')}; tangent dynamics {exponent(row)}"

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from campaigns.paper.measured import Results
 from campaigns.statements import Check, Measured, formula, grouped, shown
-from tables import LARGE, OPEN, TANGENT, TANGENT_ERROR, Row, number_of
+from tables import LARGE, OPEN, TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
 
 Measure = Callable[[Results], Measured]
 Place = tuple[str, Row]  # where a run was, in words, and its row
@@ -89,7 +89,7 @@ def passed(*checks: tuple[str, bool]) -> list[Check]:
 
 def exponent(row: Row | None) -> str:
     """The exponent of the tangent dynamics with its error, in words."""
-    value = number_of(row or {}, TANGENT)
+    value = number_of(row or {}, TANGENT_EXPONENT)
     if math.isnan(value):
         return "none"
     return f"{shown(value, '.3f')} ± {shown(number_of(row, TANGENT_ERROR), '.3f')}"
@@ -97,12 +97,12 @@ def exponent(row: Row | None) -> str:
 
 def positive(row: Row) -> bool:
     """Whether that exponent is above zero beyond doubt."""
-    return number_of(row, TANGENT) - NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) > 0.0
+    return number_of(row, TANGENT_EXPONENT) - NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) > 0.0
 
 
 def settled(row: Row) -> bool:
     """Whether the run says if its exponent is positive: by the exponent itself, or by a regime that excludes it."""
-    below = number_of(row, TANGENT) + NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) < 0.0
+    below = number_of(row, TANGENT_EXPONENT) + NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) < 0.0
     return positive(row) or below or row["regime"] not in UNDECIDED
 
 
