@@ -58,14 +58,14 @@ def done(order: Order):
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
-    timing, number_of, made = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], set()
+    timing, known, made = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], set()
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
     for phase_plan, phase in zip((plan, plan, plan, one_at_a_time), phases, strict=True):
-        if phase and not number_of:
+        if phase and not known:
             write_scene(out, STUDY.name, phase)
-        number_of += phase
-        phase_timing, summary = run(phase_plan, number_of)
+        known += phase
+        phase_timing, summary = run(phase_plan, known)
         made |= summary.made
         timing = {name: timing[name] + phase_timing[name] for name in timing}
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))

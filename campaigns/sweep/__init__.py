@@ -80,14 +80,14 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
     key = words[0]
     element = re.fullmatch(r"(.+)\[(\d+)\](?:\.(\w+))?", key)
     name, index, part = (element[1], int(element[2]), element[3] or "") if element else (key, None, "")
-    number_of, in_list = keys(), name
+    known, in_list = keys(), name
     name = f"{name}.{part}" if part else name
-    told = of_words and name in number_of and number_of[name].kind == "text"
+    told = of_words and name in known and known[name].kind == "text"
     values = list(dict.fromkeys(words[1:])) if told else cli.evenly(words[1:], f"{option} {key}", faults)
-    if name not in number_of:
-        faults.append(f"{option} {key}: no such key{suggestion(name, list(number_of))}")
+    if name not in known:
+        faults.append(f"{option} {key}: no such key{suggestion(name, list(known))}")
         return None
-    kind = number_of[name].kind
+    kind = known[name].kind
     if kind not in ("number", "whole number") and not (kind == "list" and element) and not told:
         a_list = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
         faults.append(f"{option} {key}: holds a {kind}; allowed: {a_list}")
@@ -98,7 +98,7 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
         values = list(dict.fromkeys(round(value) for value in values))
     if not values:
         return None
-    declared = number_of[name]
+    declared = known[name]
     unit = "" if declared.unit == "1" else declared.unit
     symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
     digits = None if told else max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)

@@ -53,8 +53,8 @@ class Study:
     @property
     def chaotic(self) -> bool:
         """Whether the largest exponent is positive by more than two standard errors."""
-        number_of, error = self.exponent
-        return number_of - 2 * error > 0.0
+        value, error = self.exponent
+        return value - 2 * error > 0.0
 
     def number(self, part: str, column: str) -> float:
         """A cell of table.csv as a number; NaN where it is empty."""
@@ -125,9 +125,9 @@ def orbit_items(study: Study, arrays: dict) -> list[Item]:
 
 
 def _complex(value: complex) -> str:
-    if number_of.imag == 0.0:
-        return number(number_of.real, 6)
-    return f"{number(number_of.real, 6)} {'+' if number_of.imag > 0 else '−'} {number(abs(number_of.imag), 6)}i"
+    if value.imag == 0.0:
+        return number(value.real, 6)
+    return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
 
 
 def method_items(study: Study) -> list[Item]:
