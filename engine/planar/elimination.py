@@ -121,9 +121,9 @@ def eliminate(p, tables, stage, Y, work):
     Dzx = Dxz
     if p.spherical_cap:
         x, z = work.X[b, 0], work.X[b, 1]
-        more = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
-        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
-        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
+        cap = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        ex, ez, Dxx = ex + cap[0], ez + cap[1], Dxx + cap[2]
+        Dxz, Dzx, Dzz = Dxz + cap[3], Dzx + cap[4], Dzz + cap[5]
     if wide:
         Dxx, Dxz = Dxx + E[0, col.TOP_DXX], Dxz + E[0, col.TOP_DXZ]
         Dzx, Dzz = Dzx + E[0, col.TOP_DZX], Dzz + E[0, col.TOP_DZZ]

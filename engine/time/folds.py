@@ -39,12 +39,12 @@ def watch_turn(state, turn):
 def words_of_folds(scene: Scene, state: np.void, columns: dict[str, np.ndarray]) -> str:
     """Says how far the largest tension of a held line may be off because of folds before it, or nothing."""
     high_N, line = columns["tension_top_high_N"], scene.tether
-    most = int(high_N.argmax()) if len(high_N) else 0
-    if not len(high_N) or high_N[most] <= AT_REST * high_N[0] or columns["time_s"][most] < state["folded"]:
+    peak = int(high_N.argmax()) if len(high_N) else 0
+    if not len(high_N) or high_N[peak] <= AT_REST * high_N[0] or columns["time_s"][peak] < state["folded"]:
         return ""
-    around = slice(max(most - 1, 0), most + 1)  # samples between which it is
+    around = slice(max(peak - 1, 0), peak + 1)  # samples between which it is
     chord_m = np.linalg.norm([columns[name][around] for name in ("x_m", "y_m", "z_m")], axis=0).max()
-    if tension_at(chord_m / line.length_m - 1.0, line.tension) > TAUT * high_N[most]:
+    if tension_at(chord_m / line.length_m - 1.0, line.tension) > TAUT * high_N[peak]:
         return ""
     half = 0.5 * float(state["max_turn"])
     short = 1.0 - half / math.tan(half) if half < 0.5 * math.pi else 1.0
