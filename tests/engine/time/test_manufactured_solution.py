@@ -19,8 +19,8 @@ singular and z grows along the line. The line is thin (1 um) with drag coefficie
 inertia.
 
 Every unknown is compared: q (strain, tangent), n (the rest of the Euler parameters), shear, velocity, torsion and
-curvature, and the positions. Steps of 1/64 s with order 4. The table of the current, linear between its points, errs by 1e-6 in q;
-all other sizes are those of the coarsest grid, in the caps.
+curvature, and the positions. Steps of 1/64 s with order 4. The table of the current, linear between its points, errs
+by 1e-6 in q; all other sizes are those of the coarsest grid, in the caps.
 """
 
 import math
