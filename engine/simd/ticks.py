@@ -1,8 +1,9 @@
 """The lane machine: several planar runs, each with a step, a stage and an end of its own, one Newton iteration a tick.
 
-Every lane is always within the Newton solve of some stage. A tick is one iteration in all lanes at once; lanes whose
-solve has ended are then moved on by the functions that move a single run on: arithmetic on nodes in vectors under a
-mask, decisions one lane after another, from one source (`engine.simd.select`): a lane is bit for bit the run alone.
+Every lane is always within the Newton solve of some stage. A tick is one iteration in all lanes at once. Lanes whose
+solve has ended are then moved on by the functions that move a single run on. Arithmetic on nodes is done in vectors
+under a mask, decisions are taken one lane after another. Both have one source (`engine.simd.select`), and so a lane is
+bit for bit the run alone. No law of physics is here: to add or change one, leave this folder closed.
 
 Rows of `numbers` (ROWS, COUNT) carry what passes between vectors and decisions: time (s), rate (1/s), step (s) of the
 stage; is the last update sound, its size, the least strain; number of the stage; error and largest turn of the step;
@@ -248,6 +249,10 @@ def move_states(rows, w, history, now, previous, Y):
 @kernel
 def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, counts, arrays, work):
     """Make ticks until a run ends, trails are to be followed, or `ticks` are made; returns how many were.
+
+    One turn of the loop has four parts. Every lane whose solve has ended plans its next one and takes a first guess.
+    Newton's method iterates in all lanes until a solve ends. The lanes that ended get the rates of their stage and,
+    where a step is finished, its error. Such a step is accepted, sampled and followed by the next, or tried again.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
     iterations of the trial; samples (COUNT, m, 13); trail: Trails, of which l = 0 keeps nothing; counts: whole numbers
