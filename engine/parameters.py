@@ -12,7 +12,7 @@ import numpy as np
 
 from . import record as codes
 from . import scales
-from .physics import ends, sea, tension, waves
+from .physics import drag, ends, sea, tension, waves
 from .scene.models import Scene
 from .simd.cover import has_extras, is_plain
 from .spatial import lift
@@ -78,7 +78,7 @@ def _extras(record, scene):
         record["damping"] = tether.damping_critical * element * record["m"] * scales.fastest_wave(record, scene)
     if tether.froude_krylov == "whole":  # of R, what acts along the line too
         record["pushed"], record["Rw"] = record["Rw"] - record["ma"], record["ma"]
-    record["surfaced"], record["width"] = tether.submergence == "free-surface", tether.diameter_m
+    record["surfaced"] = tether.submergence == "free-surface"
     if record["surfaced"]:
         record["buoyed"] = scene.water.density_kgpm3 * tether.area_m2 * scene.gravity_mps2
     if floor is not None:
@@ -90,7 +90,7 @@ def _extras(record, scene):
 
 
 def _tether(record, scene, place):
-    tether, law = scene.tether, scene.tether.tension
+    tether = scene.tether
     wet = scene.water is not None
     rho_w = scene.water.density_kgpm3 if wet else 0.0
     g = scene.gravity_mps2
@@ -106,12 +106,21 @@ def _tether(record, scene, place):
     record["ma"] = tether.added_mass * displaced
     record["Rw"] = displaced + record["ma"]
     record["barrier"] = tether.compression_barrier_N
-    record["law"] = tension.NAMES.index(law.law)
-    numbers, table = tension.LAWS[record["law"]].numbers(law)
+    record["diameter"] = d
+    record["law"] = tension.NAMES.index(tether.tension.law)
+    _law(record, tension.LAWS, "law", tether.tension, place)
+    record["drag"] = drag.NAMES.index("quadratic" if tether.drag is None else tether.drag.law)
+    if tether.drag is not None:
+        _law(record, drag.LAWS, "drag", tether.drag, place)
+
+
+def _law(record, laws, field, section, place):
+    """The numbers of a law, whose code the record has in `field`, and its table at field_at."""
+    numbers, table = laws[record[field]].numbers(section)
     for name, value in numbers.items():
         record[name] = value
     if len(table):
-        record["law_at"] = place(table)
+        record[f"{field}_at"] = place(table)
 
 
 def _water(record, scene, place):

@@ -85,7 +85,7 @@ def simulate_each(
     def add(i, scene, periods, start, duration_s=None):
         nonlocal known_s
         length_s, start = _duration(scene, periods, duration_s), checked_start(scene, start)
-        waiting.setdefault(batch.kind_of(scene), deque()).append(batch.Asked(i, scene, length_s, start))
+        waiting.setdefault(batch.kind_of(scene), deque()).append(batch.Request(i, scene, length_s, start))
         known_s += length_s
 
     def share(going_s):

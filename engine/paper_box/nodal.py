@@ -43,9 +43,9 @@ def water_at(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> np.ndar
     X = np.ascontiguousarray(positions(line, Y)[TO_ENGINE][axes].T)
     F = np.zeros((len(X), 2 * len(axes)))
     water_of_engine(line.record, line.tables, t, 1.0 if waves else 0.0, X, F)
-    found = np.zeros((2, 3, len(X)))
-    found[:, axes] = F.T.reshape(2, len(axes), -1)
-    return found[:, TO_PAPER].reshape(6, -1)
+    fields = np.zeros((2, 3, len(X)))
+    fields[:, axes] = F.T.reshape(2, len(axes), -1)
+    return fields[:, TO_PAPER].reshape(6, -1)
 
 
 class Level(NamedTuple):

@@ -1,8 +1,8 @@
 """The part of a tension that material damping makes, c e_t, in what a run tells: samples, profiles, extremes, ringing.
 
-The law itself acts in `node_quantities` (`engine.physics.extras`) with the rates of the stage. Told are the rates K of
-both ends of a step, (1 - share) K0 + share K1. A one-stage method has the share 1/2 all along a step: undamped, its
-rates alternate about the mean.
+The law itself acts in `node_quantities` (`engine.physics.extras`), with the rates of the stage. Output takes the rates
+K at both ends of a step, (1 - share) K0 + share K1. A one-stage method has the share 1/2 all along a step, because its
+rates alternate about the mean where nothing damps them.
 """
 
 import math

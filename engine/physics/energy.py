@@ -47,12 +47,12 @@ def energies_of(p, tables, C, row):
         square = 0.0
         for i in range(half):
             square += C[k, i] * C[k, i]
-        here = stored(math.sqrt(square) - 1.0, p, tables)
+        energy = stored(math.sqrt(square) - 1.0, p, tables)
         if k > 0:
             h = tables[p.grid_at + k - 1]
             for i in range(half, 2 * half):
                 kinetic += 0.125 * h * p.m * (C[k - 1, i] + C[k, i]) ** 2
-            strain += 0.5 * h * (below + here)
+            strain += 0.5 * h * (below + energy)
             rise = 0.5 * h * (C[k - 1, half - 1] + C[k, half - 1])
             gravity += h * p.w0 * (z + 0.5 * rise)
             z += rise
@@ -60,19 +60,19 @@ def energies_of(p, tables, C, row):
                 bed_here = bed_energy(p, anchor_z + z)
                 bed += 0.5 * h * (bed_below + bed_here)
                 bed_below = bed_here
-        below = here
+        below = energy
     row[KINETIC], row[STRAIN], row[GRAVITY], row[BED] = kinetic, strain, gravity, bed
 
 
 @kernel
-def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
+def add_powers(p, tables, dt, alphas, motion, C1, K1, Y, Q, sums):
     """Add one accepted step of dt (s) to sums: END_WORK and what follows it.
 
-    alphas: (alpha_m, alpha_f, gamma) of the step; before: Motion; C1, K1 (n, conserved): after it; Y: the new state,
-    whose shear forces are the stage's; Q: nodal quantities, for the viscosity of the step.
+    alphas: (alpha_m, alpha_f, gamma) of the step; motion: Motion before it; C1, K1 (n, conserved): after it; Y: the new
+    state, whose shear forces are the stage's; Q: nodal quantities, for the viscosity of the step.
     """
     alpha_m, alpha_f, gamma = alphas
-    C0, K0 = before.C, before.K
+    C0, K0 = motion.C, motion.K
     n, half = C0.shape[0], C0.shape[1] // 2
     at = planar.SHOCK_B if half == 2 else spatial.SHOCK_B
     cq = alpha_m / (alpha_f * gamma * dt)
@@ -85,19 +85,19 @@ def add_powers(p, tables, dt, alphas, before, C1, K1, Y, Q, sums):
     below = 0.0
     for k in range(n):
         a = k % 2
-        square = before = stretching = 0.0
+        square = square_before = stretching = 0.0
         for i in range(half):
             q[i] = C0[k, i] + alpha_f * (C1[k, i] - C0[k, i])
             rate[a, i] = K0[k, i] + alpha_m * (K1[k, i] - K0[k, i])
             V[a, i] = C0[k, half + i] + alpha_f * (C1[k, half + i] - C0[k, half + i])
             A[a, i] = K0[k, half + i] + alpha_m * (K1[k, half + i] - K0[k, half + i])
             square += q[i] * q[i]
-            before += (q[i] - rate[a, i] / cq) ** 2
+            square_before += (q[i] - rate[a, i] / cq) ** 2
             stretching += q[i] * rate[a, i]
         length = math.sqrt(square)
         stretching /= length
         T = tension(length - 1.0, p, tables)[0]
-        T_v = shock_tension(cq, length - math.sqrt(before), Q[k, at], Q[k, at + 1])[0] if p.viscous else 0.0
+        T_v = shock_tension(cq, length - math.sqrt(square_before), Q[k, at], Q[k, at + 1])[0] if p.viscous else 0.0
         T_v += damping_of(p) * stretching
         shear_force(p, Y, k, q, S)
         shear[a] = 0.0

@@ -54,10 +54,10 @@ def _mean(e_t, k):
 def _limiter(e_t, k):
     """a of node k alone."""
     n = e_t.shape[0]
-    here = _mean(e_t, k)
-    if here == 0.0:
+    rate = _mean(e_t, k)
+    if rate == 0.0:
         return 0.0
-    below, above = _mean(e_t, max(k - 1, 1)) / here, _mean(e_t, min(k + 1, n - 2)) / here
+    below, above = _mean(e_t, max(k - 1, 1)) / rate, _mean(e_t, min(k + 1, n - 2)) / rate
     return 1.0 - max(0.0, min(0.5 * (below + above), 2.0 * below, 2.0 * above, 1.0))
 
 

@@ -54,8 +54,8 @@ SECTIONS = {
     "output": "Output",
 }
 UNITS = {
-    "mps2": "m/s2", "kgpm3": "kg/m3", "Nm2": "N m2", "m2": "m2", "mps": "m/s", "Npm3": "N/m3", "Nspm3": "N s/m3",
-    "Ns": "N s", "m": "m", "kg": "kg", "s": "s", "rad": "rad", "N": "N",
+    "mps2": "m/s2", "kgpm3": "kg/m3", "Nm2": "N m2", "m2": "m2", "m2ps": "m2/s", "mps": "m/s", "Npm3": "N/m3",
+    "Nspm3": "N s/m3", "Ns": "N s", "m": "m", "kg": "kg", "s": "s", "rad": "rad", "N": "N",
 }  # fmt: skip
 KINDS = {str: "text", bool: "flag", int: "whole number", float: "number", tuple: "list"}
 

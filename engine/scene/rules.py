@@ -11,7 +11,7 @@ from itertools import pairwise
 from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
 
-from engine.physics.tension import LAWS, NAMES
+from engine.physics import drag, tension
 from engine.scene.faults import fault, known_fields, shown
 from engine.scene.water_rules import PLANE, Facts, cap, current, heights, held_under, sea, water
 
@@ -87,14 +87,13 @@ def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]], model:
     sound = Sound(raw, bad, model)
     rules = (water, sea, _ends, _clamps, _solver, cap, _output)
     lines = [sound.fault(key, allowed) for rule in rules for broken, key, allowed in rule(sound) if broken]
-    return lines + [
-        line for rule in (_tension, heights, held_under, current, _moved_end, _plane) for line in rule(sound)
-    ]
+    return lines + [line for rule in (_laws, heights, held_under, current, _moved_end, _plane) for line in rule(sound)]
 
 
-def _tension(sound: Sound) -> Iterator[str]:
-    law = sound["tether.tension.law"]
-    return LAWS[NAMES.index(law)].faults(sound) if law in NAMES else iter(())
+def _laws(sound: Sound) -> Iterator[str]:
+    for family, key in ((tension, "tether.tension.law"), (drag, "tether.drag.law")):
+        if sound[key] in family.NAMES:
+            yield from family.LAWS[family.NAMES.index(sound[key])].faults(sound)
 
 
 def _ends(sound: Sound) -> Facts:
@@ -193,6 +192,8 @@ def _solver(sound: Sound) -> Facts:
     yield box and line, "tether.submergence", f"'full', {because}"
     yield box and sound["tether.froude_krylov"] == "whole", "tether.froude_krylov", f"'normal', {because}"
     yield box and sound["floor"] is not None, "floor", f"none, {because}"
+    law = sound["tether.drag.law"]
+    yield box and law in drag.NAMES and law != "quadratic", "tether.drag.law", f"'quadratic', {because}"
     share, damping = "tether.damping_critical", "tether.damping_Ns"
     yield sound[share] and sound[damping], share, f"only without {damping}, which says the same"
     for key in (share, damping):

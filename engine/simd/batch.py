@@ -102,8 +102,8 @@ class Machine:
         for name in STATE.names:
             run.state[name] = self.states[b][name]
         lane = self.arrays
-        for part, found in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
-            part[:] = found[..., b]
+        for part, values in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
+            part[:] = values[..., b]
         rows = len(run.output.samples)
         run.output.samples[:] = self.samples[b, :rows]
         if self.followers is not None:
@@ -118,7 +118,7 @@ class Machine:
 
     def advance(self, ticks=TICKS):
         """Make ticks until a run ends; returns the lanes whose runs have ended."""
-        began = time.perf_counter()
+        started = time.perf_counter()
         advance(
             ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.trail,
             self.counts, self.arrays, self.work,
@@ -128,7 +128,7 @@ class Machine:
         if self.followers is not None and (ended or (self.lanes["active"] == WAITING).any()):
             self._follow(taken)
         for b in taken:
-            self.runs[b].wall_s += (time.perf_counter() - began) / len(taken)
+            self.runs[b].wall_s += (time.perf_counter() - started) / len(taken)
         return ended
 
     def _follow(self, taken):
@@ -148,40 +148,40 @@ class Machine:
 
 
 # A run that waits: its number, Scene, length (s) and FinalState to go on from, or None
-Asked = namedtuple("Asked", "number scene duration_s start")
+Request = namedtuple("Request", "number scene duration_s start")
 
 
 def run_through(waiting, progress):
-    """Run those that wait (Asked, all of one kind) side by side; yields (Asked, Trajectory) as they end, in no order.
+    """Run Requests, all of one kind, side by side; yields (Request, Trajectory) as they end, in no order.
 
     waiting: deque, to which runs of the same kind may be added meanwhile. It is left with what too few would share.
     progress: callable(seconds simulated of the runs that have not ended), called now and then.
     """
-    machine, asked = None, [None] * COUNT
+    machine, requests = None, [None] * COUNT
     while True:
         going = 0 if machine is None else sum(run is not None for run in machine.runs)
         for b in range(COUNT):
             while waiting and (machine is None or machine.runs[b] is None) and going + len(waiting) >= LEAST:
-                next_one = waiting.popleft()
-                run = Run(next_one.scene, next_one.duration_s, next_one.start)
+                request = waiting.popleft()
+                run = Run(request.scene, request.duration_s, request.start)
                 if run.done():  # no equilibrium to start from
-                    yield next_one, run.trajectory()
+                    yield request, run.trajectory()
                     continue
                 if machine is None:
                     machine = Machine(run)
                     machine.compile()
                 machine.load(b, run)
-                asked[b] = next_one
+                requests[b] = request
                 going += 1
         if going == 0:
             return
         for b in machine.advance():
             run = machine.unload(b)
-            yield asked[b], run.trajectory()
+            yield requests[b], run.trajectory()
         progress(
             sum(
-                float(state["samples"]) / run.goal * one.duration_s
-                for state, run, one in zip(machine.states, machine.runs, asked, strict=True)
+                float(state["samples"]) / run.goal * request.duration_s
+                for state, run, request in zip(machine.states, machine.runs, requests, strict=True)
                 if run is not None
             )
         )

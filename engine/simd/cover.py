@@ -1,6 +1,6 @@
 """Which scenes may share a batch, and which have a record type of their own (`engine.record.PLAIN`)."""
 
-from ..physics.tension import LAWS, NAMES
+from ..physics import drag, tension
 from ..scene.models import Scene
 
 
@@ -27,8 +27,8 @@ def has_extras(scene: Scene) -> bool:
     tether = scene.tether
     damped = tether.damping_Ns or tether.damping_critical
     raised = any(scene.anchor.position_m)
-    whole = tether.froude_krylov == "whole"
-    return bool(damped or raised or whole or tether.submergence != "full" or scene.floor is not None)
+    whole_push = tether.froude_krylov == "whole"
+    return bool(damped or raised or whole_push or tether.submergence != "full" or scene.floor is not None)
 
 
 def is_plain(scene: Scene) -> bool:
@@ -37,9 +37,11 @@ def is_plain(scene: Scene) -> bool:
 
 
 def _without_tables(scene):
+    line_drag = scene.tether.drag
     return (
         scene.end.kind == "buoy"
-        and LAWS[NAMES.index(scene.tether.tension.law)].IN_LANES
+        and tension.LAWS[tension.NAMES.index(scene.tether.tension.law)].IN_LANES
+        and (line_drag is None or drag.LAWS[drag.NAMES.index(line_drag.law)].IN_LANES)
         and (scene.waves is None or not scene.waves.irregular)
         and (scene.current is None or scene.current.law == "uniform")
     )

@@ -73,8 +73,8 @@ def plan_turn(records, tables, T, rows, trails, step, stage, at, turn):
         latest = max(latest, stage[b])
         at[b] = row_of_stage(T, rows, b, step[b], stage[b])
         numbers[ENDED, b] = 1.0 if stage[b] == last else 0.0
-        rate, after = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
-        numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + after, float(stage[b])
+        rate, delay = plan_stage(p, tables[b], stage[b], euler, row[col.STEP], 0.0, a[:, b], w[:, b])
+        numbers[RATE, b], numbers[TIME, b], numbers[STAGE, b] = rate, row[col.BEGIN] + delay, float(stage[b])
     return latest
 
 
@@ -116,10 +116,10 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
     """
     counts, values, in_lanes = p_lanes
     p, grid = lane_record(records, counts, as_lanes(values)), as_lanes(in_lanes)
-    turn, own, across = as_lanes(turn_of), as_lanes(carried[0]), as_lanes(carried[1])
+    turn, perturbed, across = as_lanes(turn_of), as_lanes(carried[0]), as_lanes(carried[1])
     work, water = as_lanes(room[0]), as_lanes(room[1])
     numbers, rows, Y, K_new = turn_of.numbers, turn.numbers, turn.Y, turn.K_new
-    count = own.C.shape[0]
+    count = perturbed.C.shape[0]
     moving_water = water_moves(p)
     step, stage = np.zeros(COUNT, np.int64), np.zeros(COUNT, np.int64)
     trail_rows, at = as_lanes(trail.rows), np.zeros(COUNT, np.int64)
@@ -136,12 +136,12 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
             shape(p, grid, Y, work.Q, work.X)
             flow(p, grid, base.t, 1.0, work.X, work.F)
         for v in range(count):
-            keep(begun, own.K[v], own.Ks[v, 0])
-            known_part(turn.a, latest, own.C[v], own.Ks[v], own.C_tilde)
-            tangent_stage(p, grid, base, own.C_tilde, own.C_new, K_new, work, water)
-            end_stage(rows, own.C_new, K_new, own.C[v], own.K[v], own.Ks[v])
+            keep(begun, perturbed.K[v], perturbed.Ks[v, 0])
+            known_part(turn.a, latest, perturbed.C[v], perturbed.Ks[v], perturbed.C_tilde)
+            tangent_stage(p, grid, base, perturbed.C_tilde, perturbed.C_new, K_new, work, water)
+            end_stage(rows, perturbed.C_new, K_new, perturbed.C[v], perturbed.K[v], perturbed.Ks[v])
         if some(ended):
-            orthonormalise(p.per_speed * p.per_speed, ended, own.C, own.K, rows[LENGTH : LENGTH + count])
+            orthonormalise(p.per_speed * p.per_speed, ended, perturbed.C, perturbed.K, rows[LENGTH : LENGTH + count])
         if sideways:
             keep(begun, across.K, across.Ks[0])
             known_part(turn.a, latest, across.C, across.Ks, across.C_tilde)
@@ -155,7 +155,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
 
 def lane_work(n, width):
     """Work arrays of a Newton solve in all lanes; width: of E."""
-    return Work(*(lane_zeros(n, each) for each in (2, 4, planar_col.NODE_WIDTH, width, 6, 4)))
+    return Work(*(lane_zeros(n, columns) for columns in (2, 4, planar_col.NODE_WIDTH, width, 6, 4)))
 
 
 class Followers:
@@ -181,20 +181,20 @@ class Followers:
     def load(self, b, run):
         """Put the perturbations of a run into a lane."""
         self.periods[b], periods = run.trail.period_s, len(run.trail.nats)
-        if (more := periods + 1 - self.nats.shape[1]) > 0:  # the last step of a run may reach into the next period
-            self.nats = np.pad(self.nats, ((0, 0), (0, more), (0, 0)))
-            self.lateral_nats = np.pad(self.lateral_nats, ((0, 0), (0, more)))
+        if (missing := periods + 1 - self.nats.shape[1]) > 0:  # the last step of a run may reach into the next period
+            self.nats = np.pad(self.nats, ((0, 0), (0, missing), (0, 0)))
+            self.lateral_nats = np.pad(self.lateral_nats, ((0, 0), (0, missing)))
         self.nats[b] = self.lateral_nats[b] = 0.0
         self.nats[b, :periods], self.lateral_nats[b, :periods] = run.trail.nats, run.trail.lateral_nats
-        for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+        for lanes, arguments in ((self.carried, run.trail.along), (self.across, run.trail.across)):
             lanes.Ks[..., b] = 0.0  # a run that blew up leaves what is no number, and nothing times that is no number
-            for part, given in zip(lanes, own[:-1] if own else (), strict=False):
-                part[..., b] = given
+            for part, stored in zip(lanes, arguments[:-1] if arguments else (), strict=False):
+                part[..., b] = stored
 
     def unload(self, b, run):
         """What has grown, and the perturbations, back to the run."""
-        for lanes, own in ((self.carried, run.trail.along), (self.across, run.trail.across)):
-            for part, taken in zip(lanes, own[:-1] if own else (), strict=False):
+        for lanes, arguments in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            for part, taken in zip(lanes, arguments[:-1] if arguments else (), strict=False):
                 taken[:] = part[..., b]
         periods = len(run.trail.nats)
         run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]

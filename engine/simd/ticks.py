@@ -1,8 +1,9 @@
 """The lane machine: several planar runs, each with a step, a stage and an end of its own, one Newton iteration a tick.
 
-Every lane is always within the Newton solve of some stage. A tick is one iteration in all lanes at once; lanes whose
-solve has ended are then moved on by the functions that move a single run on: arithmetic on nodes in vectors under a
-mask, decisions one lane after another, from one source (`engine.simd.select`): a lane is bit for bit the run alone.
+Every lane is always within the Newton solve of some stage. A tick is one iteration in all lanes at once. Lanes whose
+solve has ended are then moved on by the functions that move a single run on. Arithmetic on nodes is done in vectors
+under a mask, decisions are taken one lane after another. Both have one source (`engine.simd.select`), and so a lane is
+bit for bit the run alone. No law of physics is here: to add or change one, leave this folder closed.
 
 Rows of `numbers` (ROWS, COUNT) carry what passes between vectors and decisions: time (s), rate (1/s), step (s) of the
 stage; is the last update sound, its size, the least strain; number of the stage; error and largest turn of the step;
@@ -60,10 +61,17 @@ def judge_solves(records, states, lanes, numbers):
         if lane.active != GOING:
             continue
         p = records[b]
-        most = steps.SMALL_STEP_NEWTON if state.small else p.max_newton
+        max_iterations = steps.SMALL_STEP_NEWTON if state.small else p.max_newton
         size = numbers[SIZE, b]
         lane.code = judge(
-            p, lane.iteration, most, p.newton_tolerance, numbers[SOUND, b] != 0.0, size, numbers[LEAST, b], lane.best
+            p,
+            lane.iteration,
+            max_iterations,
+            p.newton_tolerance,
+            numbers[SOUND, b] != 0.0,
+            size,
+            numbers[LEAST, b],
+            lane.best,
         )
         lane.iteration += 1
         lane.best = min(lane.best, size)
@@ -151,10 +159,10 @@ def record_steps(states, numbers, trail_T):
 
 
 @kernel
-def end_steps(records, tables, states, numbers, Y, one):
+def end_steps(records, tables, states, numbers, Y, scratch):
     """Accepted steps: time, what was not resolved, guards, and the length of the next step.
 
-    Y (n, 6, COUNT): the new states, as numbers; one (n, 6): work."""
+    Y (n, 6, COUNT): the new states, as numbers; scratch (n, 6): work."""
     for b in range(COUNT):
         if numbers[ACCEPTED, b] == 0.0:
             continue
@@ -169,9 +177,9 @@ def end_steps(records, tables, states, numbers, Y, one):
         watch_turn(state, numbers[TURN, b])
         code, released = OK, False
         if numbers[TURN, b] > math.pi:
-            copy_into(one, Y[:, :, b])
-            code, released = guard_turns(p, tables[b], state, one)
-            copy_into(Y[:, :, b], one)
+            copy_into(scratch, Y[:, :, b])
+            code, released = guard_turns(p, tables[b], state, scratch)
+            copy_into(Y[:, :, b], scratch)
         next_step(p, state, code, released, numbers[ERROR, b], p.fixed_step)
 
 
@@ -204,10 +212,10 @@ def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
         else:
             lane.stage += 1
         lane.iteration, lane.best = 0, np.inf
-        rate, after = steps.plan_stage(
+        rate, delay = steps.plan_stage(
             p, tables[b], lane.stage, state.small != 0, state.trial_dt, state.dt_before, a[:, b], w[:, b]
         )
-        numbers[RATE, b], numbers[TIME, b], numbers[STEP, b] = rate, state.t + after, state.trial_dt
+        numbers[RATE, b], numbers[TIME, b], numbers[STEP, b] = rate, state.t + delay, state.trial_dt
     going = waiting = 0
     for b in range(COUNT):
         going += lanes[b].active == GOING
@@ -216,7 +224,7 @@ def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
 
 
 @kernel
-def move_states(rows, w, history, now, before, Y):
+def move_states(rows, w, history, now, previous, Y):
     """States, after the decisions: what is kept of the past, and the first guess of the next solve into Y.
 
     history (3, n, 6): the last three of: the state before, the state, the stages so far.
@@ -229,11 +237,11 @@ def move_states(rows, w, history, now, before, Y):
             y, state, last = Y[k, i], now[k, i], history[2, k, i]
             oldest, middle, latest = history[0, k, i], where(solved, last, history[1, k, i]), where(solved, y, last)
             oldest = where(solved, history[1, k, i], oldest)
-            past = where(accepted, state, before[k, i])
+            past = where(accepted, state, previous[k, i])
             state = where(accepted, y, state)
             oldest, latest = where(restarted, state, oldest), where(restarted, state, latest)
             middle = where(restarted, past, middle)
-            now[k, i], before[k, i] = state, past
+            now[k, i], previous[k, i] = state, past
             history[0, k, i], history[1, k, i], history[2, k, i] = oldest, middle, latest
             Y[k, i] = where(moved, steps.guess(weights, oldest, middle, latest), y)
 
@@ -241,6 +249,10 @@ def move_states(rows, w, history, now, before, Y):
 @kernel
 def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, counts, arrays, work):
     """Make ticks until a run ends, trails are to be followed, or `ticks` are made; returns how many were.
+
+    One turn of the loop has four parts. Every lane whose solve has ended plans its next one and takes a first guess.
+    Newton's method iterates in all lanes until a solve ends. The lanes that ended get the rates of their stage and,
+    where a step is finished, its error. Such a step is accepted, sampled and followed by the next, or tried again.
 
     records, states, lanes (COUNT,): RECORD, STATE, LANE; own_tables (COUNT, m): tables, as numbers; spent (COUNT,):
     iterations of the trial; samples (COUNT, m, 13); trail: Trails, of which l = 0 keeps nothing; counts: whole numbers
@@ -250,11 +262,11 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     lane = as_lanes(arrays)
     w, a, C_new, K_new = lane.w, lane.a, lane.C_new, lane.K_new
     Y, C, Ks, rows, tables = lane.Y, lane.C, lane.Ks, lane.numbers, lane.tables
-    own, trail_rows, block = as_lanes(work), as_lanes(trail.rows), as_lanes(trail.block)
+    vectors, trail_rows, block = as_lanes(work), as_lanes(trail.rows), as_lanes(trail.block)
     p = lane_record(records, counts, lane.values)
-    one, ends = np.empty(arrays.Y.shape[:2]), np.empty((4, *arrays.C.shape[:2]))
-    profiles = np.empty((0, *one.shape))
-    made, stop = 0, False
+    scratch, ends = np.empty(arrays.Y.shape[:2]), np.empty((4, *arrays.C.shape[:2]))
+    profiles = np.empty((0, *scratch.shape))
+    ticks_made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
         stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w, work.Q)
@@ -262,19 +274,19 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         keep(rows[ACCEPTED] != 0.0, C_new, C)
         keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])
         steps.known_part(a, Ks.shape[0] - 1, C, Ks, C_new)
-        keep(rows[MOVED] != 0.0, C_new, own.C_tilde)
+        keep(rows[MOVED] != 0.0, C_new, vectors.C_tilde)
         # Newton iterations in all lanes, until a solve has ended
         moving = False
-        while not moving and not stop and made < ticks:
-            made += 1
-            sound, size, least = iterate(p, tables, Stage(rows[TIME], 1.0, rows[RATE], rows[RATE]), Y, own)
+        while not moving and not stop and ticks_made < ticks:
+            ticks_made += 1
+            sound, size, least = iterate(p, tables, Stage(rows[TIME], 1.0, rows[RATE], rows[RATE]), Y, vectors)
             rows[SOUND], rows[SIZE], rows[LEAST] = where(sound, 1.0, 0.0), size, least
             moving = judge_solves(records, states, lanes, numbers) > 0
         if not moving:
             break
         # rates of the solved stages, and of finished steps their errors
-        shape(p, tables, Y, own.Q, own.X)
-        steps.stage_rates(p, rows[RATE], Y, own.Q, own.C_tilde, C_new, K_new)
+        shape(p, tables, Y, vectors.Q, vectors.X)
+        steps.stage_rates(p, rows[RATE], Y, vectors.Q, vectors.C_tilde, C_new, K_new)
         for j in range(1, Ks.shape[0]):
             keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
         top, first = Y[Y.shape[0] - 1, EPS], rows[STAGE] == 1.0
@@ -282,9 +294,9 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         rows[TOP_LOW] = where(rows[SOLVED] != 0.0, low, rows[TOP_LOW])
         rows[TOP_HIGH] = where(rows[SOLVED] != 0.0, high, rows[TOP_HIGH])
         if some(rows[FINISHED] != 0.0):
-            rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, own.Q, a, own.D[0])
-            both = (C, Ks[0]), (C_new, K_new)
-            rows[STRAIN_JUMP], rows[SPEED_JUMP] = jumps_of_rates(p, rows[STEP], *both)
+            rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, vectors.Q, a, vectors.D[0])
+            step_ends = (C, Ks[0]), (C_new, K_new)
+            rows[STRAIN_JUMP], rows[SPEED_JUMP] = jumps_of_rates(p, rows[STEP], *step_ends)
             rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]
         if trail.T.shape[1] > 0:
             record_stages(states, lanes, numbers, Y, K_new, trail.T, trail_rows, block)
@@ -294,8 +306,8 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
             sample_lanes(records, own_tables, states, lanes, arrays, ends, samples, profiles)
             if trail.T.shape[1] > 0:
                 record_steps(states, numbers, trail.T)
-            end_steps(records, own_tables, states, numbers, arrays.Y, one)
+            end_steps(records, own_tables, states, numbers, arrays.Y, scratch)
     for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
         for b in range(COUNT):
             numbers[row_number, b] = 0.0
-    return made
+    return ticks_made

@@ -211,15 +211,15 @@ def afloat(record, scene, s):
     """
     from scipy.optimize import brentq
 
-    whole, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
-    if not record["spherical_cap"] or whole <= 0:
-        return whole, None
+    full_lift, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
+    if not record["spherical_cap"] or full_lift <= 0:
+        return full_lift, None
 
     surface = float(record["depth"]) - scene.anchor.position_m[2]  # above the anchor
 
     def lift(z):
         x = min(max((surface - z) / D + 0.5, 0.0), 1.0)
-        return whole - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
+        return full_lift - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
 
     def left(load):
         """Lift that is not carried where the line is stretched by this load."""
@@ -231,10 +231,10 @@ def afloat(record, scene, s):
         """Where it is 0, or nearly so: a guess need not have converged, and extreme scenes do not."""
         return brentq(function, low, high, full_output=True, disp=False)[0]
 
-    if left(whole) >= 0:
-        return whole, None
+    if left(full_lift) >= 0:
+        return full_lift, None
     if left(0.0) > 0:
-        return zero(left, 0.0, whole), None
+        return zero(left, 0.0, full_lift), None
     return 0.0, zero(lift, surface - D / 2, surface + D / 2)
 
 

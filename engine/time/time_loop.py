@@ -49,7 +49,7 @@ def guard_turns(p, tables, state, Y):
     """Watch the turn of every element after a step; release loops. Returns (code, whether a loop was released)."""
     released = False
     for _ in range(Y.shape[0]):
-        turn, where = largest_turn(p, Y)
+        turn, element = largest_turn(p, Y)
         watch_turn(state, turn)
         if turn <= math.pi:
             return OK, released
@@ -57,7 +57,7 @@ def guard_turns(p, tables, state, Y):
             return OK, released
         if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
-        state.turned = release_loop(p, tables, Y, int(where))
+        state.turned = release_loop(p, tables, Y, int(element))
         state.releases += 1
         released = True
     return TURN_UNRESOLVED, released
@@ -67,8 +67,8 @@ def guard_turns(p, tables, state, Y):
 def hold_turn(state, Q):
     """Put into Q what the trial keeps of a released turn: 2 pi, less from step to step, 0 in the last one."""
     if state.turned != 0:
-        left = math.pi * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
-        Q[abs(state.turned), TURN] = left if state.turned > 0 else -left
+        remaining = math.pi * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
+        Q[abs(state.turned), TURN] = remaining if state.turned > 0 else -remaining
 
 
 @kernel
