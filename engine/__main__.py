@@ -35,7 +35,7 @@ class Order:
     periods: float | None
     duration_s: float | None
     out: Path | None
-    start: "engine.final_state.FinalState | None" = None
+    start: "engine.trajectory.final_state.FinalState | None" = None
 
 
 class _Parser(argparse.ArgumentParser):
@@ -95,12 +95,12 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         faults += _faults_of(options.out)
     start = None
     if not faults:
-        from engine.scene.size_limits import check_room
+        from engine.parameters.limits import check_room
 
         try:
             check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
             if options.start_from is not None:
-                from engine.simulation import checked_start
+                from engine.run.simulation import checked_start
 
                 start = checked_start(scene, options.start_from)
         except ValueError as error:

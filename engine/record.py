@@ -57,7 +57,7 @@ SPATIAL = np.dtype(
     )
     + RECORD.descr
 )
-# A planar scene whose every term has the form that lanes have too (`engine.simd.cover.is_plain`): no other is compiled.
+# A planar scene whose every term has the form that lanes have too (`parameters.cover.is_plain`): no other is compiled.
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # Scenes with a law of `engine.physics.extras`, in a plane and in space: no other scene has its fields, or compiles it
 _EXTRAS = _dtype(

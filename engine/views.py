@@ -178,7 +178,7 @@ def html(run: "Trajectory") -> str:
 def dataset(run: "Trajectory") -> "xarray.Dataset":
     import xarray
 
-    from engine.final_state import PREFIX
+    from engine.trajectory.final_state import PREFIX
 
     data = xarray.load_dataset(BytesIO(run.to_bytes()), engine="scipy")
     return data.drop_vars([name for name in data.variables if name.startswith(PREFIX)])

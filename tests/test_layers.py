@@ -137,8 +137,8 @@ def test_what_is_not_needed_is_not_imported(statement, absent):
 @pytest.mark.parametrize(
     "statement",
     [
-        "from engine.simulation import simulate_batch; from engine import simulate",
-        "import engine; simulate = engine.simulate; import engine.simulation",
+        "from engine.run.simulation import simulate_batch; from engine import simulate",
+        "import engine; simulate = engine.simulate; import engine.run.simulation",
     ],
 )
 def test_the_public_names_do_not_depend_on_the_order_of_imports(statement):

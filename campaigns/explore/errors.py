@@ -40,7 +40,7 @@ from campaigns.judge import job_from, tighter_scene
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Plan, Summary
 from engine import goes_in_lanes, simulate
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
 FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")

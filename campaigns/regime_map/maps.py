@@ -30,7 +30,7 @@ from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
 from campaigns.regime_map.tables import STATIC
 from campaigns.study import Order
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them

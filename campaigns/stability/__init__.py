@@ -52,7 +52,7 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How the cases ended, and the random scenes; what nobody can explain by name."""
-    from engine.excursions import own_words
+    from engine.trajectory.excursions import own_words
 
     cases = [row for row in rows if row["part"] == "case"]
     counts = Counter(str(row["verdict"]) for row in cases)

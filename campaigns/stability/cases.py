@@ -21,7 +21,7 @@ from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.fuzz import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
-from engine.excursions import own_words
+from engine.trajectory.excursions import own_words
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0

@@ -11,10 +11,10 @@ import numpy as np
 
 from ..natural_frequencies import natural_frequencies
 from ..parameters import record_of
+from ..parameters.cover import has_extras
+from ..physics.strains import strain_at, tension_at
 from ..physics.tension import LAWS, NAMES
-from ..scales import strain_at, tension_at
 from ..scene.models import Scene
-from ..simd.cover import has_extras
 from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 
 # in a wave period, or in one of the radial motion where that is shorter

@@ -16,7 +16,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..excursions import message_of
 from ..physics.sea import direction_of
 from ..record import SAMPLE_WIDTH, STATE
 from ..run import columns_of, heading_of, sample_count, statistics_of
@@ -24,6 +23,7 @@ from ..scene.models import Scene
 from ..time import status as codes
 from ..time.statics import why_no_rest
 from ..trajectory import Profiles, Trajectory
+from ..trajectory.excursions import message_of
 from .ends import force_and_velocity
 from .line import EPS, EULER, OMEGA, TO_ENGINE, Line, line_of, turns
 from .newton import TOLERANCE, solve

@@ -12,10 +12,11 @@ from itertools import product
 import numpy as np
 
 from ..arrays import Stage
+from ..parameters.scales import buckling_load
+from ..physics.strains import strain_at, tension_at
 from ..planar import columns as col
 from ..planar import state as planar
 from ..record import BUOY, FREE, HELD, has_extras, is_spatial, lengths_of
-from ..scales import buckling_load, strain_at, tension_at
 from ..scene.models import Scene
 from ..spatial import columns as spatial_col
 from ..spatial import lift

@@ -10,7 +10,7 @@ from statistics import median
 
 import numpy as np
 
-from engine.excursions import own_words
+from engine.trajectory.excursions import own_words
 
 from ..figures.stability import stiffness
 from ..parts.columns import Quantity, table_of, value

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from engine import SceneError, load_scene, simulate
-from engine.excursions import message_of, own_words
 from engine.physics.sea import elevation_m
 from engine.run import Run
+from engine.trajectory.excursions import message_of, own_words
 
 TABLE = {"time_s": [0.0, 1.0], "height_m": [0.0, 60.0], "x_m": [0.0], "velocity_z_mps": [[[0.0], [0.0]]] * 2}
 CURRENTS = {

@@ -14,8 +14,8 @@ import sys
 import numpy as np
 import pytest
 
+from engine.physics.strains import strain_at, tension_at
 from engine.physics.tension.kernels import stored, tension
-from engine.scales import strain_at, tension_at
 from tests.engine import box_equations
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import line, linear
@@ -80,7 +80,7 @@ import numpy as np
 from engine import load_scene
 from engine.parameters import record_of
 from engine.physics.tension.kernels import stored, tension
-from engine.scales import strain_at, tension_at
+from engine.physics.strains import strain_at, tension_at
 from engine.scene.reference import keys
 
 law = {"law": "stiffening", "stiffness_N": 2e4, "cubic_N": 3e5}

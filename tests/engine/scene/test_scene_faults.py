@@ -11,8 +11,8 @@ import pytest
 
 from engine import SceneError, load_scene, simulate
 from engine.parameters import NOT_STRETCHED, grid
+from engine.parameters.limits import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
 from engine.scene import build_scene, parse_assignment, scene_from_toml
-from engine.scene.size_limits import MOST_PROFILE_VALUES, MOST_SAMPLES, MOST_STEPS
 from engine.scene.values import LARGEST, SMALLEST
 
 TABLES = tomllib.loads(Path(__file__).with_name("scenes.toml").read_text(encoding="utf-8"))

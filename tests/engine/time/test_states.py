@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from engine import Trajectory, __main__, load_scene, simulate, simulate_each
-from engine.final_state import NONE
-from engine.going_on import between, taken_over
 from engine.planar import columns as col
+from engine.run.going_on import between, taken_over
 from engine.spatial import lift
+from engine.trajectory.final_state import NONE
 
 SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5, "solver.rtol": 1e-3}
 SLACK = {"tether.nodes": 21, "waves.steepness": 0.13, "water.depth_m": 21.0}  # folded after 12.6 periods

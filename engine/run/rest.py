@@ -4,10 +4,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from .planar.columns import EPS  # in space the same column
-from .run import Run
-from .scales import tension_at
-from .scene.models import Scene
+from ..physics.strains import tension_at
+from ..planar.columns import EPS  # in space the same column
+from ..scene.models import Scene
+from . import Run
 
 
 def static_tension_N(scene: Scene, columns: Mapping[str, np.ndarray]) -> float:

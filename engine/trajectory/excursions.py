@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from .scene.models import Scene
+from ..scene.models import Scene
 
 AIR = (
     "the sphere was in the air for {share:.2g} % of the time from t = {first:.5g} to {last:.5g} s, its lowest point up "
@@ -60,7 +60,7 @@ def _excursions(scene: Scene, columns: Mapping[str, np.ndarray], height: np.ndar
 
 def above_the_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarray:
     """Height (m) of the lowest point of a buoy without a cap above the linear wave at its place; -inf without one."""
-    from .physics.sea import elevation_m
+    from ..physics.sea import elevation_m
 
     if scene.buoy is None or scene.buoy.submergence != "full":
         return np.full(len(columns["time_s"]), -np.inf)

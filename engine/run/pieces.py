@@ -6,11 +6,11 @@ that compiles the second of them is done in half the time.
 
 from collections.abc import Iterable, Mapping
 
-from .parameters import record_of
-from .record import ONE_STAGE
-from .run import Idle, Run
-from .scene.models import Scene
-from .simd.cover import goes_in_lanes
+from ..parameters import record_of
+from ..parameters.cover import goes_in_lanes
+from ..record import ONE_STAGE
+from ..scene.models import Scene
+from . import Idle, Run
 
 # seconds of processor time (measured, in a plane): which share is begun first, and the time left
 SECONDS = {"rest": 3.2, "march": 3.5, "carry": 5.0, "advance": 7.7, "follow": 6.3, "paper-box": 3.5}
@@ -54,7 +54,7 @@ def compile_piece(key: tuple, scene: Scene) -> None:
         carried = {"tangent_vectors": int(how[0]), "lateral_growth": how[1]}
         scene = scene.model_copy(update={"output": scene.output.model_copy(update=carried)})
     if name == "paper-box":
-        from .paper_box.driver import run
+        from ..paper_box.driver import run
 
         run(scene, scene.sample_step_s())
     elif name == "rest":
@@ -62,7 +62,7 @@ def compile_piece(key: tuple, scene: Scene) -> None:
     elif name in ("march", "carry"):
         Idle(scene, 0.0).compile()
     else:
-        from .simd.batch import Machine
+        from .batch import Machine
 
         machine = Machine(idle := Idle(scene, 0.0))
         machine.load(0, idle)

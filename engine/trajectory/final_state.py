@@ -2,7 +2,7 @@
 
 The last step of a run ends at or past its last sample. The state is that at the end of the step, and what lies between
 the two, samples, profiles and growth of a period that has not ended, is kept with it for the run that goes on. What
-another scene makes of a state, and what lies between two states, is in `engine.going_on`.
+another scene makes of a state, and what lies between two states, is in `engine.run.going_on`.
 """
 
 import hashlib
@@ -10,8 +10,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from .record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME
-from .scene.models import Scene
+from ..record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME
+from ..scene.models import Scene
 
 PREFIX = "final_"
 NONE = np.empty(0)
@@ -128,12 +128,14 @@ class FinalState:
         return ""
 
     def variables(self) -> list[tuple]:
-        """The variables of a file (`engine.netcdf`); what is empty is left out."""
+        """The variables of a file (`engine.trajectory.netcdf`); what is empty is left out."""
         found = []
         for field, values in self._arrays():
             name = PREFIX + field
             dimensions = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-            found.append((name, dimensions, values, "1", "state after the last step, see engine.final_state"))
+            found.append(
+                (name, dimensions, values, "1", "state after the last step, see engine.FinalState")
+            )
         return found
 
     def _arrays(self) -> list[tuple[str, np.ndarray]]:

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from engine import netcdf, views
+from engine import views
 from engine.atomic import write_atomic
-from engine.excursions import message_of, own_words
-from engine.final_state import FinalState, state_of_file
 from engine.scene.load import Scene, SceneError, scene_from_toml
-from engine.trajectory_parts import EnergyBudget, Profiles, TangentGrowth, along_waves, heading_of
+from engine.trajectory import netcdf
+from engine.trajectory.excursions import message_of, own_words
+from engine.trajectory.final_state import FinalState, state_of_file
+from engine.trajectory.parts import EnergyBudget, Profiles, TangentGrowth, along_waves, heading_of
 
 if TYPE_CHECKING:
     import pandas

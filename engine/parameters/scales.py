@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from .physics.strains import strain_at, tension_at
-from .record import RELEASE_STEPS
-from .scene.models import Scene
-from .scene.sections import End, Tether
+from ..physics.strains import strain_at, tension_at
+from ..record import RELEASE_STEPS
+from ..scene.models import Scene
+from ..scene.sections import End, Tether
 
 STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 40}  # at least; what shakes an end shakes the tension
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from .record import lengths_of
-from .scales import fastest_wave, jumps_of, ringing_period
-from .scene.models import Scene
-from .scene.size_limits import longest_step
+from ..parameters.limits import longest_step
+from ..parameters.scales import fastest_wave, jumps_of, ringing_period
+from ..record import lengths_of
+from ..scene.models import Scene
 
 NOTED = 0.05  # of the largest tension: what is less is not told
 

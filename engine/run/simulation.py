@@ -5,12 +5,12 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
-from .final_state import FinalState
+from ..parameters.limits import MOST_SAMPLES, check_room
+from ..scene.models import Scene
+from ..trajectory import Trajectory
+from ..trajectory.final_state import FinalState
+from . import Run
 from .going_on import fault_of
-from .run import Run
-from .scene.models import Scene
-from .scene.size_limits import MOST_SAMPLES, check_room
-from .trajectory import Trajectory
 
 CALL_S = 0.1  # of machine code, which hears of Ctrl-C between two calls only
 Progress = Callable[[float], None]
@@ -31,7 +31,7 @@ def simulate(
     progress     callable(fraction) called now and then, optional
     start        a Trajectory, its final_state, or its file: the run goes on from there, in time as well. With the same
                  scene (solver and output may change) it is the run that did not stop, to the last bit; another scene
-                 takes the state over, and `began` of the trajectory says what was changed (`engine.going_on`): on
+                 takes the state over, and `began` of the trajectory says what was changed (`engine.run.going_on`): on
                  another grid by interpolation, from a plane into space, with another wave period or output step at
                  t = 0. `start` of the scene is not used. None: from rest
     Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
@@ -74,7 +74,7 @@ def simulate_each(
                  has ended, under its number; None: none does. So lanes stay full while runs are judged one by one
     progress     callable(share of the time to simulate, of all runs that are known by now)
     """
-    from .simd import batch
+    from . import batch
 
     scenes = list(scenes)
     lengths = [periods] * len(scenes) if periods is None or isinstance(periods, int | float) else list(periods)
@@ -133,7 +133,7 @@ def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Traject
     asked = waiting.popleft()
     scene, duration_s = asked.scene, asked.duration_s
     if scene.solver.scheme == "paper-box":
-        from .paper_box.driver import run as by_paper
+        from ..paper_box.driver import run as by_paper
 
         yield asked, by_paper(scene, duration_s, lambda fraction: progress(fraction * duration_s))
         return

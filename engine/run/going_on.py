@@ -11,13 +11,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from . import parameters
-from .final_state import NONE, FinalState
-from .planar import columns as col
-from .record import RELEASES
-from .scene.models import Scene
-from .spatial import columns as spatial_col
-from .spatial import lift
+from .. import parameters
+from ..planar import columns as col
+from ..record import RELEASES
+from ..scene.models import Scene
+from ..spatial import columns as spatial_col
+from ..spatial import lift
+from ..trajectory.final_state import NONE, FinalState
 
 NO_CHANGE = ("name", "title", "start")  # of the motion, once it goes on
 SAME = 1e-12  # shares of the length of a line that are one place

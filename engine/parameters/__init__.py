@@ -10,13 +10,13 @@ import math
 
 import numpy as np
 
-from . import record as codes
+from .. import record as codes
+from ..physics import ends, sea, tension, waves
+from ..scene.models import Scene
+from ..spatial import lift
+from ..time import integrators
 from . import scales
-from .physics import ends, sea, tension, waves
-from .scene.models import Scene
-from .simd.cover import has_extras, is_plain
-from .spatial import lift
-from .time import integrators
+from .cover import has_extras, is_plain
 
 NOT_STRETCHED = 1e-6  # below this spacings differ by less than 1e-12, and the quotients of tanh lose their digits
 

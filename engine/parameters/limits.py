@@ -6,8 +6,8 @@ from operator import itemgetter
 
 from .. import parameters
 from ..record import PROFILE_WIDTH
-from ..scales import longest_steps
 from ..time.integrators import METHODS
+from .scales import longest_steps
 
 MOST_SAMPLES = 20_000_000  # 2 GB of samples; 1e5 wave periods at a hundred samples each is half of it
 MOST_PROFILE_VALUES = 400_000_000  # 3 GB of profiles

@@ -34,7 +34,7 @@ class Profiles:
 
 @dataclass(frozen=True)
 class EnergyBudget:
-    """Where the energy of a dry line is and went since t = 0; each (m,) (`engine.physics.energy`).
+    """Where the energy of a dry line is and went since t = 0; each (m,) (`engine.time.energy`).
 
     time_s: the first end of a step past each output time. See `remainder_J`.
     """

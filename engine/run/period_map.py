@@ -20,17 +20,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import record as col
-from .arrays import Motion, Trail
-from .final_state import FinalState
-from .perturbations.exponents import carry
-from .planar.columns import CX, CZ, EPS, PHI, VX, VZ
-from .run import Idle, columns_of
-from .scene.models import Scene
-from .time.given_steps import march_over
-from .time.status import ADVICE, OK
-from .time.time_loop import march
-from .trajectory_parts import heading_of
+from .. import record as col
+from ..arrays import Motion, Trail
+from ..perturbations.exponents import carry
+from ..planar.columns import CX, CZ, EPS, PHI, VX, VZ
+from ..scene.models import Scene
+from ..time.given_steps import march_over
+from ..time.status import ADVICE, OK
+from ..time.time_loop import march
+from ..trajectory.final_state import FinalState
+from ..trajectory.parts import heading_of
+from . import Idle, columns_of
 
 FIRST_STEPS = 0.3, 0.2, 0.45  # of the longest step: one of every mesh
 RATES = 100.0  # by which rates count less than their frequency says

@@ -5,29 +5,31 @@ import time
 
 import numpy as np
 
-from . import parameters, trust
-from . import record as col
-from .arrays import Motion, Output
-from .excursions import message_of
-from .final_state import FinalState
+from .. import parameters
+from .. import record as col
+from ..arrays import Motion, Output
+from ..parameters.limits import longest_step
+from ..parameters.scales import TRANSIT_STEPS, jumps_of, wave_beyond
+from ..perturbations.exponents import Followed
+from ..physics.strains import tension_at
+from ..planar import state as planar
+from ..planar.columns import EPS, PHI
+from ..scene.models import Scene
+from ..spatial import lift
+from ..spatial import state as spatial
+from ..time import energy
+from ..time.folds import FOLD, words_of_folds
+from ..time.held_start import held_away, why_not_held
+from ..time.ringing import HEARD
+from ..time.statics import rest_of, why_no_rest
+from ..time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, WAVES_ON_ELEMENT, WORDS
+from ..time.time_loop import march
+from ..trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
+from ..trajectory.excursions import message_of
+from ..trajectory.final_state import FinalState
+from ..trajectory.parts import along_waves, heading_of
+from . import trust
 from .going_on import taken_over
-from .perturbations.exponents import Followed
-from .physics import energy
-from .planar import state as planar
-from .planar.columns import EPS, PHI
-from .scales import TRANSIT_STEPS, jumps_of, tension_at, wave_beyond
-from .scene.models import Scene
-from .scene.size_limits import longest_step
-from .spatial import lift
-from .spatial import state as spatial
-from .time.folds import FOLD, words_of_folds
-from .time.held_start import held_away, why_not_held
-from .time.ringing import HEARD
-from .time.statics import rest_of, why_no_rest
-from .time.status import ADVICE, OK, OUT_AT_REST, STATICS_FAILED, TURN_UNRESOLVED, WAVES_ON_ELEMENT, WORDS
-from .time.time_loop import march
-from .trajectory import COLUMNS, EnergyBudget, Profiles, Trajectory
-from .trajectory_parts import along_waves, heading_of
 from .trust import NOTED
 
 
