@@ -100,7 +100,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         try:
             check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
             if options.start_from is not None:
-                from engine.run.simulation import checked_start
+                from engine.run.start import checked_start
 
                 start = checked_start(scene, options.start_from)
         except ValueError as error:

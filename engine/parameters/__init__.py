@@ -35,6 +35,13 @@ def grid(length_m: float, nodes: int, stretching: float, refined: str = "both") 
     return np.diff(length_m * {"both": 0.5 * (1 + s), "lower": 1 + s, "upper": s}[refined])
 
 
+def numbers_of(scene: Scene) -> tuple[np.void, np.ndarray]:
+    """The parameter record of a scene that goes alone, and its tables as one array."""
+    tables: list[np.ndarray] = []
+    record = record_of(scene, tables)[0]
+    return record, np.concatenate(tables)
+
+
 def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     """One parameter record; appends the scene's tables to the list of arrays `tables`.
 

@@ -26,11 +26,11 @@ from ..perturbations.exponents import carry
 from ..planar.columns import CX, CZ, EPS, PHI, VX, VZ
 from ..scene.models import Scene
 from ..time.given_steps import march_over
-from ..time.status import ADVICE, OK
+from ..time.status import OK
 from ..time.time_loop import march
+from ..trajectory.columns import columns_of
 from ..trajectory.final_state import FinalState
-from ..trajectory.parts import heading_of
-from . import Idle, columns_of
+from . import Idle, advice
 
 FIRST_STEPS = 0.3, 0.2, 0.45  # of the longest step: one of every mesh
 RATES = 100.0  # by which rates count less than their frequency says
@@ -85,7 +85,7 @@ class PeriodMap:
             raise ValueError(f"a map over a wave period: {why}")
         self.scene_of, self._run = scene_of, lru_cache(16)(self._run)  # arrays of the last ones are kept
         self._kept: deque = deque(maxlen=PASSES)
-        self.start = start.ended_at_zero()
+        self.start = start.at_zero(with_samples=False)
         self.nodes = scene_of(value).tether.nodes
         self.scale = self._scale(value)
         self.seen = self._seen(value)
@@ -137,7 +137,7 @@ class PeriodMap:
         for part, (low, high) in zip(parts, [at_ends[-1], *at_ends[:-1]], strict=True):
             part[0, col.TOP_LOW] = min(part[0, col.TOP_LOW], low)
             part[0, col.TOP_HIGH] = max(part[0, col.TOP_HIGH], high)
-        return columns_of(np.concatenate(parts), heading_of(run.scene))
+        return columns_of(np.concatenate(parts), run.scene)
 
     def _run(self, value: float) -> Idle:
         """Arrays of the scene of a value; the last ones are kept."""
@@ -220,7 +220,7 @@ class PeriodMap:
             march(run.record, run.tables, state, motion, run.output, self.trail, until, *run.parts)
             taken.append(self.trail.T[: int(state["trail"])].copy())
             if state["status"] != OK:
-                raise ArithmeticError(_said(state["status"], state))
+                raise ArithmeticError(advice(state).partition(": ")[0])
             if state["releases"]:
                 raise ArithmeticError("a loop is released")
         T = np.concatenate(taken)[:, [col.BEGIN, col.STEP]] / period_s
@@ -249,8 +249,8 @@ class PeriodMap:
                 halves = (begin, half), (begin + half, half)
                 steps = np.concatenate([steps[:at], halves, steps[at + 1 :]])
             else:
-                run.state["t"], run.state["dt"] = taken[at]
-                raise ArithmeticError(_said(code, run.state))
+                run.state["status"], (run.state["t"], run.state["dt"]) = code, taken[at]
+                raise ArithmeticError(advice(run.state).partition(": ")[0])
 
             def derivative(V: np.ndarray) -> np.ndarray:
                 along = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
@@ -266,9 +266,3 @@ class PeriodMap:
 
 _NO_GROWTH = np.zeros((0, 0))
 _NO_MORE = {"profiles": False, "energy": False, "tangent_vectors": 0, "lateral_growth": False}
-
-
-def _said(code: int, state: np.void) -> str:
-    """Why a state has no image."""
-    numbers = {"t": state["t"], "dt": state["dt"], "turn": state["max_turn"], "releases": state["releases"]}
-    return ADVICE[int(code)].format(**numbers).split(": ")[0]

@@ -4,7 +4,6 @@ A sphere counts as in the air where its lowest point is above the linear wave: i
 above the water, and nothing of its constant buoyancy, eq. (30), is there. Less than that is a part of it.
 """
 
-import re
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -23,42 +22,42 @@ BED = (
     "the line was up to {most:.2g} m below the bed (first at t = {first:.5g} s), because the scene has no floor: "
     "floor.stiffness_Npm3 = 1e5 adds one"
 )
-_BEGINNING = re.compile("[;:]? ?(?=the sphere was in the air|the line was up to)")
 
 
-def message_of(own: str, scene: Scene, columns: Mapping[str, np.ndarray], status: str) -> str:
-    """The message of a run: what the engine says of it, and where it left the water or went below the bed.
+def with_excursions(own_message: str, scene: Scene, columns: Mapping[str, np.ndarray], status: str) -> tuple[str, str]:
+    """The message of a run, and the part of it that tells where the run left the water or went below the bed.
 
-    A run that failed with its sphere in the air says so in place of advice on steps, which helps nowhere there. own:
-    may be such a message, whose excursions are found anew.
+    own_message: what the engine says of the run, "event" or "event: advice". A run that failed with its sphere in the
+    air says so in place of advice on steps, because such advice helps nowhere there.
     """
-    own = own_words(own)
-    if scene.water is None or not len(columns["time_s"]):
-        return own
-    height = above_the_wave(scene, columns)
-    if status != "ok" and height[-1] > 0.0:
-        event = re.sub(": [^:]*$", "", own)
-        return f"{event}: {'; '.join(_excursions(scene, columns, height))}"
-    return "; ".join(filter(None, (own, *_excursions(scene, columns, height))))
+    excursions = "; ".join(excursions_of(scene, columns))
+    if not excursions:
+        return own_message, ""
+    if status != "ok" and height_above_wave(scene, columns)[-1] > 0.0:
+        event = own_message.rpartition(": ")[0] or own_message
+        return f"{event}: {excursions}", excursions
+    return "; ".join(filter(None, (own_message, excursions))), excursions
 
 
-def own_words(message: str) -> str:
-    """A message without its excursions: what the engine says of a run itself."""
-    return _BEGINNING.split(message)[0]
-
-
-def _excursions(scene: Scene, columns: Mapping[str, np.ndarray], height: np.ndarray) -> Iterator[str]:
-    time_s, depth = columns["time_s"], -scene.anchor.position_m[2] - columns["line_lowest_m"]
-    flying, buried = height > 0.0, depth > scene.tether.diameter_m
+def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[str]:
+    """A sentence for each way in which a run left what its laws are made for."""
+    time_s = columns["time_s"]
+    if scene.water is None or not len(time_s):
+        return
+    height = height_above_wave(scene, columns)
+    flying = height > 0.0
     if flying.any():
         first, last = time_s[flying][[0, -1]]
-        said = AIR.format(share=100.0 * flying.mean(), first=first, last=last, most=height[flying].max())
-        yield said + (NO_CAP if scene.waves is not None and scene.waves.irregular else CAP)
+        words = AIR.format(share=100.0 * flying.mean(), first=first, last=last, most=height[flying].max())
+        irregular = scene.waves is not None and scene.waves.irregular
+        yield words + (NO_CAP if irregular else CAP)
+    depth = -scene.anchor.position_m[2] - columns["line_lowest_m"]
+    buried = depth > scene.tether.diameter_m
     if scene.floor is None and buried.any():
         yield BED.format(most=depth[buried].max(), first=time_s[buried][0])
 
 
-def above_the_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+def height_above_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarray:
     """Height (m) of the lowest point of a buoy without a cap above the linear wave at its place; -inf without one."""
     from ..physics.sea import elevation_m
 
@@ -68,4 +67,4 @@ def above_the_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarra
     if scene.waves is None:
         return lowest_m
     with np.errstate(all="ignore"):  # places of a run that blew up
-        return lowest_m - elevation_m(scene, *(columns[name] for name in ("time_s", "x_m", "y_m")))
+        return lowest_m - elevation_m(scene, columns["time_s"], columns["x_m"], columns["y_m"])

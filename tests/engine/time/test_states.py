@@ -7,7 +7,8 @@ import pytest
 
 from engine import Trajectory, __main__, load_scene, simulate, simulate_each
 from engine.planar import columns as col
-from engine.run.going_on import between, taken_over
+from engine.run.going_on import between
+from engine.run.start import taken_over
 from engine.spatial import lift
 from engine.trajectory.final_state import NONE
 

@@ -1,6 +1,6 @@
 """Law: a step multiplies every mode of a straight line by its method's stability function R(lambda dt).
 
-The map (C, K) -> (C', K') of one step (`engine.time.one_step`) is differenced about a state of rest, by central
+The map (C, K) -> (C', K') of one step is differenced about a state of rest, by central
 differences of 1e-6; its eigenvalues are good to 1e-5 or so. For a straight line of uniform strain eps the closed form
 (a law of tests/engine/planar) gives the rates of the semi-discrete line,
 
@@ -15,8 +15,10 @@ import math
 import numpy as np
 import pytest
 
+from engine.planar.columns import EPS  # in space the same column
+from engine.run import Run
+from engine.spatial import lift
 from engine.time import integrators
-from engine.time.one_step import OneStep
 from tests.engine.lines import DRY, held, line, linear
 from tests.engine.modes import box
 
@@ -60,6 +62,29 @@ def generalized_alpha(z, rho):
     return np.linalg.solve(after, before)
 
 
+def step_of(scene, strain):
+    """The step of a run as a map of (C, K), flat, and (C, K) of rest; strain: of a straight line, else statics."""
+    run = Run(scene, scene.solver.step_s)
+    Y, begin = run.motion.Y.copy(), run.state.copy()
+    # not the first step, for which C would be computed, nor the first sample, which is at the start
+    begin["steps"], begin["samples"], begin["small_steps"], begin["dt"] = 1, 1, 0, scene.solver.step_s
+    if strain is not None:
+        Y[:, EPS] = strain
+    rest = np.zeros((2, *run.motion.C.shape))
+    q = lift.stretch_vectors(Y)
+    rest[0, :, : q.shape[1]] = q
+
+    def step(state):
+        run.state = begin.copy()
+        for part, values in zip(run.motion, (Y, Y, *state.reshape(rest.shape)), strict=True):
+            part[:] = values
+        run.advance(1)
+        assert [int(run.state[name]) for name in ("status", "failures", "steps")] == [0, 0, 2]
+        return np.ravel([run.motion.C, run.motion.K])
+
+    return step, rest.ravel()
+
+
 def eigenvalues(method, strain, step_s, dimensions=2):
     """Eigenvalues of the numerical derivative of the engine's step; strain None: a line that hangs between its ends."""
     if strain is None:
@@ -75,16 +100,14 @@ def eigenvalues(method, strain, step_s, dimensions=2):
         length_m=LENGTH_M, nodes=NODES, area_m2=5e-4, density_kgpm3=1000.0, bending_stiffness_Nm2=EI_NM2,
         tension=linear(EA_N),
     )  # fmt: skip
-    step = OneStep(scene, strain)
-    rest = np.array([step.C, step.K])
-    size = rest.ravel().size
+    step, rest = step_of(scene, strain)
+    size = rest.size
     derivative = np.empty((size, size))
     for column in range(size):
         of_rates = column >= size // 2
         change = np.zeros(size)
         change[column] = CHANGE / step_s if of_rates else CHANGE
-        ahead, behind = (np.ravel(step(*(rest.ravel() + sign * change).reshape(rest.shape))) for sign in (1, -1))
-        derivative[:, column] = (ahead - behind) / (2 * change[column])
+        derivative[:, column] = (step(rest + change) - step(rest - change)) / (2 * change[column])
     return np.linalg.eigvals(derivative)
 
 
