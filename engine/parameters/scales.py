@@ -59,10 +59,10 @@ def fastest_wave(record: np.void, scene: Scene) -> float:
 
 def longest_steps(scene: Scene) -> dict[str, float]:
     """What holds an adaptive step: key of the scene -> the longest step (s) that it allows."""
-    found, driving = {"solver.max_step_s": scene.solver.max_step_s}, (scene.waves, scene.end.motion)
-    for (key, steps), part in zip(STEPS_OF_PERIOD.items(), driving, strict=True):
-        found[key] = getattr(part, "period_s", math.inf) / steps
-    return found
+    limits = {"solver.max_step_s": scene.solver.max_step_s}
+    for (key, steps), driver in zip(STEPS_OF_PERIOD.items(), (scene.waves, scene.end.motion), strict=True):
+        limits[key] = getattr(driver, "period_s", math.inf) / steps
+    return limits
 
 
 def ringing_period(record: np.void, scene: Scene) -> float:

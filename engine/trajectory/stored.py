@@ -94,9 +94,10 @@ def fields_of(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> dict[str,
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
     columns = dict.fromkeys(NOT_IN_OLDER_FILES, np.zeros(len(arrays["time_s"]))) | arrays
     columns = {name: columns[name] for name in COLUMNS}
-    excursions = texts.get("excursions")
-    if excursions is None and texts["message"]:  # older files have them in the message alone
-        excursions = "; ".join(excursions_of(scene, columns))
+    excursions = texts.get("excursions", "")
+    if texts["message"] and not excursions:  # older files have them in the message alone
+        words = "; ".join(excursions_of(scene, columns))
+        excursions = words if texts["message"].endswith(words) else ""
     return {
         "scene": scene,
         "status": texts["status"],
@@ -108,7 +109,7 @@ def fields_of(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> dict[str,
         "energy": _part_of(EnergyBudget, "energy_", arrays) if scene.output.energy else None,
         "final_state": state_of_file(scene, arrays),
         "began": texts.get("began", ""),
-        "excursions": excursions or "",
+        "excursions": excursions,
     }
 
 
