@@ -46,21 +46,21 @@ class _Parser(argparse.ArgumentParser):
 def parser() -> argparse.ArgumentParser:
     """The options of the command."""
     words = {"description": __doc__, "epilog": EXITS, "formatter_class": argparse.RawDescriptionHelpFormatter}
-    made = _Parser(prog="python -m engine", allow_abbrev=False, **words)
-    made.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
+    options = _Parser(prog="python -m engine", allow_abbrev=False, **words)
+    options.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
     several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
-    made.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    options.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
     goes = "file of a run (`Trajectory.save`, or trajectories/ of a campaign) from whose end this one goes on"
-    made.add_argument("--start-from", metavar="FILE", type=Path, help=f"{goes} (default: from rest)")
-    length = made.add_mutually_exclusive_group()
+    options.add_argument("--start-from", metavar="FILE", type=Path, help=f"{goes} (default: from rest)")
+    length = options.add_mutually_exclusive_group()
     until = (
         f"length in wave periods (default: until the verdict, {MOST_PERIODS} at most; without perturbations {PERIODS})"
     )
     length.add_argument("--periods", metavar="N", type=float, help=until)
     length.add_argument("--duration", metavar="S", type=float, help="length in seconds; needed without waves")
     shown = "file of the figure, .png, .svg or .pdf (default: a window, or results/engine/NAME.png without a display)"
-    made.add_argument("--out", metavar="FILE", type=Path, help=shown)
-    return made
+    options.add_argument("--out", metavar="FILE", type=Path, help=shown)
+    return options
 
 
 def read_order(argv: list[str], faults: list[str]) -> Order:
@@ -88,9 +88,9 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         faults.append(f"--duration: not given for {options.scene!r}, a scene without waves; allowed: seconds, above 0")
     elif scene is not None and periods is None and duration_s is None and not scene.output.tangent_vectors:
         periods = PERIODS
-    for name, given in (("--periods", periods), ("--duration", duration_s)):
-        if given is not None and not 0.0 < given < float("inf"):
-            faults.append(f"{name}: given {given:g}; allowed: a finite number above 0")
+    for name, length in (("--periods", periods), ("--duration", duration_s)):
+        if length is not None and not 0.0 < length < float("inf"):
+            faults.append(f"{name}: given {length:g}; allowed: a finite number above 0")
     if options.out is not None:
         faults += _faults_of(options.out)
     start = None
@@ -132,11 +132,11 @@ def main(argv: list[str] | None = None) -> int:
     print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
         if order.periods is None and order.duration_s is None:
-            run = _until_told(order.scene, order.start)
+            run = _until_verdict(order.scene, order.start)
         else:
             length = order.periods, order.duration_s
-            run = engine.simulate(order.scene, *length, lambda share: _tell(f"{share:.0%}"), order.start)
-        _tell("")
+            run = engine.simulate(order.scene, *length, lambda share: _show_progress(f"{share:.0%}"), order.start)
+        _show_progress("")
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was written", file=sys.stderr)
         return 130
@@ -147,14 +147,14 @@ def main(argv: list[str] | None = None) -> int:
     return 0 if run.status == "ok" else 1
 
 
-def _until_told(scene, start):
+def _until_verdict(scene, start):
     """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
-    run, done = None, 0
-    while done < MOST_PERIODS:
-        _tell(f"{done} wave periods")
-        look = min(views.look_after(done), MOST_PERIODS)
-        later = engine.simulate(scene, look - done, start=run or start)
-        run, done = later if run is None else run.followed_by(later), look
+    run, periods = None, 0
+    while periods < MOST_PERIODS:
+        _show_progress(f"{periods} wave periods")
+        look = min(views.look_after(periods), MOST_PERIODS)
+        later = engine.simulate(scene, look - periods, start=run or start)
+        run, periods = later if run is None else run.followed_by(later), look
         if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
             break
     return run
@@ -166,7 +166,7 @@ def _refused(faults: list[str]) -> int:
     return 2
 
 
-def _tell(text: str) -> None:
+def _show_progress(text: str) -> None:
     if sys.stderr.isatty():
         print(f"\r{text:<24}\r", end="", file=sys.stderr, flush=True)
 

@@ -16,7 +16,7 @@ from ..scene.models import Scene
 from ..spatial import lift
 from ..time import integrators
 from . import scales
-from .cover import has_extras, is_plain
+from .cover import has_rare_laws, is_plain
 
 NOT_STRETCHED = 1e-6  # below this spacings differ by less than 1e-12, and the quotients of tanh lose their digits
 
@@ -48,7 +48,7 @@ def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     Returns a (1,) structured array of dtype `RECORD`, `PLAIN` or `EXTRA`; of `SPATIAL` or `EXTRA_SPATIAL` for
     motion.dimensions = 3.
     """
-    extras = has_extras(scene)
+    extras = has_rare_laws(scene)
     if scene.motion.dimensions == 3:
         p = np.zeros(1, codes.EXTRA_SPATIAL if extras else codes.SPATIAL)
     else:
@@ -219,9 +219,9 @@ def _turning(record, scene):
     # Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
     # Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each
     # other (a line that hangs between two vertical ones).
-    along = np.array(chord) / np.linalg.norm(chord)
+    way = np.array(chord) / np.linalg.norm(chord)
     below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
-    carried = lift.product(lift.shortest_rotation(along, above), lift.shortest_rotation(below, along))
+    carried = lift.product(lift.shortest_rotation(way, above), lift.shortest_rotation(below, way))
     for i, part in enumerate(carried):
         record[f"carry{i}"] = part
     record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0

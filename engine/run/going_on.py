@@ -31,11 +31,11 @@ def places_along(scene: Scene) -> np.ndarray:
     return np.append(0.0, s / s[-1])
 
 
-def same_grid(scene: Scene, other: Scene) -> bool:
+def same_grid(first: Scene, second: Scene) -> bool:
     """Whether the nodes of two scenes are at the same shares of the length."""
-    if scene.tether.nodes != other.tether.nodes:
+    if first.tether.nodes != second.tether.nodes:
         return False
-    return bool(np.abs(places_along(scene) - places_along(other)).max() <= SAME)
+    return bool(np.abs(places_along(first) - places_along(second)).max() <= SAME)
 
 
 def between(a: FinalState, b: FinalState, share: float) -> FinalState:
@@ -78,8 +78,8 @@ def on_grid_of(scene: Scene, state: FinalState) -> FinalState:
     old, new = places_along(state.scene), places_along(scene)
     Y = state.Y.copy()
     if Y.shape[1] == 13:  # neighbours on one side of the sphere of Euler parameters
-        together = np.sum(Y[1:, lift.BETA] * Y[:-1, lift.BETA], axis=1) >= 0.0
-        Y[1:, lift.BETA] *= np.cumprod(np.where(together, 1.0, -1.0))[:, None]
+        one_side = np.sum(Y[1:, lift.BETA] * Y[:-1, lift.BETA], axis=1) >= 0.0
+        Y[1:, lift.BETA] *= np.cumprod(np.where(one_side, 1.0, -1.0))[:, None]
     place = _place_of(Y, old)
     Y, K = (np.stack([np.interp(new, old, column) for column in values.T], axis=1) for values in (Y, state.K))
     return _with_unknowns(replace(state, K=K, profiles=NONE), _reaching(Y, new, place))

@@ -58,14 +58,14 @@ def _graded(steps: np.ndarray) -> np.ndarray:
     """Steps (l, 2) that grow shorter slowly. A pass that meets a snap goes from its longest step to its shortest at
     once; an orbit nearby meets it a little earlier, within that longest step, and its multipliers scatter ten times
     as much."""
-    taken, after = [], np.inf
+    graded, step = [], np.inf  # from the last step back
     for begin, length in steps[::-1]:
-        left = length
-        while left > 0.0:
-            after = left if left <= 1.3 * GRADE * after else GRADE * after
-            left = left - after if left > after else 0.0
-            taken.append((begin + left, after))
-    return np.array(taken[::-1])
+        rest = length
+        while rest > 0.0:
+            step = rest if rest <= 1.3 * GRADE * step else GRADE * step
+            rest = rest - step if rest > step else 0.0
+            graded.append((begin + rest, step))
+    return np.array(graded[::-1])
 
 
 class PeriodMap:
@@ -84,7 +84,7 @@ class PeriodMap:
         if why := why_no_map(scene_of(value)):
             raise ValueError(f"a map over a wave period: {why}")
         self.scene_of, self._run = scene_of, lru_cache(16)(self._run)  # arrays of the last ones are kept
-        self._kept: deque = deque(maxlen=PASSES)
+        self._maps: deque = deque(maxlen=PASSES)
         self.start = start.at_zero(with_samples=False)
         self.nodes = scene_of(value).tether.nodes
         self.scale = self._scale(value)
@@ -163,14 +163,14 @@ class PeriodMap:
 
     def _seen(self, value: float) -> np.ndarray:
         run, n = self._run(value), self.nodes
-        of = np.zeros((2, n, 4, 4))
+        shares = np.zeros((2, n, 4, 4))
         h = col.lengths_of(run.record, run.tables)
         for i in (CX, CZ):
-            of[0, 1:, i, i] += 0.5 * h
-            of[0, :-1, i, i] += 0.5 * h
+            shares[0, 1:, i, i] += 0.5 * h
+            shares[0, :-1, i, i] += 0.5 * h
         for i in (VX, VZ):
-            of[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
-        return of.reshape(8 * n, 4) * self.scale[:, None]
+            shares[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
+        return shares.reshape(8 * n, 4) * self.scale[:, None]
 
     def _trail(self, rows: int, value: float) -> Trail:
         s, n = int(self._run(value).record["stages"]), self.nodes
@@ -200,12 +200,11 @@ class PeriodMap:
 
     def _near(self, z: np.ndarray, value: float, mesh: int) -> Callable:
         """The map over the steps of a pass from z, or one from nearby, so that an orbit found twice is the same."""
-        near = [(np.linalg.norm(z - point), image) for *of, point, image in self._kept if of == [value, mesh]]
-        apart, image = min(near, key=lambda pair: pair[0], default=(np.inf, None))
-        if apart < NEARBY:
-            return image
-        image = self._map(self._pass(z, value, 0.0, mesh))
-        self._kept.append((value, mesh, z, image))
+        maps = [(np.linalg.norm(z - point), image) for key, point, image in self._maps if key == (value, mesh)]
+        distance, image = min(maps, key=lambda pair: pair[0], default=(np.inf, None))
+        if distance >= NEARBY:
+            image = self._map(self._pass(z, value, 0.0, mesh))
+            self._maps.append(((value, mesh), z, image))
         return image
 
     def _pass(self, z: np.ndarray, value: float, begin_s: float, mesh: int) -> np.ndarray:
@@ -253,11 +252,11 @@ class PeriodMap:
                 raise ArithmeticError(advice(run.state).partition(": ")[0])
 
             def derivative(V: np.ndarray) -> np.ndarray:
-                along = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
-                along[:, :, 0, 2:] = 0.0  # the anchor does not move
-                dC, dK = along
+                changes = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
+                changes[:, :, 0, 2:] = 0.0  # the anchor does not move
+                dC, dK = changes
                 carry(run.record, run.tables, 0.0, len(taken), trail, (dC, dK, _NO_GROWTH), None)
-                return (along.transpose(1, 0, 2, 3).reshape(len(dC), -1) / self.scale).T
+                return (changes.transpose(1, 0, 2, 3).reshape(len(dC), -1) / self.scale).T
 
             return np.concatenate([motion.C.ravel(), motion.K.ravel()]) / self.scale, derivative
 

@@ -61,8 +61,8 @@ def static_tension_N(scene: Scene, columns: Mapping[str, np.ndarray]) -> float:
     columns: of a trajectory of the scene. NaN where the scene has no equilibrium. What a line without weight bears,
     buoyancy less weight of the buoy, is in `engine.natural_frequencies`.
     """
-    still = columns["radius_rate_mps"][0] == 0.0 == columns["angle_rate_radps"][0]
-    if still and not any(scene.start.buoy_displacement_m):
+    resting = columns["radius_rate_mps"][0] == 0.0 == columns["angle_rate_radps"][0]
+    if resting and not any(scene.start.buoy_displacement_m):
         return float(columns["tension_top_N"][0])
     start = scene.start.model_copy(update={"buoy_displacement_m": (0.0, 0.0, 0.0)})
     rest = rest_of(scene.model_copy(update={"start": start}))

@@ -76,11 +76,11 @@ def taken_over(state: FinalState | None, scene: Scene) -> tuple[FinalState | Non
     return state, f"went on at t = {begin_s:.6g} s; changed: {', '.join(words)}" if words else ""
 
 
-def changes(before: Scene, after: Scene) -> dict[str, tuple[object, object]]:
+def changes(earlier: Scene, later: Scene) -> dict[str, tuple[object, object]]:
     """Key -> old and new value of what is not the same; of `output` only the step, and nothing of `start`."""
-    old, new = (_by_key(scene.model_dump(mode="json", exclude=set(NO_CHANGE))) for scene in (before, after))
+    old, new = (_by_key(scene.model_dump(mode="json", exclude=set(NO_CHANGE))) for scene in (earlier, later))
     changed = {key: (old.get(key), new.get(key)) for key in old | new if old.get(key) != new.get(key)}
-    steps = before.sample_step_s(), after.sample_step_s()
+    steps = earlier.sample_step_s(), later.sample_step_s()
     if steps[0] != steps[1] and "waves.period_s" not in changed:
         changed["output.step_s"] = steps
     return changed

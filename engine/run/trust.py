@@ -118,7 +118,7 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[
     time_s, high, lost_N = columns["time_s"], columns["tension_top_high_N"], columns["unresolved_N"]
     if not lost_N.any():
         return ""
-    most, largest_N = int(high.argmax()), float(np.abs(high).max())
+    peak, largest_N = int(high.argmax()), float(np.abs(high).max())
     errors = errors_of_ringing(record, scene, time_s, lost_N)
     errors[:-1] = np.maximum(errors[:-1], errors[1:])  # what a step lost is booked with the sample after it
     errors = np.minimum(errors, largest_N)
@@ -131,8 +131,8 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[
     cause = f"axial ringing of period {ringing_period(record, scene):.2g} s is"
     if record["all_waves"]:
         cause = f"axial waves on elements of {lengths_of(record, tables)[-1]:.2g} m are"
-    holds = f"the largest tension, {high[most]:.4g} N at t = {time_s[most]:.4g} s, holds to {errors[most]:.2g} N"
-    if errors[worst] > 1.1 * errors[most]:
+    holds = f"the largest tension, {high[peak]:.4g} N at t = {time_s[peak]:.4g} s, holds to {errors[peak]:.2g} N"
+    if errors[worst] > 1.1 * errors[peak]:
         holds += f", others to {errors[worst]:.2g} N (t = {time_s[worst]:.4g} s)"
     settled = large[-1] + 1
     if settled < len(errors):

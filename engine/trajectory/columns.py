@@ -56,17 +56,16 @@ def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 def columns_of(samples: np.ndarray, scene: Scene) -> dict[str, np.ndarray]:
     """The COLUMNS of a run of the scene, from its samples (n, SAMPLE_WIDTH) with the columns of `engine.record`.
 
-    The angle from the vertical is taken in the plane of the waves: `along` is the place, `rate` the velocity in their
-    direction.
+    The angle from the vertical is taken in the plane of the waves, from place and rate in their direction.
     """
     t, x, y, z, u, v, w = samples[:, : col.AT_W + 1].T
     heading = heading_of(scene)
     r = np.sqrt(x**2 + y**2 + z**2) if y.any() else np.hypot(x, z)
-    along, rate = along_waves(heading, x, y), along_waves(heading, u, v)
+    place, rate = along_waves(heading, x, y), along_waves(heading, u, v)
     with np.errstate(invalid="ignore", divide="ignore"):
         radius_rate = (x * u + y * v + z * w) / np.where(r > 0, r, np.nan)
-        square = along**2 + z**2
-        angle_rate = (z * rate - along * w) / np.where(square > 0, square, np.nan)
-    angle = np.unwrap(np.arctan2(along, z))
+        square = place**2 + z**2
+        angle_rate = (z * rate - place * w) / np.where(square > 0, square, np.nan)
+    angle = np.unwrap(np.arctan2(place, z))
     values = t, x, y, z, r, radius_rate, angle, angle_rate, *samples[:, MEASURED].T
     return {name: np.array(column) for name, column in zip(COLUMNS, values, strict=True)}

@@ -129,12 +129,12 @@ class FinalState:
 
     def variables(self) -> list[tuple]:
         """The variables of a file (`engine.trajectory.netcdf`); what is empty is left out."""
-        found = []
+        variables = []
         for field, values in self._arrays():
             name = PREFIX + field
             dimensions = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-            found.append((name, dimensions, values, "1", "state after the last step, see engine.FinalState"))
-        return found
+            variables.append((name, dimensions, values, "1", "state after the last step, see engine.FinalState"))
+        return variables
 
     def _arrays(self) -> list[tuple[str, np.ndarray]]:
         """Name and values of what is not empty."""

@@ -22,8 +22,8 @@ def joined(earlier: "Trajectory", later: "Trajectory") -> "Trajectory":
     if (earlier.profiles is None) != (later.profiles is None):
         raise ValueError("later: profiles are needed of both runs, or of none")
     columns = {name: np.concatenate([earlier.columns[name], later.columns[name][1:]]) for name in COLUMNS}
-    along = along_waves(heading_of(later.scene), columns["x_m"], columns["y_m"])
-    columns["angle_rad"] = np.unwrap(np.arctan2(along, columns["z_m"]))
+    place = along_waves(heading_of(later.scene), columns["x_m"], columns["y_m"])
+    columns["angle_rad"] = np.unwrap(np.arctan2(place, columns["z_m"]))
     statistics = dict(later.statistics)
     for name in earlier.statistics.keys() & later.statistics.keys():
         pair = earlier.statistics[name], later.statistics[name]
