@@ -27,9 +27,6 @@ def list_scenes() -> list[str]:
     return sorted(path.stem for path in _SHIPPED.glob("*.toml"))
 
 
-known_scenes = list_scenes  # its first name
-
-
 def shipped_text(name: str) -> str:
     """The TOML text of a shipped scene, with its comments: where each value comes from."""
     return (_SHIPPED / f"{name}.toml").read_text(encoding="utf-8")
