@@ -11,7 +11,6 @@ is the exponent that tells chaos from other motions.
 import argparse
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 import engine.scene
@@ -22,20 +21,6 @@ MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
 KINDS = (".png", ".svg", ".pdf")
 TANGENTS = "output.tangent_vectors"
 EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
-
-
-@dataclass(frozen=True)
-class Order:
-    """A scene, how long it runs (periods of its waves, or seconds), the file of its figure, its start; None: not said.
-
-    Without a length it runs until its verdict.
-    """
-
-    scene: "engine.Scene | None"
-    periods: float | None
-    duration_s: float | None
-    out: Path | None
-    start: "engine.trajectory.final_state.FinalState | None" = None
 
 
 class _Parser(argparse.ArgumentParser):
@@ -63,49 +48,57 @@ def parser() -> argparse.ArgumentParser:
     return options
 
 
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault is appended to `faults`."""
+def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
+    """The options of the command line, `scene` a Scene and `start` its state; every fault is appended to `faults`.
+
+    Without a length, `periods` or `duration`, the scene runs until its verdict.
+    """
     try:
         options = parser().parse_args(argv)
     except ValueError as error:
         hint = "; keys of the scene are given as --set KEY=VALUE" if "unrecognized" in str(error) else ""
         faults.append(f"{error}{hint}")
-        return Order(None, None, None, None)
-    changes, scene = {}, None
+        return None
+    name, options.scene, options.start = options.scene, None, None
+    changes = {}
     for word in options.set:
         try:
             changes |= [engine.scene.parse_assignment(word)]
         except engine.SceneError as error:
             faults += error.faults
     try:
-        scene = engine.load_scene(options.scene, changes)
-        if TANGENTS not in changes and views.in_regular_waves(scene) and views.carries_tangents(scene):
-            scene = engine.load_scene(options.scene, {**changes, TANGENTS: 1})
+        options.scene = engine.load_scene(name, changes)
+        if TANGENTS not in changes and views.in_regular_waves(options.scene) and views.carries_tangents(options.scene):
+            options.scene = engine.load_scene(name, {**changes, TANGENTS: 1})
     except engine.SceneError as error:
         faults += error.faults
-    periods, duration_s = options.periods, options.duration
-    if scene is not None and scene.waves is None and duration_s is None:
-        faults.append(f"--duration: not given for {options.scene!r}, a scene without waves; allowed: seconds, above 0")
-    elif scene is not None and periods is None and duration_s is None and not scene.output.tangent_vectors:
-        periods = PERIODS
-    for name, length in (("--periods", periods), ("--duration", duration_s)):
+    scene = options.scene
+    if scene is not None and scene.waves is None and options.duration is None:
+        faults.append(f"--duration: not given for {name!r}, a scene without waves; allowed: seconds, above 0")
+    elif scene is not None and options.periods is options.duration is None and not scene.output.tangent_vectors:
+        options.periods = PERIODS
+    for option, length in (("--periods", options.periods), ("--duration", options.duration)):
         if length is not None and not 0.0 < length < float("inf"):
-            faults.append(f"{name}: given {length:g}; allowed: a finite number above 0")
+            faults.append(f"{option}: given {length:g}; allowed: a finite number above 0")
     if options.out is not None:
         faults += _faults_of(options.out)
-    start = None
     if not faults:
-        from engine.parameters.limits import check_room
+        faults += _faults_of_run(options)
+    return options
 
-        try:
-            check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
-            if options.start_from is not None:
-                from engine.run.start import checked_start
 
-                start = checked_start(scene, options.start_from)
-        except ValueError as error:
-            faults.append(f"--start-from: {error}" if options.start_from is not None else str(error))
-    return Order(scene, periods, duration_s, options.out, start)
+def _faults_of_run(options: argparse.Namespace) -> list[str]:
+    """What lets no run of these options begin; sets the state that it begins in."""
+    from engine.parameters.limits import check_room
+    from engine.run.start import checked_start
+
+    scene, file = options.scene, options.start_from
+    try:
+        check_room(scene, options.duration or (options.periods or MOST_PERIODS) * scene.waves.period_s)
+        options.start = checked_start(scene, file)
+    except ValueError as error:
+        return [f"--start-from: {error}" if file is not None else str(error)]
+    return []
 
 
 def _faults_of(out: Path) -> list[str]:
@@ -131,10 +124,10 @@ def main(argv: list[str] | None = None) -> int:
         return _refused(faults)
     print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
-        if order.periods is None and order.duration_s is None:
+        if order.periods is None and order.duration is None:
             run = _until_verdict(order.scene, order.start)
         else:
-            length = order.periods, order.duration_s
+            length = order.periods, order.duration
             run = engine.simulate(order.scene, *length, lambda share: _show_progress(f"{share:.0%}"), order.start)
         _show_progress("")
     except KeyboardInterrupt:

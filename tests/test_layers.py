@@ -33,20 +33,9 @@ DOORS = {  # the only imports against the flow: module -> what it may import
     "engine.views": "analysis",
 }
 FLOORS = (  # rooms and modules of the engine, from the ground up; of two that hold a module the inner one counts
-    {
-        "record",
-        "arrays",
-        "compiled",
-        "simd",
-        "atomic",
-        "streams",
-        "planar.columns",
-        "spatial.columns",
-        "spatial.vectors",
-    },
-    {"scene.values", "scene.faults", "time.integrators", "time.status"},
-    {"physics.tension"},
-    {"physics.strains"},
+    {"atomic", "streams", "record", "arrays", "compiled", "simd", "time.integrators"},
+    {"planar.columns", "spatial.columns", "spatial.vectors", "scene.values", "scene.faults"},
+    {"physics.laws", "physics.law_choice", "physics.tension", "physics.drag", "physics.strains"},
     {"scene"},
     {"physics", "natural_frequencies"},
     {"planar", "spatial"},

@@ -27,8 +27,8 @@ def has_rare_laws(scene: Scene) -> bool:
     tether = scene.tether
     damped = tether.damping_Ns or tether.damping_critical
     raised = any(scene.anchor.position_m)
-    pushed = tether.froude_krylov == "whole"
-    return bool(damped or raised or pushed or tether.submergence != "full" or scene.floor is not None)
+    whole_push = tether.froude_krylov == "whole"
+    return bool(damped or raised or whole_push or tether.submergence != "full" or scene.floor is not None)
 
 
 def is_plain(scene: Scene) -> bool:
