@@ -59,12 +59,12 @@ def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[s
 
 def height_above_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarray:
     """Height (m) of the lowest point of a buoy without a cap above the linear wave at its place; -inf without one."""
-    from ..physics.sea import elevation_m
-
     if scene.buoy is None or scene.buoy.submergence != "full":
         return np.full(len(columns["time_s"]), -np.inf)
     lowest_m = scene.anchor.position_m[2] + columns["z_m"] - 0.5 * scene.buoy.diameter_m - scene.water.depth_m
     if scene.waves is None:
         return lowest_m
+    from ..physics.sea import elevation_m
+
     with np.errstate(all="ignore"):  # places of a run that blew up
         return lowest_m - elevation_m(scene, columns["time_s"], columns["x_m"], columns["y_m"])
