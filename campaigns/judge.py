@@ -150,7 +150,7 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
 def judged_job(order, labels: dict, scene, start=None, most: int | None = None):
     """A run of a study's order: of the length asked for, or as long as its regime needs (`going_on`).
 
-    start: the state (`engine.final_state`) of another run that it begins in; None: as the scene says. most: as there;
+    start: the state (`engine.FinalState`) of another run that it begins in; None: as the scene says. most: as there;
     the run is the same one, and goes on for those who ask for more of it.
     """
     from campaigns.machinery.plan import Job

@@ -4,6 +4,8 @@
 and readers of scenes both import this module; it imports nothing of the engine.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 BUOY, HELD, FREE = 0, 1, 2  # end: what the upper end is
@@ -57,7 +59,7 @@ SPATIAL = np.dtype(
     )
     + RECORD.descr
 )
-# A planar scene whose every term has the form that lanes have too (`engine.simd.cover.is_plain`): no other is compiled.
+# A planar scene whose every term has the form that lanes have too (`parameters.cover.is_plain`): no other is compiled.
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # Scenes with a law of `engine.physics.extras`, in a plane and in space: no other scene has its fields, or compiles it
 _EXTRAS = _dtype(
@@ -66,6 +68,26 @@ _EXTRAS = _dtype(
 )
 EXTRA = np.dtype(_dtype("extra", "") + _EXTRAS + RECORD.descr)
 EXTRA_SPATIAL = np.dtype(_dtype("extra_spatial", "") + _EXTRAS + SPATIAL.descr)
+
+
+class Kind(NamedTuple):
+    """What the type of a record says of its scene, so that each scene gets the kernels that it needs.
+
+    spatial: three dimensions; extras: a law of `engine.physics.extras`; plain: every term as lanes have it.
+    """
+
+    spatial: bool = False
+    extras: bool = False
+    plain: bool = False
+
+
+KINDS = {
+    RECORD: Kind(),
+    SPATIAL: Kind(spatial=True),
+    PLAIN: Kind(plain=True),
+    EXTRA: Kind(extras=True),
+    EXTRA_SPATIAL: Kind(spatial=True, extras=True),
+}
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
 # accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
@@ -88,9 +110,9 @@ def lengths_of(record: np.void, tables: np.ndarray) -> np.ndarray:
 
 def has_extras(record: np.void | np.dtype) -> bool:
     """Is this record, or its dtype, that of a scene with a law of `engine.physics.extras`?"""
-    return "anchor_z" in getattr(record, "dtype", record).names
+    return KINDS[getattr(record, "dtype", record)].extras
 
 
 def is_spatial(record: np.void | np.dtype) -> bool:
     """Is this record, or its dtype, that of a scene in three dimensions?"""
-    return "GI" in getattr(record, "dtype", record).names
+    return KINDS[getattr(record, "dtype", record)].spatial

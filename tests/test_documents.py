@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from engine import load_scene
-from engine.scene import known_scenes
+from engine import list_scenes, load_scene
 from engine.scene.faults import known_fields
 from engine.scene.models import Scene
 from engine.scene.reference import keys, page, sources
@@ -67,7 +66,7 @@ def test_every_key_is_declared():
     assert all(key.meaning for key in keys().values())
 
 
-@pytest.mark.parametrize("scene", known_scenes())
+@pytest.mark.parametrize("scene", list_scenes())
 def test_sources_are_of_keys_that_the_scene_has(scene):
     values = load_scene(scene).as_dict()
     for name in sources(scene):

@@ -3,7 +3,8 @@
     machine_code < engine < tables < reports            analysis stands on machine_code, campaigns on all but reports
 
 A campaign calls the reports in one place, by name; `python -m analysis` hands its words over to a campaign; what a
-Trajectory says of itself by the measures of `analysis` is one module, which imports them when it is asked.
+Trajectory says of itself by the measures of `analysis` is one module, which imports them when it is asked. The rooms of
+the engine stand on FLOORS: a module imports its own floor and those below.
 """
 
 import ast
@@ -32,6 +33,23 @@ DOORS = {  # the only imports against the flow: module -> what it may import
     "analysis.__main__": "campaigns.time_series",
     "engine.views": "analysis",
 }
+FLOORS = (  # rooms and modules of the engine, from the ground up; of two that hold a module the inner one counts
+    {"atomic", "streams", "record", "arrays", "compiled", "simd", "time.integrators"},
+    {"planar.columns", "spatial.columns", "spatial.vectors", "scene.values", "scene.faults"},
+    {"physics.laws", "physics.law_choice", "physics.tension", "physics.drag", "physics.strains"},
+    {"scene"},
+    {"physics", "natural_frequencies"},
+    {"planar", "spatial"},
+    {"dimensions", "parameters"},
+    {"trajectory"},
+    {"time"},
+    {"perturbations", "paper_box", "massless"},
+    {"lanes"},
+    {"run"},
+    {"views"},
+    {"__main__"},
+)
+FORWARDED = ("engine.trajectory", "engine.views")  # the methods of a Trajectory that look at it by `analysis`
 LAZILY = {"import_module", "__import__", "run_module"}
 
 
@@ -83,6 +101,23 @@ def test_no_import_against_the_flow(package):
     found = {name: against(name, imports_of(name)) for name in FILES if name.partition(".")[0] == package}
     wrong = {name: names for name, names in found.items() if names}
     assert found and not wrong
+
+
+def floor_of(name: str) -> int:
+    """The floor of a module of the engine."""
+    parts = name.split(".")[1:]
+    inner = [".".join(parts[:count]) for count in range(len(parts), 0, -1)]
+    return next(floor for room in inner for floor, rooms in enumerate(FLOORS) if room in rooms)
+
+
+def test_the_rooms_of_the_engine_import_those_below():
+    up = []
+    for name in (name for name in FILES if name.startswith("engine.")):
+        for full in imports_of(name):
+            target = full if full in FILES else full.rpartition(".")[0]
+            if target.startswith("engine.") and floor_of(target) > floor_of(name) and (name, target) != FORWARDED:
+                up.append(f"{name} -> {target}")
+    assert not up
 
 
 def test_no_ring_of_imports():
@@ -141,8 +176,8 @@ def test_what_is_not_needed_is_not_imported(statement, absent):
 @pytest.mark.parametrize(
     "statement",
     [
-        "from engine.simulation import simulate_batch; from engine import simulate",
-        "import engine; simulate = engine.simulate; import engine.simulation",
+        "from engine.run.simulation import simulate_batch; from engine import simulate",
+        "import engine; simulate = engine.simulate; import engine.run.simulation",
     ],
 )
 def test_the_public_names_do_not_depend_on_the_order_of_imports(statement):

@@ -11,8 +11,7 @@ import pandas
 import pytest
 from matplotlib.figure import Figure
 
-from engine import load_scene, simulate
-from engine.scene import known_scenes
+from engine import list_scenes, load_scene, simulate
 from tests.pages import PAGES, ROOT, blocks, cells, commands, compare, file_of, without_numbers
 
 EXAMPLES = sorted(path.stem for path in (ROOT / "docs" / "examples").glob("*.py"))
@@ -93,7 +92,7 @@ def test_each_example_prints_what_its_page_shows(name, capsys):
     compare(capsys.readouterr().out, shown[1])
 
 
-@pytest.mark.parametrize("name", known_scenes())
+@pytest.mark.parametrize("name", list_scenes())
 def test_every_shipped_scene_runs_as_it_is(name):
     scene = load_scene(name)
     run = simulate(scene, duration_s=20 * scene.sample_step_s())

@@ -64,7 +64,7 @@ class Edge:
 
         None where rounds have run out, or the border has been lost.
         """
-        from engine.going_on import between
+        from engine.run.going_on import between
 
         starts, beyond = self.found.along.starts, 0.0 if self.known else BEYOND
         while self.rounds < ROUNDS and beyond <= BEYOND**3:

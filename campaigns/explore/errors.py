@@ -38,7 +38,7 @@ from campaigns.judge import job_from, tighter_scene
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Plan, Summary
 from engine import goes_in_lanes, simulate
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 from tables import (
     COARSE,
     JOINED,

@@ -1,7 +1,8 @@
 """The periodic orbit under a run of a buoy in regular waves: its multipliers, with their errors.
 
 A run near a stable orbit shows the orbit, not how fast perturbations die out along each direction, and not that the
-orbit is one. Newton's method on the map over a wave period (`engine.period_map`) finds it to 1e-9 from the last state.
+orbit is one. Newton's method on the map over a wave period (`engine.run.period_map`) finds it to 1e-9 from the last
+state.
 """
 
 from __future__ import annotations
@@ -39,10 +40,10 @@ MULTIPLIERS = (
 def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     """The PeriodMap of a state, and the OrbitMap of it. size: the change of the parameter that counts as 1.
 
-    Raises ValueError and ArithmeticError as `engine.period_map.PeriodMap`.
+    Raises ValueError and ArithmeticError as `engine.run.period_map.PeriodMap`.
     """
     from analysis.orbits import OrbitMap
-    from engine.period_map import PeriodMap
+    from engine.run.period_map import PeriodMap
 
     cable = PeriodMap(scene_of, state, value)
     return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)

@@ -14,7 +14,7 @@ from campaigns.explore.along import MOTIONS
 from campaigns.explore.approach import judged_by_orbit
 from campaigns.explore.multipliers import MULTIPLIERS, orbit_row
 from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
 from tables import (
     LINE_COUNTS,

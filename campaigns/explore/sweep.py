@@ -38,7 +38,7 @@ def start_of(order: Order, scene):
     """The state of --start-from, or None. What is wrong with it, or with going on from it in this scene, is told."""
     if order.own.start_from is None:
         return None
-    from engine.simulation import checked_start
+    from engine.run.start import checked_start
 
     try:
         if scene.waves is None:

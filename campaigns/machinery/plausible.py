@@ -24,12 +24,12 @@ PYTHON = "if it is meant, run it from Python: engine.simulate"
 def doubts(scene, duration_s: float | None = None) -> Iterator[str]:
     """Fault lines of a scene, and of a run of that length; none where both are plausible.
 
-    A run must end, and memory must hold what it keeps (`engine.scene.size_limits`).
+    A run must end, and memory must hold what it keeps (`engine.parameters.limits`).
     """
     for key, given, allowed in _odd(scene):
         yield fault(key, given, f"{allowed}; {PYTHON}")
     if duration_s:
-        from engine.scene.size_limits import check_room
+        from engine.parameters.limits import check_room
 
         try:
             check_room(scene, duration_s)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from campaigns.explore.rows import NEAR_ZERO, lasts, sound_part
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 
 if TYPE_CHECKING:
     from analysis import Spectrum

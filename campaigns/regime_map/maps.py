@@ -28,7 +28,7 @@ from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
 from campaigns.regime_map.tables import STATIC
 from campaigns.study import Order
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 from tables import finite, write_table
 
 DRAWN_S = 30.0

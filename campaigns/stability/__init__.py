@@ -52,13 +52,11 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How the cases ended, and the random scenes; what nobody can explain by name."""
-    from engine.excursions import own_words
-
     cases = [row for row in rows if row["part"] == "case"]
     counts = Counter(str(row["verdict"]) for row in cases)
     yield f"{len(cases)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
     judged = [row for row in cases if row["verdict"] == "ok" and math.isfinite(number_of(row, "measured_tension"))]
-    silent = [number_of(row, "measured_tension") for row in judged if not own_words(row.get("message") or "")]
+    silent = [number_of(row, "measured_tension") for row in judged if not row.get("warning")]
     if silent:
         said = f"Largest tensions are off by {100.0 * max(silent):.2g} % at most in {len(silent)} runs that say nothing"
         yield f"{said}; {len(judged) - len(silent)} more say how far theirs hold."

@@ -24,8 +24,8 @@ import numpy as np
 import engine
 from campaigns.machinery.pools import end_with
 from campaigns.stability.random_scenes import VALID, faults_of
+from engine.parameters.limits import longest_step
 from engine.scene import build_scene
-from engine.scene.size_limits import longest_step
 from tables import Column
 
 DONE, RAISED, LATE, DIED = "done", "traceback", "hang", "crash"

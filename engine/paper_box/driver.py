@@ -16,14 +16,14 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..excursions import message_of
 from ..physics.sea import direction_of
 from ..record import SAMPLE_WIDTH, STATE
-from ..run import columns_of, heading_of, sample_count, statistics_of
 from ..scene.models import Scene
 from ..time import status as codes
 from ..time.statics import why_no_rest
 from ..trajectory import Profiles, Trajectory
+from ..trajectory.columns import columns_of, heading_of, sample_count, statistics_of
+from ..trajectory.excursions import with_excursions
 from .ends import force_and_velocity
 from .line import EPS, EULER, OMEGA, TO_ENGINE, Line, line_of, turns
 from .newton import TOLERANCE, solve
@@ -97,9 +97,10 @@ def run(
         seen = f"turn per element up to {turn:.3g} rad, strain down to {state['min_strain']:.3g} before"
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
         message = f"paper-box: {reason} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
-    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), heading_of(scene))
-    message = message_of(message, scene, columns, codes.WORDS[status])
-    return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
+    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), scene)
+    message, excursions = with_excursions(message, scene, columns, codes.WORDS[status])
+    profiles = record.lines()
+    return Trajectory(scene, codes.WORDS[status], message, columns, statistics, profiles, excursions=excursions)
 
 
 class Record:

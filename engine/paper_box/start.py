@@ -91,7 +91,7 @@ def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     }
     planar, tables = scene.model_copy(update=changes), []
     record = parameters.record_of(planar, tables)[0]
-    code, Y = statics.rest_of(record, planar, np.concatenate(tables), np.array([flat[0], flat[2]]))
+    code, Y = statics.static_equilibrium(record, planar, np.concatenate(tables), np.array([flat[0], flat[2]]))
     return code, lifted(Y, azimuth) if code == OK else None
 
 

@@ -14,7 +14,7 @@ from ..planar.extras import node_width
 from ..record import BEGIN, KIND, RESTART, STEP
 from ..simd.elementary import copy_into
 from ..time.steps import known_part, plan_stage, stage_rate
-from ..trajectory import TangentGrowth
+from ..trajectory.parts import TangentGrowth
 from .lateral import COEFFICIENTS, WIDTH, energy_weights, lateral_stage, normalise
 from .tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 

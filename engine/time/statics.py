@@ -12,10 +12,11 @@ from itertools import product
 import numpy as np
 
 from ..arrays import Stage
+from ..parameters.scales import buckling_load
+from ..physics.strains import strain_at, tension_at
 from ..planar import columns as col
 from ..planar import state as planar
 from ..record import BUOY, FREE, HELD, has_extras, is_spatial, lengths_of
-from ..scales import buckling_load, strain_at, tension_at
 from ..scene.models import Scene
 from ..spatial import columns as spatial_col
 from ..spatial import lift
@@ -37,7 +38,9 @@ PRESSED = 10.0  # of weight and buckling load together: more compression than th
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
-def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndarray) -> tuple[int, np.ndarray]:
+def static_equilibrium(
+    record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndarray
+) -> tuple[int, np.ndarray]:
     """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
 
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
@@ -47,7 +50,7 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     line may be such a rest: there other beds to begin with are tried. A sphere that would stand in the air at rest with
     the buoyancy of one in the water has no rest.
     """
-    code, Y = _rest_of(record, scene, tables, target_m)
+    code, Y = _least_pressed(record, scene, tables, target_m)
     if code == OK and record["end"] == BUOY and record["wet"] and not record["spherical_cap"]:
         s = np.append(0.0, np.cumsum(lengths_of(record, tables)))
         top_m = scene.anchor.position_m[2] + np.trapezoid(lift.stretch_vectors(Y)[:, -1], s)
@@ -55,7 +58,8 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     return code, Y
 
 
-def _rest_of(record, scene, tables, target_m):
+def _least_pressed(record, scene, tables, target_m):
+    """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least."""
     h, best = lengths_of(record, tables), None
     weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
     capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])

@@ -10,7 +10,6 @@ from statistics import median
 
 import numpy as np
 
-from engine.excursions import own_words
 from tables import EMPTY, Column, count, number, number_of
 
 from ..figures.stability import stiffness
@@ -103,7 +102,7 @@ def case_items(study: Study) -> list[Item]:
 
 def stiffness_items(study: Study) -> Iterator[Item]:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
-    rows = [row for row in study.judged("ok") if row["measured_tension"] and not own_words(row["message"])]
+    rows = [row for row in study.judged("ok") if row["measured_tension"] and not row.get("warning", row["message"])]
     rows = [row for row in rows if row["group"] == "EA" or row["how"] == "waves in a bar"]
     costs = {row["run_key"]: number_of(row, "newton_iterations") / number_of(row, "length_s") for row in rows}
     unit = [costs[row["run_key"]] for row in rows if (row["group"], row["case"]) == DEFAULT]

@@ -21,7 +21,7 @@ _NOTHING = Text("Every number of the table is the same in all runs, so there is 
 _SOUND = "Every run reached its full length, and no axial ringing is left; the answer says what else was checked."
 _EXTREMES = "Least and greatest value of every column that is not the same in all runs."
 _SCENE = "The scene as run, from `scene.toml`, with the first value of what is varied."
-_EXCURSIONS = {  # words of a message (`engine.excursions`) -> what they say
+_EXCURSIONS = {  # words of a message (`engine.trajectory.excursions`) -> what they say
     "in the air": "the sphere was in the air with its whole buoyancy",
     "below the bed": "the line lay below the bed",
 }

@@ -8,8 +8,8 @@ Tolerance: rounding of a sum of terms of size max|T|.
 import numpy as np
 import pytest
 
+from engine.physics.strains import strain_at, tension_at
 from engine.physics.tension.kernels import stored, tension
-from engine.scales import strain_at, tension_at
 from tests.engine import box_equations
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import line, linear

@@ -6,16 +6,16 @@ from collections import namedtuple
 
 import numpy as np
 
+from ..lanes.follow import Followers, lane_work
+from ..lanes.ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, Trails, advance
 from ..parameters import record_of
+from ..parameters.cover import goes_in_lanes
 from ..perturbations.exponents import STEPS
 from ..planar import columns as col
 from ..planar.state import conserved
 from ..record import SAMPLE_WIDTH, STATE
-from ..run import Run
-from .cover import goes_in_lanes
-from .follow import Followers, lane_work
-from .ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, Trails, advance
-from .vector import COUNT, REAL, WHOLE, lane_zeros
+from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
+from . import Run
 
 LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one run alone, and less than two
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second

@@ -20,17 +20,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import record as col
-from .arrays import Motion, Trail
-from .final_state import FinalState
-from .perturbations.exponents import carry
-from .planar.columns import CX, CZ, EPS, PHI, VX, VZ
-from .run import Idle, columns_of
-from .scene.models import Scene
-from .time.given_steps import march_over
-from .time.status import ADVICE, OK
-from .time.time_loop import march
-from .trajectory_parts import heading_of
+from .. import record as col
+from ..arrays import Motion, Trail
+from ..perturbations.exponents import carry
+from ..planar.columns import CX, CZ, EPS, PHI, VX, VZ
+from ..scene.models import Scene
+from ..time.given_steps import march_over
+from ..time.status import OK
+from ..time.time_loop import march
+from ..trajectory.columns import columns_of
+from ..trajectory.final_state import FinalState
+from . import Idle, advice
 
 FIRST_STEPS = 0.3, 0.2, 0.45  # of the longest step: one of every mesh
 RATES = 100.0  # by which rates count less than their frequency says
@@ -58,14 +58,14 @@ def _graded(steps: np.ndarray) -> np.ndarray:
     """Steps (l, 2) that grow shorter slowly. A pass that meets a snap goes from its longest step to its shortest at
     once; an orbit nearby meets it a little earlier, within that longest step, and its multipliers scatter ten times
     as much."""
-    taken, after = [], np.inf
+    graded, step = [], np.inf  # from the last step back
     for begin, length in steps[::-1]:
-        left = length
-        while left > 0.0:
-            after = left if left <= 1.3 * GRADE * after else GRADE * after
-            left = left - after if left > after else 0.0
-            taken.append((begin + left, after))
-    return np.array(taken[::-1])
+        rest = length
+        while rest > 0.0:
+            step = rest if rest <= 1.3 * GRADE * step else GRADE * step
+            rest = rest - step if rest > step else 0.0
+            graded.append((begin + rest, step))
+    return np.array(graded[::-1])
 
 
 class PeriodMap:
@@ -84,8 +84,8 @@ class PeriodMap:
         if why := why_no_map(scene_of(value)):
             raise ValueError(f"a map over a wave period: {why}")
         self.scene_of, self._run = scene_of, lru_cache(16)(self._run)  # arrays of the last ones are kept
-        self._kept: deque = deque(maxlen=PASSES)
-        self.start = start.ended_at_zero()
+        self._maps: deque = deque(maxlen=PASSES)
+        self.start = start.at_zero(with_samples=False)
         self.nodes = scene_of(value).tether.nodes
         self.scale = self._scale(value)
         self.seen = self._seen(value)
@@ -137,7 +137,7 @@ class PeriodMap:
         for part, (low, high) in zip(parts, [at_ends[-1], *at_ends[:-1]], strict=True):
             part[0, col.TOP_LOW] = min(part[0, col.TOP_LOW], low)
             part[0, col.TOP_HIGH] = max(part[0, col.TOP_HIGH], high)
-        return columns_of(np.concatenate(parts), heading_of(run.scene))
+        return columns_of(np.concatenate(parts), run.scene)
 
     def _run(self, value: float) -> Idle:
         """Arrays of the scene of a value; the last ones are kept."""
@@ -163,14 +163,14 @@ class PeriodMap:
 
     def _seen(self, value: float) -> np.ndarray:
         run, n = self._run(value), self.nodes
-        of = np.zeros((2, n, 4, 4))
+        shares = np.zeros((2, n, 4, 4))
         h = col.lengths_of(run.record, run.tables)
         for i in (CX, CZ):
-            of[0, 1:, i, i] += 0.5 * h
-            of[0, :-1, i, i] += 0.5 * h
+            shares[0, 1:, i, i] += 0.5 * h
+            shares[0, :-1, i, i] += 0.5 * h
         for i in (VX, VZ):
-            of[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
-        return of.reshape(8 * n, 4) * self.scale[:, None]
+            shares[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
+        return shares.reshape(8 * n, 4) * self.scale[:, None]
 
     def _trail(self, rows: int, value: float) -> Trail:
         s, n = int(self._run(value).record["stages"]), self.nodes
@@ -200,12 +200,11 @@ class PeriodMap:
 
     def _near(self, z: np.ndarray, value: float, mesh: int) -> Callable:
         """The map over the steps of a pass from z, or one from nearby, so that an orbit found twice is the same."""
-        near = [(np.linalg.norm(z - point), image) for *of, point, image in self._kept if of == [value, mesh]]
-        apart, image = min(near, key=lambda pair: pair[0], default=(np.inf, None))
-        if apart < NEARBY:
-            return image
-        image = self._map(self._pass(z, value, 0.0, mesh))
-        self._kept.append((value, mesh, z, image))
+        maps = [(np.linalg.norm(z - point), image) for key, point, image in self._maps if key == (value, mesh)]
+        distance, image = min(maps, key=lambda pair: pair[0], default=(np.inf, None))
+        if distance >= NEARBY:
+            image = self._map(self._pass(z, value, 0.0, mesh))
+            self._maps.append(((value, mesh), z, image))
         return image
 
     def _pass(self, z: np.ndarray, value: float, begin_s: float, mesh: int) -> np.ndarray:
@@ -220,7 +219,7 @@ class PeriodMap:
             march(run.record, run.tables, state, motion, run.output, self.trail, until, *run.parts)
             taken.append(self.trail.T[: int(state["trail"])].copy())
             if state["status"] != OK:
-                raise ArithmeticError(_said(state["status"], state))
+                raise ArithmeticError(advice(state).partition(": ")[0])
             if state["releases"]:
                 raise ArithmeticError("a loop is released")
         T = np.concatenate(taken)[:, [col.BEGIN, col.STEP]] / period_s
@@ -249,15 +248,15 @@ class PeriodMap:
                 halves = (begin, half), (begin + half, half)
                 steps = np.concatenate([steps[:at], halves, steps[at + 1 :]])
             else:
-                run.state["t"], run.state["dt"] = taken[at]
-                raise ArithmeticError(_said(code, run.state))
+                run.state["status"], (run.state["t"], run.state["dt"]) = code, taken[at]
+                raise ArithmeticError(advice(run.state).partition(": ")[0])
 
             def derivative(V: np.ndarray) -> np.ndarray:
-                along = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
-                along[:, :, 0, 2:] = 0.0  # the anchor does not move
-                dC, dK = along
+                changes = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
+                changes[:, :, 0, 2:] = 0.0  # the anchor does not move
+                dC, dK = changes
                 carry(run.record, run.tables, 0.0, len(taken), trail, (dC, dK, _NO_GROWTH), None)
-                return (along.transpose(1, 0, 2, 3).reshape(len(dC), -1) / self.scale).T
+                return (changes.transpose(1, 0, 2, 3).reshape(len(dC), -1) / self.scale).T
 
             return np.concatenate([motion.C.ravel(), motion.K.ravel()]) / self.scale, derivative
 
@@ -266,9 +265,3 @@ class PeriodMap:
 
 _NO_GROWTH = np.zeros((0, 0))
 _NO_MORE = {"profiles": False, "energy": False, "tangent_vectors": 0, "lateral_growth": False}
-
-
-def _said(code: int, state: np.void) -> str:
-    """Why a state has no image."""
-    numbers = {"t": state["t"], "dt": state["dt"], "turn": state["max_turn"], "releases": state["releases"]}
-    return ADVICE[int(code)].format(**numbers).split(": ")[0]

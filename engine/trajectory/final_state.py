@@ -2,7 +2,7 @@
 
 The last step of a run ends at or past its last sample. The state is that at the end of the step, and what lies between
 the two, samples, profiles and growth of a period that has not ended, is kept with it for the run that goes on. What
-another scene makes of a state, and what lies between two states, is in `engine.going_on`.
+another scene makes of a state is in `engine.run.start`.
 """
 
 import hashlib
@@ -10,8 +10,8 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from .record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME
-from .scene.models import Scene
+from ..record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME
+from ..scene.models import Scene
 
 PREFIX = "final_"
 NONE = np.empty(0)
@@ -70,30 +70,30 @@ class FinalState:
         shortest = min(float(self.state()["dt"]), 1e-3 * self.scene.solver.max_step_s)
         return self.with_numbers(small_steps=SMALL_STEPS, turned=0, dt_before=0.0, dt=shortest)
 
-    def at_zero(self) -> "FinalState":
+    def at_zero(self, with_samples: bool = True) -> "FinalState":
         """The same state with its clock at 0, where its last sample is: for a run with a clock of its own.
 
-        Waves, ramps and whatever else a scene prescribes in time begin anew; the phase of regular waves stays where
-        `time_s` is a whole number of their periods. Loops are counted from 0. Perturbations stay, their growth in the
-        period that has not ended is dropped. Goes on by small steps.
+        with_samples: False: the clock is at 0 at the end of the last step, and the sample there belongs to the next
+        run. Waves, ramps and whatever else a scene prescribes in time begin anew; the phase of regular waves stays
+        where `time_s` is a whole number of their periods. Loops are counted from 0. Perturbations stay, their growth
+        in the period that has not ended is dropped. Goes on by small steps.
         """
-        state, samples = self.state(), self.samples.copy()
-        samples[:, TIME] = np.arange(len(samples)) * self.scene.sample_step_s()
-        samples[:, RELEASES] -= self.samples[0, RELEASES]
-        begin_at = (state["first_profile"] + state["profiles"] - len(self.profiles)) * self.profile_step_s
-        same = abs(begin_at - self.time_s) < 1e-9 * self.scene.sample_step_s()
-        later = state["releases"] - self.samples[0, RELEASES]
-        return self._from(self.time_s, samples, self.profiles if same else NONE, releases=later)
-
-    def ended_at_zero(self) -> "FinalState":
-        """As `at_zero`, with the clock at 0 at the end of the last step; the sample there belongs to the next run."""
-        return self._from(float(self.state()["t"]), NONE, NONE, low=np.inf, high=-np.inf, releases=0)
-
-    def _from(self, begin_s: float, samples: np.ndarray, profiles: np.ndarray, **numbers: float) -> "FinalState":
-        """The state with its clock at 0 at begin_s, and what is kept from there on."""
-        state, counts = self.state(), {"samples": len(samples), "profiles": len(profiles)}
-        times = {name: state[name] - begin_s for name in ("t", "window_end", "corner")}
-        moved = self.with_numbers(**times, **counts, **numbers, first=0, first_profile=0)
+        state, samples, profiles = self.state(), NONE, NONE
+        if with_samples:
+            begin_s, samples = self.time_s, self.samples.copy()
+            samples[:, TIME] = np.arange(len(samples)) * self.scene.sample_step_s()
+            samples[:, RELEASES] -= self.samples[0, RELEASES]
+            numbers = {"releases": state["releases"] - self.samples[0, RELEASES]}
+            first_profile_s = (state["first_profile"] + state["profiles"] - len(self.profiles)) * self.profile_step_s
+            if abs(first_profile_s - begin_s) < 1e-9 * self.scene.sample_step_s():
+                profiles = self.profiles
+        else:
+            begin_s = float(state["t"])
+            numbers = {"releases": 0, "low": np.inf, "high": -np.inf}
+        for name in ("t", "window_end", "corner"):
+            numbers[name] = state[name] - begin_s
+        counts = {"samples": len(samples), "profiles": len(profiles), "first": 0, "first_profile": 0}
+        moved = self.with_numbers(**numbers, **counts)
         return replace(moved, samples=samples, profiles=profiles, growth=np.zeros_like(self.growth)).restarted()
 
     @property
@@ -128,13 +128,13 @@ class FinalState:
         return ""
 
     def variables(self) -> list[tuple]:
-        """The variables of a file (`engine.netcdf`); what is empty is left out."""
-        found = []
+        """The variables of a file (`engine.trajectory.netcdf`); what is empty is left out."""
+        variables = []
         for field, values in self._arrays():
             name = PREFIX + field
             dimensions = tuple(f"{name}_{axis}" for axis in range(values.ndim))
-            found.append((name, dimensions, values, "1", "state after the last step, see engine.final_state"))
-        return found
+            variables.append((name, dimensions, values, "1", "state after the last step, see engine.FinalState"))
+        return variables
 
     def _arrays(self) -> list[tuple[str, np.ndarray]]:
         """Name and values of what is not empty."""

@@ -6,8 +6,8 @@ from operator import itemgetter
 
 from .. import parameters
 from ..record import PROFILE_WIDTH
-from ..scales import longest_steps
 from ..time.integrators import METHODS
+from .scales import longest_steps
 
 MOST_SAMPLES = 20_000_000  # 2 GB of samples; 1e5 wave periods at a hundred samples each is half of it
 MOST_PROFILE_VALUES = 400_000_000  # 3 GB of profiles
@@ -27,22 +27,25 @@ def longest_step(scene):
 
 def check_room(scene, duration_s):
     """Raises ValueError with the key to change where a run would never end, or keep more than memory usually holds."""
-    kept, output = scene.sample_step_s(), scene.output
+    output, sample_s = scene.output, scene.sample_step_s()
     values = scene.tether.nodes * PROFILE_WIDTH if output.profiles else 0
-    longest, longest_s = longest_step(scene)
-    for key, step_s, of_each, most, noun in (
-        (longest, longest_s, 1, MOST_STEPS, "steps"),
-        ("output.step_s", kept, 1, MOST_SAMPLES, "samples"),
-        ("output.profiles_step_s", output.profiles_step_s or kept, values, MOST_PROFILE_VALUES, "values of profiles"),
+    profile_s = output.profiles_step_s or sample_s
+    longest_key, longest_s = longest_step(scene)
+    for key, step_s, width, limit, noun in (
+        (longest_key, longest_s, 1, MOST_STEPS, "steps"),
+        ("output.step_s", sample_s, 1, MOST_SAMPLES, "samples"),
+        ("output.profiles_step_s", profile_s, values, MOST_PROFILE_VALUES, "values of profiles"),
     ):
-        if (count := duration_s / step_s * of_each) > most:
-            least = f"a step of {duration_s * of_each / most:.3g} s or more," if noun != "steps" else "a longer step"
+        count = duration_s / step_s * width
+        if count > limit:
+            cure = "a longer step" if noun == "steps" else f"a step of {duration_s * width / limit:.3g} s or more,"
             raise ValueError(
                 f"{key}: {step_s:g} s makes {count:.3g} {noun} or more in a run of {duration_s:g} s; allowed: at most "
-                f"{most:.3g}, {least} or a shorter run"
+                f"{limit:.3g}, {cure} or a shorter run"
             )
-        if noun != "steps" and (passed := longest_s / step_s * of_each) > most:  # the last step goes past the end
+        passed = longest_s / step_s * width  # the last step goes past the end
+        if passed > limit:
             raise ValueError(
-                f"{longest}: a step of {longest_s:g} s may pass {passed:.3g} {noun}; allowed: at most {most:.3g}, a "
-                "shorter step"
+                f"{longest_key}: a step of {longest_s:g} s may pass {passed:.3g} {noun}; allowed: at most "
+                f"{limit:.3g}, a shorter step"
             )

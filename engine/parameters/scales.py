@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 
-from .physics.strains import strain_at, tension_at
-from .record import RELEASE_STEPS
-from .scene.models import Scene
-from .scene.sections import End, Tether
+from ..physics.strains import strain_at, tension_at
+from ..record import RELEASE_STEPS
+from ..scene.models import Scene
+from ..scene.sections import End, Tether
 
 STEPS_OF_PERIOD = {"waves.period_s": 8, "end.motion.period_s": 40}  # at least; what shakes an end shakes the tension
 TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes along the line
@@ -59,10 +59,10 @@ def fastest_wave(record: np.void, scene: Scene) -> float:
 
 def longest_steps(scene: Scene) -> dict[str, float]:
     """What holds an adaptive step: key of the scene -> the longest step (s) that it allows."""
-    found, driving = {"solver.max_step_s": scene.solver.max_step_s}, (scene.waves, scene.end.motion)
-    for (key, steps), part in zip(STEPS_OF_PERIOD.items(), driving, strict=True):
-        found[key] = getattr(part, "period_s", math.inf) / steps
-    return found
+    limits = {"solver.max_step_s": scene.solver.max_step_s}
+    for (key, steps), driver in zip(STEPS_OF_PERIOD.items(), (scene.waves, scene.end.motion), strict=True):
+        limits[key] = getattr(driver, "period_s", math.inf) / steps
+    return limits
 
 
 def ringing_period(record: np.void, scene: Scene) -> float:

@@ -18,11 +18,11 @@ def goes_in_lanes(scene: Scene) -> bool:
         and _without_tables(scene)
         and scene.output.profiles is False
         and not scene.output.energy
-        and not has_extras(scene)
+        and not has_rare_laws(scene)
     )
 
 
-def has_extras(scene: Scene) -> bool:
+def has_rare_laws(scene: Scene) -> bool:
     """Has the line a law that few scenes have (`engine.physics.extras`)? Such runs go alone: no lanes have it."""
     tether = scene.tether
     damped = tether.damping_Ns or tether.damping_critical
@@ -33,7 +33,7 @@ def has_extras(scene: Scene) -> bool:
 
 def is_plain(scene: Scene) -> bool:
     """Has every term of this planar scene the one form that lanes have too, and the sphere no cap?"""
-    return _without_tables(scene) and scene.buoy.submergence == "full" and not has_extras(scene)
+    return _without_tables(scene) and scene.buoy.submergence == "full" and not has_rare_laws(scene)
 
 
 def _without_tables(scene):

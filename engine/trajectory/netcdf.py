@@ -37,13 +37,13 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
     from scipy.io import netcdf_file
 
     arrays = {name: np.asarray(values, dtype=">f8") for name, _, values, _, _ in variables}
-    own = {"Conventions": "CF-1.10", **texts, DIGEST: _digest(texts, arrays)}
+    texts = {"Conventions": "CF-1.10", **texts, DIGEST: _digest(texts, arrays)}
     buffer = io.BytesIO()
     file = netcdf_file(buffer, "w", version=2)
-    taken = [name for name in attributes if name in own or hasattr(file, name)]
+    taken = [name for name in attributes if name in texts or hasattr(file, name)]
     if taken:
         raise ValueError(f"attributes: {', '.join(taken)} belong to the record or its format")
-    for name, text in {**own, **attributes}.items():
+    for name, text in {**texts, **attributes}.items():
         setattr(file, name, text.encode("utf-8"))
     for name, dimensions, _, unit, long_name in variables:
         for dimension, length in zip(dimensions, arrays[name].shape, strict=True):
@@ -69,14 +69,15 @@ def from_bytes(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         file = netcdf_file(io.BytesIO(content), "r", mmap=False)
-    there = [name for name in optional if hasattr(file, name)]
-    texts = {name: _text(file, name) for name in (*names, *there)}
+    present = [name for name in optional if hasattr(file, name)]
+    texts = {name: _text(file, name) for name in (*names, *present)}
     arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
     if _digest(texts, arrays) != _text(file, DIGEST):
         raise DamagedError("damaged: the content does not match its own digest")
     for name, wanted in (attributes or {}).items():
-        if (found := _text(file, name)) != wanted:
-            raise DamagedError(f"another run: its {name} is {found!r}")
+        text = _text(file, name)
+        if text != wanted:
+            raise DamagedError(f"another run: its {name} is {text!r}")
     return texts, arrays
 
 

@@ -22,15 +22,15 @@ from ..dimensions import shape
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
+from ..simd.elementary import copy_into, keep
+from ..simd.select import larger, smaller, some, where
+from ..simd.vector import COUNT, as_lanes, expect, lane_record, transposed
 from ..time import steps
 from ..time.folds import watch_turn
 from ..time.newton import GOING_ON, iterate, judge
 from ..time.ringing import jumps_of_rates, watch_ringing
 from ..time.status import OK
 from ..time.time_loop import begin_trial, guard_turns, hold_turn, next_step, refused, sample, step_done
-from .elementary import copy_into, keep
-from .select import larger, smaller, some, where
-from .vector import COUNT, as_lanes, expect, lane_record, transposed
 
 ENDED, GOING, WAITING = range(3)  # lane.active: with no run or one at its end; going; its trail is full
 LANE = np.dtype([(name, np.int64) for name in "active stage iteration code goal".split()] + [("best", np.float64)])

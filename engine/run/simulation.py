@@ -3,18 +3,15 @@
 import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from pathlib import Path
 
-from .final_state import FinalState
-from .going_on import fault_of
-from .run import Run
-from .scene.models import Scene
-from .scene.size_limits import MOST_SAMPLES, check_room
-from .trajectory import Trajectory
+from ..parameters.limits import MOST_SAMPLES, check_room
+from ..scene.models import Scene
+from ..trajectory import Trajectory
+from . import Run
+from .start import Start, checked_start
 
 CALL_S = 0.1  # of machine code, which hears of Ctrl-C between two calls only
 Progress = Callable[[float], None]
-Start = Trajectory | FinalState | str | Path | None
 
 
 def simulate(
@@ -31,14 +28,14 @@ def simulate(
     progress     callable(fraction) called now and then, optional
     start        a Trajectory, its final_state, or its file: the run goes on from there, in time as well. With the same
                  scene (solver and output may change) it is the run that did not stop, to the last bit; another scene
-                 takes the state over, and `began` of the trajectory says what was changed (`engine.going_on`): on
+                 takes the state over, and `began` of the trajectory says what was changed (`engine.run.start`): on
                  another grid by interpolation, from a plane into space, with another wave period or output step at
                  t = 0. `start` of the scene is not used. None: from rest
     Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
     raise ValueError; a run never raises. Ctrl-C stops it between two samples.
     """
-    ((_, found),) = simulate_each([scene], periods, duration_s, progress, [start])
-    return found
+    ((_, trajectory),) = simulate_each([scene], periods, duration_s, progress, [start])
+    return trajectory
 
 
 def simulate_batch(
@@ -74,78 +71,65 @@ def simulate_each(
                  has ended, under its number; None: none does. So lanes stay full while runs are judged one by one
     progress     callable(share of the time to simulate, of all runs that are known by now)
     """
-    from .simd import batch
+    from . import batch
 
     scenes = list(scenes)
     lengths = [periods] * len(scenes) if periods is None or isinstance(periods, int | float) else list(periods)
-    given = [None] * len(scenes) if starts is None else list(starts)
+    starts = [None] * len(scenes) if starts is None else list(starts)
     waiting: dict[object, deque] = {}  # by what scenes must share to go together; None: alone
     known_s = done_s = 0.0
 
-    def add(i, scene, periods, start, duration_s=None):
+    def add(number, scene, periods, start, duration_s=None):
         nonlocal known_s
-        length_s, start = _duration(scene, periods, duration_s), checked_start(scene, start)
-        waiting.setdefault(batch.kind_of(scene), deque()).append(batch.Request(i, scene, length_s, start))
+        length_s, state = _duration(scene, periods, duration_s), checked_start(scene, start)
+        waiting.setdefault(batch.kind_of(scene), deque()).append(batch.Request(number, scene, length_s, state))
         known_s += length_s
 
-    def share(going_s):
+    def report(going_s):
         if progress is not None:
             progress(min((done_s + going_s) / known_s, 1.0))
 
-    for i, (scene, length, start) in enumerate(zip(scenes, lengths, given, strict=True)):
-        add(i, scene, length, start, duration_s)
+    for number, (scene, length, start) in enumerate(zip(scenes, lengths, starts, strict=True)):
+        add(number, scene, length, start, duration_s)
     for kind, runs in waiting.items():  # the longest first, because lanes run empty while the last ones end
-        waiting[kind] = deque(sorted(runs, key=lambda one: one.duration_s * one.scene.solver.rtol**-0.25, reverse=True))
+        waiting[kind] = deque(sorted(runs, key=_work, reverse=True))
     while waiting:
-        kind = max(waiting, key=lambda one: len(waiting[one]))
+        kind = max(waiting, key=lambda kind: len(waiting[kind]))
         together = kind is not None and len(waiting[kind]) >= batch.LEAST
-        runs = batch.run_through(waiting[kind], share) if together else _alone(waiting[kind], share)
-        for asked, found in runs:
-            done_s += asked.duration_s
-            more = None if then is None else then(asked.number, found)
-            if more is not None:
-                add(asked.number, *more)
-            yield asked.number, found
+        run_through = batch.run_through if together else _alone
+        for run, trajectory in run_through(waiting[kind], report):
+            done_s += run.duration_s
+            following = None if then is None else then(run.number, trajectory)
+            if following is not None:
+                add(run.number, *following)
+            yield run.number, trajectory
         if not waiting[kind]:
             del waiting[kind]
 
 
-def checked_start(scene: Scene, start: Start) -> FinalState | None:
-    """The state to start from. Raises ValueError for one that a run of this scene cannot go on from."""
-    if start is None:
-        return None
-    if isinstance(start, str | Path):
-        start = Trajectory.load(start)
-    state = start.final_state if isinstance(start, Trajectory) else start
-    if state is None:
-        fault = "a run without a final state: it ended early, kept energies, or is of the paper's own scheme"
-    elif isinstance(state, FinalState):
-        fault = fault_of(state, scene)
-    else:
-        fault = f"{state!r}; allowed: a Trajectory, its final_state, or its file"
-    if fault:
-        raise ValueError(f"start: given {fault}")
-    return state
+def _work(run: object) -> float:
+    """How long a run takes beside others, about."""
+    return run.duration_s * run.scene.solver.rtol**-0.25
 
 
 def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Trajectory]]:
     """The first run of those that wait, by itself; progress: callable(seconds simulated)."""
-    asked = waiting.popleft()
-    scene, duration_s = asked.scene, asked.duration_s
+    waited = waiting.popleft()
+    scene, duration_s = waited.scene, waited.duration_s
     if scene.solver.scheme == "paper-box":
-        from .paper_box.driver import run as by_paper
+        from ..paper_box import driver
 
-        yield asked, by_paper(scene, duration_s, lambda fraction: progress(fraction * duration_s))
+        yield waited, driver.run(scene, duration_s, lambda share: progress(share * duration_s))
         return
-    run = Run(scene, duration_s, asked.start)
+    run = Run(scene, duration_s, waited.start)
     run.compile()
-    chunk, before_s = 1, 0.0
+    chunk, earlier_s = 1, 0.0
     while not run.done():
         run.advance(chunk)
-        took_s, before_s = run.wall_s - before_s, run.wall_s
-        chunk = max(1, min(MOST_SAMPLES, int(chunk * min(2.0, CALL_S / max(took_s, 1e-9)))))
+        call_s, earlier_s = run.wall_s - earlier_s, run.wall_s
+        chunk = max(1, min(MOST_SAMPLES, int(chunk * min(2.0, CALL_S / max(call_s, 1e-9)))))
         progress(run.fraction() * duration_s)
-    yield asked, run.trajectory()
+    yield waited, run.trajectory()
 
 
 def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> float:

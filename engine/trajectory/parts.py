@@ -5,18 +5,6 @@ from typing import Annotated
 
 import numpy as np
 
-from engine.scene.models import Scene
-
-
-def heading_of(scene: Scene) -> float:
-    """Direction (rad) of the waves of a motion in space; 0 in a plane and without waves."""
-    return float(scene.waves.direction_rad) if scene.motion.dimensions == 3 and scene.waves is not None else 0.0
-
-
-def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """The component along waves that travel in the direction `heading` (rad) of vectors with components x and y."""
-    return x if heading == 0 else np.cos(heading) * x + np.sin(heading) * y
-
 
 @dataclass(frozen=True)
 class Profiles:
@@ -34,7 +22,7 @@ class Profiles:
 
 @dataclass(frozen=True)
 class EnergyBudget:
-    """Where the energy of a dry line is and went since t = 0; each (m,) (`engine.physics.energy`).
+    """Where the energy of a dry line is and went since t = 0; each (m,) (`engine.time.energy`).
 
     time_s: the first end of a step past each output time. See `remainder_J`.
     """

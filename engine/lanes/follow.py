@@ -18,11 +18,11 @@ from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
+from ..simd.elementary import keep
+from ..simd.select import some
+from ..simd.vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
 from ..time.steps import known_part, plan_stage, stage_rate
-from .elementary import keep
-from .select import some
 from .ticks import row_of_stage
-from .vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation

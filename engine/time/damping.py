@@ -11,10 +11,10 @@ import numpy as np
 
 from ..compiled import by_kind, kernel
 from ..dimensions import conserved, last_strain
+from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import TENSION
 from ..simd.elementary import within
-from .tension.kernels import tension
 
 
 @kernel

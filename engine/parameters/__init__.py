@@ -10,13 +10,13 @@ import math
 
 import numpy as np
 
-from . import record as codes
+from .. import record as codes
+from ..physics import drag, ends, sea, tension, waves
+from ..scene.models import Scene
+from ..spatial import lift
+from ..time import integrators
 from . import scales
-from .physics import drag, ends, sea, tension, waves
-from .scene.models import Scene
-from .simd.cover import has_extras, is_plain
-from .spatial import lift
-from .time import integrators
+from .cover import has_rare_laws, is_plain
 
 NOT_STRETCHED = 1e-6  # below this spacings differ by less than 1e-12, and the quotients of tanh lose their digits
 
@@ -35,13 +35,20 @@ def grid(length_m: float, nodes: int, stretching: float, refined: str = "both") 
     return np.diff(length_m * {"both": 0.5 * (1 + s), "lower": 1 + s, "upper": s}[refined])
 
 
+def numbers_of(scene: Scene) -> tuple[np.void, np.ndarray]:
+    """The parameter record of a scene that goes alone, and its tables as one array."""
+    tables: list[np.ndarray] = []
+    record = record_of(scene, tables)[0]
+    return record, np.concatenate(tables)
+
+
 def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     """One parameter record; appends the scene's tables to the list of arrays `tables`.
 
     Returns a (1,) structured array of dtype `RECORD`, `PLAIN` or `EXTRA`; of `SPATIAL` or `EXTRA_SPATIAL` for
     motion.dimensions = 3.
     """
-    extras = has_extras(scene)
+    extras = has_rare_laws(scene)
     if scene.motion.dimensions == 3:
         p = np.zeros(1, codes.EXTRA_SPATIAL if extras else codes.SPATIAL)
     else:
@@ -221,9 +228,9 @@ def _turning(record, scene):
     # Where no twist is: the rotation of the lower clamp into the upper one, by the shortest ways to the chord and on.
     # Straight from clamp to clamp would say the same of a line in a plane, but nothing where the clamps oppose each
     # other (a line that hangs between two vertical ones).
-    along = np.array(chord) / np.linalg.norm(chord)
+    way = np.array(chord) / np.linalg.norm(chord)
     below, above = ([float(record[f"{name}_{axis}"]) for axis in "xyz"] for name in ("below", "above"))
-    carried = lift.product(lift.shortest_rotation(along, above), lift.shortest_rotation(below, along))
+    carried = lift.product(lift.shortest_rotation(way, above), lift.shortest_rotation(below, way))
     for i, part in enumerate(carried):
         record[f"carry{i}"] = part
     record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0

@@ -25,12 +25,12 @@ import numpy as np
 
 from ..compiled import kernel
 from ..dimensions import shear_force
+from ..physics.bed import bed_energy, bed_powers, bed_under
+from ..physics.shocks import shock_tension
+from ..physics.tension.kernels import stored, tension
 from ..planar import columns as planar
 from ..spatial import columns as spatial
-from .bed import bed_energy, bed_powers, bed_under
 from .damping import damping_of
-from .shocks import shock_tension
-from .tension.kernels import stored, tension
 
 TIME, KINETIC, STRAIN, GRAVITY, BED, END_WORK, SHEAR, VISCOUS, BED_DAMPING, FRICTION, SPACE, POWERS = range(12)
 WIDTH = 12  # POWERS: stage powers times dt
