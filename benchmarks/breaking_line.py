@@ -1,4 +1,4 @@
-"""Shock capturing of the breaking line: figures and tables of docs/breaking_line.md. About three minutes.
+"""Shock capturing of the breaking line: figures and tables of docs/results.md#the-breaking-line. About three minutes.
 
     .venv/bin/python -m benchmarks.breaking_line        # writes docs/breaking_line_*.png
 

@@ -1,4 +1,4 @@
-"""Held lines: the figures and tables of docs/held_lines.md. About half a minute; nothing is timed.
+"""Held lines: the figures and tables of docs/scenes.md#held-lines. About half a minute; nothing is timed.
 
     .venv/bin/python -m benchmarks.held_lines       # writes docs/twisted_rope.png and docs/swinging_line.png
 

@@ -1,4 +1,4 @@
-"""The paper's scheme against the conservation form: figure and tables of docs/paper_box.md. About seven minutes.
+"""The paper's scheme against the conservation form: figure and tables of docs/trust.md. About seven minutes.
 
     .venv/bin/python -m benchmarks.paper_box        # writes docs/paper_box.png
 

@@ -2,7 +2,7 @@
 
 linear T = p1 eps; tanh T = p1 tanh(p2 eps + p3) + p4 + p5 eps; tabulated: the monotone cubic of Fritsch & Carlson
 (SIAM J. Numer. Anal. 17, 1980), in `box_equations` scipy's, and straight along its end tangents outside the table.
-Tolerance: rounding of a sum of terms of size max|T|. The law of docs/howto_tension_law.md, saved as its one file in a
+Tolerance: rounding of a sum of terms of size max|T|. The law of docs/scenes.md#a-new-law, saved as its one file in a
 copy of the engine, is a law like the others.
 """
 
@@ -99,7 +99,7 @@ assert "tether.tension.cubic_N" in keys()
 
 
 def test_the_file_of_the_page_is_all_that_a_law_takes(tmp_path):
-    (text,) = (text for kind, text in blocks("howto_tension_law") if text.startswith("# engine/physics/tension/"))
+    (text,) = (text for kind, text in blocks("scenes") if text.startswith("# engine/physics/tension/"))
     for package in ("engine", "machine_code"):
         shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
     (tmp_path / text[2:].partition(":")[0]).write_text(text)
