@@ -1,13 +1,13 @@
 """How often is a start put to the wrong motion, and after how many periods (`analysis.settled`, `joins`, `grouped`)?
 
-    python -m benchmarks.motion_rates [--systems N] [--starts N] [--confirm PERIODS] [--cable]
+    python -m benchmarks.motion_rates [--systems N] [--starts N] [--cable] [--write]
 
 Forced systems drawn at random, most with several motions: Duffing's two wells, the driven pendulum, eq. (33), the Henon
 map; --cable: the buoy at six depths and steepnesses, kicked on a grid (two minutes more). The truth is that of 3000
 periods: the period of the last 600, within 1e-4, and which of them lie on each other (the buoy: 200 periods, and the
 largest tension). Starts run one after the other, as a campaign runs them: every period, has it joined a known motion;
-every 15 periods from 60 on, has it settled; after 400 periods it is unsettled. --confirm: a motion without a period
-counts when it is the same so many periods later.
+every 15 periods from 60 on, has it settled; after 400 periods it is unsettled. "Confirmed": the same, but a motion
+without a period counts only when it is the same 300 periods later. --write: with --cable, into the page.
 """
 
 import argparse
@@ -19,10 +19,12 @@ from numba import njit
 from analysis import detect_period, distance, joins, settled
 from analysis.motions import APART
 from analysis.oscillator import SnapOscillator, snap_motion
+from benchmarks.write_tables import publish
 from engine import load_scene, simulate_each
 from engine.views import state_of
 
 LONG, BUDGET, SAMPLES = 3000, 400, 64
+CONFIRM = 300  # periods
 DUFFING, PENDULUM = range(2)
 BUOYS = ((25.0, 0.13), (22.5, 0.13), (21.0, 0.1), (21.0, 0.13), (20.8, 0.13), (21.0, 0.04))  # depth, steepness
 
@@ -138,7 +140,7 @@ def _of_buoys(runs):
     return [r[:2] for r in found], np.max([r[2] for r in found], axis=0), list(labels), None
 
 
-def put(records, scale, confirm):
+def answers_of(records, scale, confirm=0):
     """For each run: how it was answered, the index of its motion, after how many periods; and the motions found."""
     known, answers = [], []
     for x, e in records:
@@ -162,36 +164,52 @@ def put(records, scale, confirm):
     return answers, known
 
 
+def count(total, answers, known, labels, periods):
+    """Add to `total` how many answers are right, wrong, or of chaos that ends; returns the periods that they took."""
+    took, label_of_motion = [], {}  # the truth of a motion is that of the run it was found by
+    for (how, index, n), label in zip(answers, labels, strict=True):
+        if index is None:
+            total["unsettled"] += 1
+            continue
+        took.append(n)
+        true_label = label_of_motion.setdefault(index, label)
+        chaos_ends = periods is not None and periods[label] is not None and known[index].period is None
+        if chaos_ends:
+            total["outlasted"] += 1
+        elif true_label != label:
+            total[f"wrong: {how}"] += 1
+    return took
+
+
+def rows_of(systems, starts, cable):
+    """A row of the table for each kind of system."""
+    totals, confirmed, took = {}, {}, {}
+    for kind, records, scale, labels, periods in cases(systems, starts, cable):
+        total = totals.setdefault(kind, Counter())
+        answers, known = answers_of(records, scale)
+        took.setdefault(kind, []).extend(count(total, answers, known, labels, periods))
+        total.update(systems=1, starts=len(labels), motions=len(set(labels)), found=len(known))
+        if periods is not None:
+            later = confirmed.setdefault(kind, Counter())
+            count(later, *answers_of(records, scale, CONFIRM), labels, periods)
+    heads = "systems", "motions", "found", "starts", "wrong: joined", "wrong: settled", "outlasted"
+    for kind, total in totals.items():
+        outlasted = str(confirmed[kind]["outlasted"]) if kind in confirmed else "not run"
+        median, most = np.percentile(took[kind], (50, 95))
+        cells = [str(total[head]) for head in heads]
+        yield [kind, *cells, outlasted, str(total["unsettled"]), f"{median:.0f}", f"{most:.0f}"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--systems", type=int, default=25)
     parser.add_argument("--starts", type=int, default=24)
-    parser.add_argument("--confirm", type=int, default=0)
     parser.add_argument("--cable", action="store_true")
-    given = parser.parse_args()
-    totals, took = {}, {}
-    for kind, records, scale, labels, periods in cases(given.systems, given.starts, given.cable):
-        answers, known = put(records, scale, given.confirm)
-        total, times = totals.setdefault(kind, Counter()), took.setdefault(kind, [])
-        of = {}  # the truth of a motion: that of the run it was found by
-        for (how, index, n), label in zip(answers, labels, strict=True):
-            total["starts"] += 1
-            if index is None:
-                total["unsettled"] += 1
-                continue
-            times.append(n)
-            true = of.setdefault(index, label)
-            ends = periods is not None and periods[label] is not None and known[index].period is None
-            total[f"{how} {'transient' if ends else 'right' if true == label else 'wrong'}"] += 1
-        total["systems"] += 1
-        total["motions"] += len(set(labels))
-        total["found"] += len(known)
-    heads = ("systems", "motions", "found", "starts", "joined right", "joined wrong", "joined transient",
-             "settled right", "settled wrong", "settled transient", "unsettled")  # fmt: skip
-    print(" | ".join(("kind", *heads, "periods: median, 95 %")))
-    for kind, total in totals.items():
-        periods = "{:.0f}, {:.0f}".format(*np.percentile(took[kind], (50, 95)))
-        print(" | ".join((kind, *(str(total[head]) for head in heads), periods)))
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args()
+    if options.write and not options.cable:
+        parser.error("--write: the table of the page has the buoy too; give --cable")
+    publish("motion_rates", list(rows_of(options.systems, options.starts, options.cable)), options.write)
 
 
 if __name__ == "__main__":
