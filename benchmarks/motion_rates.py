@@ -58,15 +58,22 @@ def duffing(draw, starts):
 
 def pendulum(draw, starts):
     law = PENDULUM, draw.uniform(0.1, 0.3), draw.uniform(0.5, 2.0), draw.uniform(0.5, 1.0)
-    flows = (_flow(*law, *start) for start in draw.uniform(-2.0, 2.0, (starts, 2)))
-    return [np.stack([np.cos(f[..., 0]), np.sin(f[..., 0]), f[..., 1]], axis=-1) for f in flows]
+    records = []
+    for start in draw.uniform(-2.0, 2.0, (starts, 2)):
+        angle, speed = np.moveaxis(_flow(*law, *start), -1, 0)
+        records.append(np.stack([np.cos(angle), np.sin(angle), speed], axis=-1))
+    return records
 
 
 def snap(draw, starts):
     oscillator = SnapOscillator(draw.uniform(0.025, 0.1), draw.uniform(0.9, 1.6), draw.uniform(0.8, 2.0))
     begin = draw.uniform((-60.0, -25.0), (20.0, 25.0), (starts, 2))
-    motions = (snap_motion(oscillator, start, LONG, SAMPLES) for start in begin)
-    return [np.stack([m.displacement, m.velocity], axis=-1)[:-1].reshape(LONG, SAMPLES, 2) for m in motions]
+    records = []
+    for start in begin:
+        motion = snap_motion(oscillator, start, LONG, SAMPLES)
+        states = np.stack([motion.displacement, motion.velocity], axis=-1)
+        records.append(states[:-1].reshape(LONG, SAMPLES, 2))
+    return records
 
 
 def henon(draw, starts):
@@ -87,6 +94,14 @@ def record(flow):
     return flow[:, 0], measures[:-1], np.maximum(np.ptp(flow[-100:], axis=(0, 1)), 1e-6)
 
 
+def _label_of(late, period, motions):
+    """The first motion of this period on which the states lie; the number of motions where there is none."""
+    for label, (known_period, tree, spacing) in enumerate(motions):
+        if period == known_period and np.median(tree.query(late)[0]) <= max(3.0 * spacing, 1e-3):
+            return label
+    return len(motions)
+
+
 def truth(states, scale):
     """Labels of the runs by their last 600 states, and the period of each label (None: aperiodic)."""
     from scipy.spatial import cKDTree
@@ -95,15 +110,12 @@ def truth(states, scale):
     for x in states:
         late = x[-600:] / scale
         period = detect_period(late, 64, 1e-4, np.ones(len(scale))).period
-        same = (
-            label
-            for label, (other, tree, spacing) in enumerate(motions)
-            if period == other and np.median(tree.query(late)[0]) <= max(3.0 * spacing, 1e-3)
-        )
-        labels.append(next(same, len(motions)))
-        if labels[-1] == len(motions):
+        label = _label_of(late, period, motions)
+        labels.append(label)
+        if label == len(motions):
             tree = cKDTree(late)
-            motions.append((period, tree, 0.0 if period else np.median(tree.query(late, k=2)[0][:, 1])))
+            spacing = 0.0 if period else np.median(tree.query(late, k=2)[0][:, 1])
+            motions.append((period, tree, spacing))
     return labels, [motion[0] for motion in motions]
 
 
@@ -125,49 +137,49 @@ def cases(systems, starts, cable):
 
 
 def _of_buoys(runs):
-    found = []
+    records = []
     for run in runs:
         step_s, period_s = run.scene.sample_step_s(), run.scene.waves.period_s
         coordinates, scale = state_of(run.columns, step_s, period_s, transient_periods=140)
-        every = round(period_s / step_s)
+        samples = round(period_s / step_s)
         columns = np.column_stack([run.columns["radius_m"], run.columns["tension_top_high_N"]])
-        cut = np.lib.stride_tricks.sliding_window_view(columns, every + 1, axis=0)[::every]
+        cut = np.lib.stride_tricks.sliding_window_view(columns, samples + 1, axis=0)[::samples]
         measures = np.column_stack([cut[:, 0].min(axis=1), cut.max(axis=2)])
-        found.append((np.column_stack(list(coordinates.values()))[::every], measures, scale))
-    highest = np.array([measures[-60:, -1].max() for _, measures, _ in found])
+        records.append((np.column_stack(list(coordinates.values()))[::samples], measures, scale))
+    highest = np.array([measures[-60:, -1].max() for _, measures, _ in records])
     two = highest.max() > 1.2 * highest.min()  # the large motion and the small one
     labels = (highest > highest.mean()).astype(int) if two else np.zeros(len(runs), dtype=int)
-    return [r[:2] for r in found], np.max([r[2] for r in found], axis=0), list(labels), None
+    return [r[:2] for r in records], np.max([r[2] for r in records], axis=0), list(labels), None
 
 
 def answers_of(records, scale, confirm=0):
     """For each run: how it was answered, the index of its motion, after how many periods; and the motions found."""
     known, answers = [], []
     for x, e in records:
-        how, index, n = "unsettled", None, 0
+        answer, index, n = "unsettled", None, 0
         for n in range(8, min(BUDGET, len(e)) + 1):
             index = joins(x[: n + 1], e[:n], known)
             if index is not None:
-                how = "joined"
+                answer = "joined"
                 break
             new = settled(x[: n + 1], e[:n], scale=scale) if n >= 60 and n % 15 == 0 else None
             if new is not None and confirm and new.period is None:
                 later = settled(x[n : n + confirm + 1], e[n : n + confirm], scale=scale)
                 new = later if later is not None and distance(new, later) <= APART else None
             if new is not None:
-                how, index = "settled", min(range(len(known)), key=lambda i: distance(new, known[i]), default=None)
+                answer, index = "settled", min(range(len(known)), key=lambda i: distance(new, known[i]), default=None)
                 if index is None or distance(new, known[index]) > APART:
                     index = len(known)
                     known.append(new)
                 break
-        answers.append((how, index, n))
+        answers.append((answer, index, n))
     return answers, known
 
 
 def count(total, answers, known, labels, periods):
     """Add to `total` how many answers are right, wrong, or of chaos that ends; returns the periods that they took."""
     took, label_of_motion = [], {}  # the truth of a motion is that of the run it was found by
-    for (how, index, n), label in zip(answers, labels, strict=True):
+    for (answer, index, n), label in zip(answers, labels, strict=True):
         if index is None:
             total["unsettled"] += 1
             continue
@@ -177,7 +189,7 @@ def count(total, answers, known, labels, periods):
         if chaos_ends:
             total["outlasted"] += 1
         elif true_label != label:
-            total[f"wrong: {how}"] += 1
+            total[f"wrong: {answer}"] += 1
     return took
 
 
@@ -195,9 +207,9 @@ def rows_of(systems, starts, cable):
     heads = "systems", "motions", "found", "starts", "wrong: joined", "wrong: settled", "outlasted"
     for kind, total in totals.items():
         outlasted = str(confirmed[kind]["outlasted"]) if kind in confirmed else "not run"
-        median, most = np.percentile(took[kind], (50, 95))
+        median, longest = np.percentile(took[kind], (50, 95))
         cells = [str(total[head]) for head in heads]
-        yield [kind, *cells, outlasted, str(total["unsettled"]), f"{median:.0f}", f"{most:.0f}"]
+        yield [kind, *cells, outlasted, str(total["unsettled"]), f"{median:.0f}", f"{longest:.0f}"]
 
 
 def main():

@@ -27,8 +27,8 @@ WORDS = "chaotic", "undecided", "quasi-periodic", "period-N", "transient"
 
 def kinds(count, seed):
     """(name, iterator of records) of each kind."""
-    for place, (name, make) in enumerate(REGULAR.items()):
-        yield name, (make(np.random.default_rng([seed, place, number])) for number in range(count))
+    for place, (name, generate) in enumerate(REGULAR.items()):
+        yield name, (generate(np.random.default_rng([seed, place, number])) for number in range(count))
     for share, samplings in NOISE.items():
         rng = np.random.default_rng([seed, 99, round(1000 * share)])
         yield f"chaos, {share:.0%} noise", _flows(share, samplings, rng)
@@ -60,7 +60,7 @@ def main():
 
 def words_of(records, show):
     """How many of these records got which word."""
-    words, began = Counter(), time.process_time()
+    words, start_s = Counter(), time.process_time()
     for known in records:
         x = np.asarray(known.series, dtype=float)
         view = seen(x, known.step, known.period)
@@ -69,7 +69,7 @@ def words_of(records, show):
         if show:
             summary = f"{verdict.regime} ({view.kind}, {len(view.points)}) {evidence_text(verdict)}"
             print(f"  {known.name}: {summary}", flush=True)
-    print(f"{(time.process_time() - began) / max(words.total(), 1):.2f} s of processor time a record")
+    print(f"{(time.process_time() - start_s) / max(words.total(), 1):.2f} s of processor time a record")
     return words
 
 

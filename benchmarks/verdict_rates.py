@@ -201,32 +201,32 @@ def judged(strobed, growth, scale):
 def scatter(growth, length):
     """(value of a stretch - that of the rest)/error, for the first 40 stretches of that length."""
     growth = growth[500:]
-    (whole,) = tangent_lyapunov(growth)
-    apart = min(length, 500)
+    (total,) = tangent_lyapunov(growth)
+    spacing = min(length, 500)
     overlap = np.sqrt(1.0 - length / len(growth))  # the whole contains the stretch, and so lies nearer to it
     scores = []
-    for first in range(0, len(growth) - length, apart)[:40]:
+    for first in range(0, len(growth) - length, spacing)[:40]:
         (exponent,) = tangent_lyapunov(growth[first : first + length])
-        scores.append((exponent.value - whole.value) / (overlap * exponent.error))
+        scores.append((exponent.value - total.value) / (overlap * exponent.error))
     return scores
 
 
-def right(what, word):
+def right(true_word, word):
     """Whether a word is that of the truth."""
-    return (what, word) in (("periodic", "periodic"), ("torus", "quasi-periodic"), ("chaotic", "chaotic"))
+    return (true_word, word) in (("periodic", "periodic"), ("torus", "quasi-periodic"), ("chaotic", "chaotic"))
 
 
-def counted(kind, make, count, periods):
+def counted(kind, generate, count, periods):
     """(Counter of (truth, settles later, word), mean of the periods judged, {name, stretch: scores z}) of a kind."""
     counts, judged_periods, scores = Counter(), [], {}
-    for strobed, growth, *more in make(count, periods):
+    for strobed, growth, *known_scale in generate(count, periods):
         # of the settled motion: starts of eq. (33) may lie a hundred times as far out
-        scale, depth = more or (max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max()), "")
-        (what, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
+        scale, depth = known_scale or (max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max()), "")
+        (true_word, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
         judged_periods.append(verdict.transient + verdict.points - 1)
         word = "periodic" if verdict.period else verdict.regime
-        counts[what, since > judged_periods[-1], word] += 1
-        if make is violent_cables or (what == "chaotic" and not depth):
+        counts[true_word, since > judged_periods[-1], word] += 1
+        if generate is violent_cables or (true_word == "chaotic" and not depth):
             for length in STRETCHES:
                 scores.setdefault((f"buoy, {depth}" if depth else kind, length), []).extend(scatter(growth, length))
     return counts, np.mean(judged_periods), scores
@@ -235,10 +235,10 @@ def counted(kind, make, count, periods):
 def rates_row(kind, counts, mean_periods):
     """The row of a kind of motions in the table of words."""
     totals = Counter()
-    for (what, settles_later, word), number in counts.items():
-        if what == "not known":
+    for (true_word, settles_later, word), number in counts.items():
+        if true_word == "not known":
             outcome = "not known"
-        elif right(what, word):
+        elif right(true_word, word):
             outcome = "right"
         elif settles_later:
             outcome = "later"
@@ -270,13 +270,13 @@ def main():
     if options.write and (options.quick or options.only != [""] or not options.cable):
         parser.error("--write: the tables of the page have all motions; give --cable, and neither --quick nor --only")
     rows, scores = [], {}
-    for kind, (make, count, periods) in (KINDS | CABLES if options.cable else KINDS).items():
+    for kind, (generate, count, periods) in (KINDS | CABLES if options.cable else KINDS).items():
         if not any(word in kind for word in options.only):
             continue
         number = count // 10 if options.quick else count
-        counts, mean_periods, of_kind = counted(kind, make, number, periods)
-        for (what, settles_later, word), times in sorted(counts.items()):
-            print(f"{kind}: {what}{' later' if settles_later else ''}, called {word}: {times}", flush=True)
+        counts, mean_periods, of_kind = counted(kind, generate, number, periods)
+        for (true_word, settles_later, word), times in sorted(counts.items()):
+            print(f"{kind}: {true_word}{' later' if settles_later else ''}, called {word}: {times}", flush=True)
         rows.append(rates_row(kind, counts, mean_periods))
         scores |= of_kind
     publish("verdict_rates", rows, options.write)

@@ -124,10 +124,10 @@ def write(name: str, rows: Iterable[Row], date: str, commit: str, docs: Path = D
     raise ValueError(f"no page of {docs} has a block <!-- table {name}: ... -->")
 
 
-def publish(name: str, rows: Sequence[Row], keep: bool) -> None:
+def publish(name: str, rows: Sequence[Row], into_page: bool) -> None:
     """Print a table that a benchmark has just computed, and write it into its page where that is asked for."""
     print(markdown(TABLES[name].heads, rows), end="")
-    if keep:
+    if into_page:
         from campaigns.machinery.session import git_state
 
         commit = git_state(DOCS)["commit"] or "not known"
