@@ -126,8 +126,9 @@ def cases(systems, starts, cable):
         for _ in range(systems):
             records = [record(flow) for flow in kind(draw, starts)]
             if records:
-                scale = np.median([r[2] for r in records], axis=0)
-                yield kind.__name__, [r[:2] for r in records], scale, *truth([r[0] for r in records], scale)
+                states, measures, scales = zip(*records, strict=True)
+                scale = np.median(scales, axis=0)
+                yield kind.__name__, list(zip(states, measures, strict=True)), scale, *truth(states, scale)
     for depth, steepness in BUOYS if cable else ():
         grid = np.linspace(-6.0, 6.0, 7)
         changes = {"water.depth_m": depth, "waves.steepness": steepness}
@@ -149,31 +150,48 @@ def _of_buoys(runs):
     highest = np.array([measures[-60:, -1].max() for _, measures, _ in records])
     two = highest.max() > 1.2 * highest.min()  # the large motion and the small one
     labels = (highest > highest.mean()).astype(int) if two else np.zeros(len(runs), dtype=int)
-    return [r[:2] for r in records], np.max([r[2] for r in records], axis=0), list(labels), None
+    states, measures, scales = zip(*records, strict=True)
+    return list(zip(states, measures, strict=True)), np.max(scales, axis=0), list(labels), None
 
 
 def answers_of(records, scale, confirm=0):
-    """For each run: how it was answered, the index of its motion, after how many periods; and the motions found."""
+    """For each run (answer, index of its motion, after how many periods); and the motions that are known in the end."""
     known, answers = [], []
-    for x, e in records:
+    for states, measures in records:
         answer, index, n = "unsettled", None, 0
-        for n in range(8, min(BUDGET, len(e)) + 1):
-            index = joins(x[: n + 1], e[:n], known)
+        for n in range(8, min(BUDGET, len(measures)) + 1):
+            index = joins(states[: n + 1], measures[:n], known)
             if index is not None:
                 answer = "joined"
                 break
-            new = settled(x[: n + 1], e[:n], scale=scale) if n >= 60 and n % 15 == 0 else None
-            if new is not None and confirm and new.period is None:
-                later = settled(x[n : n + confirm + 1], e[n : n + confirm], scale=scale)
-                new = later if later is not None and distance(new, later) <= APART else None
-            if new is not None:
-                answer, index = "settled", min(range(len(known)), key=lambda i: distance(new, known[i]), default=None)
-                if index is None or distance(new, known[index]) > APART:
-                    index = len(known)
-                    known.append(new)
+            if n < 60 or n % 15:
+                continue
+            motion = settled_motion(states, measures, n, scale, confirm)
+            if motion is not None:
+                answer, index = "settled", place_of(motion, known)
                 break
         answers.append((answer, index, n))
     return answers, known
+
+
+def settled_motion(states, measures, n, scale, confirm):
+    """The motion on which a run has settled after n periods, and still is `confirm` periods later; or None."""
+    motion = settled(states[: n + 1], measures[:n], scale=scale)
+    if motion is None or motion.period is not None or not confirm:
+        return motion
+    later = settled(states[n : n + confirm + 1], measures[n : n + confirm], scale=scale)
+    return later if later is not None and distance(motion, later) <= APART else None
+
+
+def place_of(motion, known):
+    """The index of the known motion that this one is; a new one is added to them."""
+    if known:
+        distances = [distance(motion, candidate) for candidate in known]
+        nearest = int(np.argmin(distances))
+        if distances[nearest] <= APART:
+            return nearest
+    known.append(motion)
+    return len(known) - 1
 
 
 def count(total, answers, known, labels, periods):

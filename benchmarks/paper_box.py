@@ -28,7 +28,7 @@ from reports.parts.style import SOFT
 SMALL_S, LARGE_S = 10.0, 30.0
 DEPTHS = (22.5, 21.6)
 SEEDED = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
-TOLD = ("end_time_s", "closure_m", "max_turn_rad", "euler_norm_error")
+STATISTICS = ("end_time_s", "closure_m", "max_turn_rad", "euler_norm_error")
 SEEN_S = (5.4, 5.6, 6.0, 8.0, 10.0, 12.0, 20.0, 30.0)
 UNGUARDED = ((41, 0.005), (81, 0.005), (161, 0.0025))  # nodes, step (s): steps that pass the first slack
 
@@ -86,7 +86,8 @@ def unguarded(depth_m, nodes, step_s):
         size = np.sum(Y[6:10] ** 2, 0)
         scaled = Y.copy()
         scaled[6:10] /= np.sqrt(size)
-        by_shape, by_unit_t = (np.linalg.norm(positions(line, state)[:, -1]) for state in (Y, scaled))
+        by_shape = np.linalg.norm(positions(line, Y)[:, -1])
+        by_unit_t = np.linalg.norm(positions(line, scaled)[:, -1])
         turn = turns(Y[6:10], Y[10:13], line.h).max()
         rows.append([level.t, by_shape, np.linalg.norm(end), turn, np.abs(size - 1).max(), by_unit_t])
     return np.array(rows).T
@@ -109,7 +110,7 @@ def where_it_stops(depth_m, known):
         overrides = {"tether.nodes": nodes, "solver.step_s": step_s, "solver.scheme": "paper-box", **motion}
         result = run(scene_of(0.13, depth_m, **overrides), LARGE_S)
         row = {"nodes": nodes, "step_s": step_s, "dimensions": 3 if motion else 2, "status": result.status}
-        statistics = {name: result.statistics[name] for name in TOLD}
+        statistics = {name: result.statistics[name] for name in STATISTICS}
         off = abs(radius(result)[-1] - np.interp(result.columns["time_s"][-1], *known))
         rows.append({**row, **statistics, "last_error_m": off})
     print(pd.DataFrame(rows).to_string(index=False))
@@ -127,7 +128,8 @@ def large_waves(depth_m):
         print(f"  no guards, {label}: reached {t[-1]:.3f} s in {time.perf_counter() - start_s:.0f} s")
         columns = {"t": t, "shape": shape - r, "path": path - r, "|t| = 1": unit - r, "turn": turn, "|b|^2-1": norm}
         columns = pd.DataFrame({**columns, "turn before": np.maximum.accumulate(turn)})
-        print(columns.iloc[[np.argmin(np.abs(t - at)) for at in SEEN_S if at <= t[-1] + 1e-9]].round(5).to_string())
+        printed = [np.argmin(np.abs(t - time_s)) for time_s in SEEN_S if time_s <= t[-1] + 1e-9]
+        print(columns.iloc[printed].round(5).to_string())
         shown = columns[:: round(0.05 / step_s)]
         for column, name, line in (("shape", label, "-"), ("path", "", ":")):
             errors.append(Curve(shown["t"], np.abs(shown[column]), name, line, colour=colour))

@@ -32,8 +32,7 @@ def run(kernels: Path, *words: str) -> float:
 
 
 def main() -> None:
-    mains = [path for package in ("campaigns", "reports") for path in sorted((ROOT / package).rglob("__main__.py"))]
-    names = [".".join(path.parent.relative_to(ROOT).parts) for path in mains]
+    mains = [*sorted((ROOT / "campaigns").rglob("__main__.py")), *sorted((ROOT / "reports").rglob("__main__.py"))]
     options = parser(__doc__, 7)
     options.add_argument("--cold-rounds", type=int, default=3, help="cold compiles (default 3)")
     arguments = options.parse_args()
@@ -43,12 +42,14 @@ def main() -> None:
         "an empty Python process": ("-c", "pass"),
         "imports of the engine, kernels loaded": ("-c", "from engine import simulate"),
         CACHED: ("-c", ONE_PERIOD),
-    } | {f"python -m {name} --help": ("-m", name, "--help") for name in names}
+    }
+    for path in mains:
+        name = ".".join(path.parent.relative_to(ROOT).parts)
+        warm[f"python -m {name} --help"] = ("-m", name, "--help")
     with tempfile.TemporaryDirectory() as folder:
         cold = [run(Path(folder, str(i)), "-c", ONE_PERIOD) for i in range(arguments.cold_rounds)]
-        times_of = in_turns(
-            {name: partial(run, Path(folder, "0"), *words) for name, words in warm.items()}, arguments.rounds
-        )
+        calls = {name: partial(run, Path(folder, "0"), *words) for name, words in warm.items()}
+        times_of = in_turns(calls, arguments.rounds)
     show("cold start: the same with no compiled kernels", cold, "s")
     print(f"{median(cold) - median(times_of[CACHED]):10.4g} s  of that, compilation")
     for name, times in times_of.items():

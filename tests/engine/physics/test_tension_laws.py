@@ -2,7 +2,7 @@
 
 linear T = p1 eps; tanh T = p1 tanh(p2 eps + p3) + p4 + p5 eps; tabulated: the monotone cubic of Fritsch & Carlson
 (SIAM J. Numer. Anal. 17, 1980), in `box_equations` scipy's, and straight along its end tangents outside the table.
-Tolerance: rounding of a sum of terms of size max|T|. The law of docs/scenes.md#a-new-tension-law, saved as its one file in a
+Tolerance: rounding of a sum of terms of size max|T|. The law of docs/scenes.md, saved as its one file in a
 copy of the engine, is a law like the others.
 """
 
