@@ -105,16 +105,17 @@ def markdown(heads: Row, rows: Iterable[Row]) -> str:
     return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
 
 
-def block_of(name: str, rows: Iterable[Row], date: str, commit: str) -> str:
-    """The whole block of a table, both comments included."""
+def block_of(name: str, rows: Iterable[Row], date: str, commit: str, options: str = "") -> str:
+    """The whole block of a table, both comments included. options: those that the command was run with."""
     table = TABLES[name]
-    content = markdown(table.heads, rows) + f"\nWritten by `{table.command}` on {date}, commit {commit}.\n"
+    command = f"{table.command} {options}".strip()
+    content = markdown(table.heads, rows) + f"\nWritten by `{command}` on {date}, commit {commit}.\n"
     return f"<!-- table {name}: {table.command} -->\n{content}<!-- end of table {seal_of(content)} -->"
 
 
-def write(name: str, rows: Iterable[Row], date: str, commit: str, docs: Path = DOCS) -> Path:
+def write(name: str, rows: Iterable[Row], date: str, commit: str, options: str = "", docs: Path = DOCS) -> Path:
     """Put a table in place of its block; returns the page. Raises ValueError where no page has such a block."""
-    written = block_of(name, rows, date, commit)
+    written = block_of(name, rows, date, commit, options)
     for page in sorted(docs.glob("*.md")):
         text = page.read_text(encoding="utf-8")
         for match in BLOCK.finditer(text):
@@ -188,7 +189,19 @@ def write_folder(folder: Path, docs: Path = DOCS) -> Path:
     if name not in ROWS:
         raise ValueError(f"{folder}: a folder of {name}; tables of pages come from {', '.join(ROWS)}")
     commit = provenance["git"]["commit"] or "not known"
-    return write(name, ROWS[name](folder), provenance["finished_utc"][:10], commit[:7], docs)
+    day, options = provenance["finished_utc"][:10], options_of(provenance["command"])
+    return write(name, ROWS[name](folder), day, commit[:7], options, docs)
+
+
+def options_of(command: Sequence[str]) -> str:
+    """The options of a command that decide what it computes: all but its folder and its processes."""
+    options, words = [], iter(command[3:])
+    for word in words:
+        if word in ("--out", "--jobs"):
+            next(words)
+        else:
+            options.append(word)
+    return " ".join(options)
 
 
 def main() -> None:

@@ -124,7 +124,7 @@ def test_a_table_on_a_page_is_what_its_command_wrote(page_name, block):
     if block.seal:
         assert write_tables.seal_of(block.content) == block.seal, f"{page_name}: {block.name} was changed by hand"
         assert block.content.startswith(write_tables.markdown(table.heads, []))
-        assert f"`{table.command}`" in block.content
+        assert f"Written by `{table.command}" in block.content
     else:
         assert re.search(r"Computed at commit [0-9a-f]{7} on \d{4}-\d\d-\d\d", block.content)
 
@@ -136,7 +136,12 @@ def test_every_table_has_its_place_on_one_page():
 def test_a_finished_folder_writes_its_table(tmp_path):
     folder, page_path = tmp_path / "results", tmp_path / "trust.md"
     folder.mkdir()
-    provenance = {"campaign": "stability", "finished_utc": "2026-11-23T20:15:46Z", "git": {"commit": "68622b16e7b8"}}
+    provenance = {
+        "campaign": "stability",
+        "command": ["python", "-m", "campaigns.stability", "--quick", "--out", "results"],
+        "finished_utc": "2026-11-23T20:15:46Z",
+        "git": {"commit": "68622b16e7b8"},
+    }
     (folder / "provenance.json").write_text(json.dumps(provenance))
     heads = "part,about,verdict,how,measured,measured_tension,bar_tension\n"
     cases = "case,stiff,ok,refinement,0.002,0.01,0.03\ncase,stiff,ok,energy,9,0.5,0.03\ncase,stiff,refused,,,,\n"
@@ -147,5 +152,5 @@ def test_a_finished_folder_writes_its_table(tmp_path):
     assert "| stiff | 3 | 2 | 1 | 0 | 0 | 2.0e-03 | 1.0e-02 | 1 |" in written
     (block,) = write_tables.blocks(written)
     assert write_tables.seal_of(block.content) == block.seal != write_tables.seal_of(block.content.replace("3", "4"))
-    assert "on 2026-11-23, commit 68622b1." in block.content
+    assert "Written by `python -m campaigns.stability --quick` on 2026-11-23, commit 68622b1." in block.content
     assert written.startswith("before\n<!-- ") and written.endswith(" -->\nafter\n")
