@@ -7,7 +7,7 @@
 Protocol: without --scene the buoy is in 22.5 m of water, where it has two motions. The motions are found from rest,
 from motions of a massless tether, and from starts spread over the grid until 24 of them find no new one. Then all other
 starts run until they join a motion or settle on one of their own, at most for 160 wave periods; what has not settled by
-then is counted as unsettled. Each motion is judged by a run of its own (docs/verdicts.md), and goes on at a tenth of
+then is counted as unsettled. Each motion is judged by a run of its own (docs/motions.md), and goes on at a tenth of
 the tolerance and on a finer grid of the line. The smallest start that leads to the motion of the largest tension is
 searched over its direction, and bisected in size to 1 %, on both grids. The edge state between that motion and the one
 from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.

@@ -4,7 +4,7 @@
     python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
 
 Protocol: the same scene from rest for every value of waves.steepness, each as long as its regime needs
-(docs/verdicts.md) and not beyond --budget, or all of --periods; then every other motion that is found there
+(docs/motions.md) and not beyond --budget, or all of --periods; then every other motion that is found there
 (docs/motions.md), one row a motion. `--starts rest` leaves these out. The transient, found by the verdict or given, is
 left out of extremes, slack and section. Kicks are drawn by --seed; nothing else is random.
 

@@ -64,7 +64,7 @@ def without_waves(name: str, scene) -> Iterator[str]:
         key = "waves.components" if waves.jonswap is None else "waves.jonswap"
         yield (
             f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
-            "period; engine.simulate runs irregular waves (docs/howto_waves.md)"
+            "period; engine.simulate runs irregular waves (docs/scenes.md#waves)"
         )
 
 

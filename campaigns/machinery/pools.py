@@ -5,7 +5,7 @@ When a worker process dies, `execute` raises `PoolBroken` with the tasks that ma
 starts afresh. loky and threads run through joblib. dask runs through its own futures, not joblib's backend for dask,
 which waits for ever when a worker is lost (joblib 1.6).
 
-The workers of a dask cluster may be on other machines that see no folder of ours. docs/howto_cluster.md says what may
+The workers of a dask cluster may be on other machines that see no folder of ours. docs/developing.md says what may
 go wrong there, and what becomes of it. A cluster that is lost, or is of another version, is CampaignStopped, one line:
 finished runs are on disk, and the same command goes on.
 """

@@ -7,7 +7,7 @@
 
 Protocol: a massless tether does the whole grid first and proposes starts. Then each cell is run from rest, from the
 proposals, from kicks, and from the motions of the cells beside it where these are no motion of its own yet. A motion
-that repeats at its first look is judged by that (verdict: cheap); any other goes on as docs/verdicts.md says, up to
+that repeats at its first look is judged by that (verdict: cheap); any other goes on as docs/motions.md says, up to
 --budget. Cells at borders are bisected with --refine. Kicks are drawn by --seed; nothing else is random.
 """
 

@@ -28,7 +28,7 @@ LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the c
 VERDICT = Column(
     "verdict",
     symbol="verdict",
-    meaning="cheap: the motion repeats at one look; full: the procedure of docs/verdicts.md",
+    meaning="cheap: the motion repeats at one look; full: the procedure of docs/motions.md#how-a-run-is-judged",
     page=REGIMES,
 )
 STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of a run that begins there", 0, SHEET)

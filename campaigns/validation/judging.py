@@ -1,4 +1,4 @@
-"""Each case beside its source: rows of cases.csv, the points of both curves, and the table of docs/validation.md."""
+"""Each case beside its source: rows of cases.csv, the points of both curves, and the table of docs/trust.md."""
 
 from collections.abc import Iterable
 from pathlib import Path

@@ -7,7 +7,7 @@ omega the angular velocity of the frame (`line.turning`), the columns of M that 
     rows 2-3  -m (omega x V)_2,3 + R (dC/dt U_c)_2,3
     rows 4-6  -(1 + eps) (omega x t)
 
-Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; misprints: docs/appendix_a.md); a product
+Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; misprints: THEORY.md); a product
 with M so costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term R C dU_c/dt that the print leaves out:
 without it waves act on the tether by drag alone.
 

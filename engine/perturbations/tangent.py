@@ -18,7 +18,7 @@ for the matrix that `planar.elimination.eliminate` has eliminated, one pass up, 
 
 After every step the perturbations are made orthonormal (Gram-Schmidt) in the norm of THEORY.md, section 11, summed over
 the nodes; the logarithms of their lengths add up to the growth of each period. A loop release leaves dC unchanged; the
-periods in which one happens are marked, because another shape of the tether is not a derivative (docs/findings.md).
+periods in which one happens are marked, because another shape of the tether is not a derivative (docs/results.md).
 
 `march` stores the accepted steps in a Trail (`engine.arrays`); of the stages backward Euler uses the last.
 """

@@ -9,7 +9,7 @@ e_N (eN) the factor of dN (1 or 0) and D = de/dV; V_t = cv (V - V~); this e is n
 
 In the record M_total = M + M_a, M_wave = rho V + M_a, lift = B - W, C_buoy = C (`engine.parameters`).
 The place of a held end follows from V by integration: it is off by what Newton's method leaves over, 1 mm after ten
-oscillations of 1 m at the default tolerances (`docs/held_lines.md`). In statics V is a displacement, and V_e the one
+oscillations of 1 m at the default tolerances (`docs/scenes.md`). In statics V is a displacement, and V_e the one
 that is left to go (`engine.time.statics` puts it into end_x ... end_z).
 
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:

@@ -17,7 +17,7 @@ next leaves noise of a thousandth of the jump (one neighbour: half of it stays; 
 The box rule with a step of one element per wave hardly disperses; with much shorter steps the same viscosity lets the
 strain ahead of a shock overshoot by a tenth of the jump. On a graded grid the step therefore follows the deformation:
 with `solver.courant` it is that number times the shortest element that deforms over the fastest wave
-(docs/breaking_line.md).
+(docs/results.md#the-breaking-line).
 """
 
 import math

@@ -12,7 +12,7 @@ water, v = V - U_w, and of the pressure gradient,
 
     e = ... + s M_a (V_t - dU_w/dt) + M_a s' (h_t v + |v|^2 n/2),    h_t = eta_t + eta_x U - W,    n = (-eta_x, 1)
 
-so that in still water no energy is lost or made (docs/out_of_the_water.md). On the way straight down the last term is
+so that in still water no energy is lost or made (docs/results.md). On the way straight down the last term is
 M_a s' W^2/2, half the impact force of von Karman (1929); the other half takes energy away into spray, of which
 buoy.impact_loss asks for a share: - loss M_a s' h_t^2 n/2 in e while the cap grows, h_t > 0.
 

@@ -42,7 +42,7 @@ from .tables import sweep_table
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
 _DEFINED = (
     "A run is looked at after 90, 135, 205, ... wave periods, each time without its first third. A word counts when "
-    "two looks in a row find it, or a clear one from 465 periods on (docs/verdicts.md). Periodic: the strobed orbit "
+    "two looks in a row find it, or a clear one from 465 periods on (docs/motions.md). Periodic: the strobed orbit "
     "repeats, and perturbations do not grow in the later half. "
     "Chaotic: the exponent of the tangent dynamics is positive by 3.5 errors, by two in the later half, and again at a "
     "tenth of the tolerance (`regime_tighter`). Quasi-periodic: the exponent is zero within a stated bound, neighbours "

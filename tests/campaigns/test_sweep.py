@@ -1,5 +1,5 @@
 """`campaigns.sweep`: any number of any scene, one key or two (what cannot be varied: mistakes.toml); and a column and a
-campaign of one's own, as docs/howto_campaign.md has them (tests/test_pages.py runs that page with the engine).
+campaign of one's own, as docs/developing.md#a-campaign has them (tests/test_pages.py runs that page with the engine).
 """
 
 import json
@@ -25,7 +25,7 @@ from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_engine import FakeEngine
 from tests.pages import blocks
 
-PAGE = "howto_campaign"
+PAGE = "developing"
 HELD = ["--scene", "hanging_line", "--duration", "2"]
 
 

@@ -58,7 +58,7 @@ def along(x, t):
 
 
 def share_across(tether, v):
-    """Share of the normal drag coefficient left at the velocities v (m, 3): the law of docs/howto_drag_law.md."""
+    """Share of the normal drag coefficient left at the velocities v (m, 3): the law of docs/scenes.md."""
     law = tether.drag
     if law is None:
         return 1.0

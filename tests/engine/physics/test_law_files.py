@@ -83,7 +83,7 @@ assert np.abs(lateral.kernel_response(scene, *state, change) - exact).max() < 1e
     "law, check", [("tension", TENSION), pytest.param("drag", DRAG, marks=pytest.mark.slow)], ids=["tension", "drag"]
 )
 def test_the_file_of_the_page_is_all_that_a_law_takes(law, check, tmp_path):
-    (text,) = (text for _, text in blocks(f"howto_{law}_law") if text.startswith(f"# engine/physics/{law}/"))
+    (text,) = (text for _, text in blocks("scenes") if text.startswith(f"# engine/physics/{law}/"))
     for package in ("engine", "machine_code"):
         shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
     (tmp_path / text[2:].partition(":")[0]).write_text(text)
