@@ -21,7 +21,7 @@ by three errors instead of two; and for chaos if perturbations go on growing, by
 tighter tolerance. A period is also looked for in the last half, quarter, ... of what a look sees. It takes two looks
 there, because beside a window orbits repeat for long, again and again. Chaos that ends after the record is called
 chaotic: the verdict names its periods.
-Error rates of the whole procedure: docs/verdicts.md. Tests for records of unknown origin (`verdicts.regime`) are not
+Error rates of the whole procedure: docs/motions.md. Tests for records of unknown origin (`verdicts.regime`) are not
 needed here: what moves is known, and its perturbations are carried along.
 """
 

@@ -12,7 +12,7 @@ coordinates differ at most, a state in `scale`, a measure as a share of its larg
               neighbours in B, and the other way round: the larger, but of two motions without a period the smaller
     shares    of the starts, with Wilson's interval
 
-How often each is wrong, and after how many periods it answers: docs/motions.md.
+How often each is wrong, and after how many periods it answers: docs/motions.md#which-motion-a-start-ends-in.
 """
 
 from collections.abc import Sequence
@@ -78,7 +78,7 @@ def settled(
     max_period           largest period looked for
     Returns a Settled: with a period from 30 periods on, without one from 90 on. A run
     that passes by an unstable orbit, or through long transient chaos, looks settled while it lasts; no test of the
-    states so far can tell (rates: docs/motions.md).
+    states so far can tell (rates: docs/motions.md#which-motion-a-start-ends-in).
     Raises ValueError for values that are not finite or lengths that do not fit.
     """
     x, e, scale = _checked(strobed, measures, scale)

@@ -14,7 +14,7 @@ is two to three times too large. So the mean is tapered, with a cosine over a qu
 with the weights w (sum 1) of that taper, growth g less its mean and Hann's window h. J is 6 up to 500 periods, and
 grows as sqrt(m) beyond, so that the band narrows while the error becomes sure. Six frequencies know S(0) to 30 %:
 deviations from the truth, in such errors, have a standard deviation of 1.16 for white noise. A run knows only the
-fluctuations that it has met: other starts may lie farther apart (docs/verdicts.md counts it).
+fluctuations that it has met: other starts may lie farther apart (docs/motions.md#the-error-of-an-exponent counts it).
 """
 
 import numpy as np

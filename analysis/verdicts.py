@@ -20,7 +20,7 @@ Noise has a larger apparent exponent than chaos of the same spectrum, so no expo
 deterministic motion has and both nulls lack is a next point that is a nonlinear function of the present one. What
 chaos has and no torus, however strange, is that it forgets. What it has and no cycle driven by noise is a map whose
 derivative grows. Samples far outside the rest (a -9999) leave no verdict at all.
-Error rates: benchmarks/record_rates.py, docs/howto_time_series.md.
+Error rates: benchmarks/record_rates.py, docs/time_series.md.
 """
 
 from dataclasses import dataclass

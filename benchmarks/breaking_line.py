@@ -1,4 +1,4 @@
-"""Shock capturing of the breaking line: figures and tables of docs/breaking_line.md. About three minutes.
+"""Shock capturing of the breaking line: figures and tables of docs/results.md#the-breaking-line. About three minutes.
 
     .venv/bin/python -m benchmarks.breaking_line        # writes docs/breaking_line_*.png
 
@@ -54,8 +54,8 @@ def table():
     for key, value in [(key, value) for key, values in CHOICES.items() for value in values]:
         coarse, fine = (captured(nodes, theory, {key: value}) for nodes in GRIDS)
         order = math.log2(coarse[0] / fine[0])
-        both = [f"{a:.3g}, {b:.3g}" for a, b in zip(coarse, fine, strict=True)]
-        print(f"| {key} = {value:g} | {both[0]} | {order:.2f} | {both[1]} | {both[2]} | {both[3]} |")
+        cells = [f"{a:.3g}, {b:.3g}" for a, b in zip(coarse, fine, strict=True)]
+        print(f"| {key} = {value:g} | {cells[0]} | {order:.2f} | {cells[1]} | {cells[2]} | {cells[3]} |")
 
 
 def eight():

@@ -1,4 +1,4 @@
-"""Held lines: the figures and tables of docs/held_lines.md. About half a minute; nothing is timed.
+"""Held lines: the figures and tables of docs/scenes.md#held-lines. About half a minute; nothing is timed.
 
     .venv/bin/python -m benchmarks.held_lines       # writes docs/twisted_rope.png and docs/swinging_line.png
 
@@ -77,9 +77,9 @@ def rope_shapes(moments: list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]) -
     return curves([panels], 3.6, "below", kind="png")
 
 
-def draw(name, profiles, times, **more):
+def draw(name, profiles, times, **curves):
     """docs/NAME.png: the line at some times, and more lines (n, 3), from three sides."""
-    lines = more | {f"{time_s:g} s": line_at(profiles, time_s) for time_s in times}
+    lines = curves | {f"{time_s:g} s": line_at(profiles, time_s) for time_s in times}
     path = DOCS / f"{name}.png"
     path.write_bytes(rope_shapes([(label, *x.T) for label, x in lines.items()]).data)
     shrink(path, 128)
@@ -93,8 +93,8 @@ def twisted_rope():
         table, length, rest = run.table(), scene.tether.length_m, line_at(run.profiles, 100.0)
         pull, off = table.tension_top_N.iloc[-1], np.hypot(*rest[:, :2].T).max()
         buckle = localised(scene, length - table.z_m.iloc[-1])
-        apart = 100 * (np.array([pull / buckle.T, off / buckle.deflection]) - 1)
-        print(f"  {nodes} | {pull:.4f} | {off:.4f} | {apart[0]:+.2f} {apart[1]:+.2f}", run.status)
+        deviations = 100 * (np.array([pull / buckle.T, off / buckle.deflection]) - 1)
+        print(f"  {nodes} | {pull:.4f} | {off:.4f} | {deviations[0]:+.2f} {deviations[1]:+.2f}", run.status)
         if nodes == 241:
             closed = shape(buckle, length, rest[nodes // 2])
             draw("twisted_rope", run.profiles, (10.0, 25.0, 40.0, 55.0, 100.0), **{"closed form": closed})

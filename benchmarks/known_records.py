@@ -38,12 +38,12 @@ def periodic_with_noise(rng):
 def _torus(time, rng):
     first = rng.uniform(0.03, 0.5)
     second = first * rng.uniform(0.2, 0.9)
-    many = int(rng.integers(1, 3))
-    angles = [2 * np.pi * (f * time + rng.random()) for f in (first, second)[:many]]
+    tones = int(rng.integers(1, 3))
+    angles = [2 * np.pi * (f * time + rng.random()) for f in (first, second)[:tones]]
     x = np.cos(2 * np.pi * time) + sum(
         rng.uniform(0.3, 1.5) * np.cos(a + rng.normal() * np.sin(2 * np.pi * time)) for a in angles
     )
-    return x + 0.4 * rng.normal() * x**2 * np.cos(angles[0]) + 0.3 * rng.normal() * np.exp(np.sin(angles[many - 1]))
+    return x + 0.4 * rng.normal() * x**2 * np.cos(angles[0]) + 0.3 * rng.normal() * np.exp(np.sin(angles[tones - 1]))
 
 
 def torus(rng):
@@ -147,7 +147,7 @@ def _forced_map(kind, a, b, x, theta, points):
         if k >= 0:
             out[k] = x if kind != 3 else np.sin(2.0 * np.pi * x)
         c = np.cos(2.0 * np.pi * theta)
-        y, before = 0.0 if kind != 4 else y, x
+        y, previous = 0.0 if kind != 4 else y, x
         if kind == 0:  # Grebogi, Ott, Pelikan & Yorke 1984
             slope, x = 2.0 * a * c / np.cosh(x) ** 2, 2.0 * a * np.tanh(x) * c
         elif kind == 1:  # Heagy & Hammel 1994; Prasad, Mehra & Ramaswamy 1998
@@ -162,7 +162,7 @@ def _forced_map(kind, a, b, x, theta, points):
         else:  # Henon's map
             slope, x, y = 0.0, 1.0 - a * x * x + y + b * c, 0.3 * x
         if kind == 4:
-            u, w = -2.0 * a * before * u + w, 0.3 * u
+            u, w = -2.0 * a * previous * u + w, 0.3 * u
             slope = np.hypot(u, w)
             u, w = u / slope, w / slope
         if k >= 0:
@@ -195,8 +195,13 @@ def strange_nonchaotic(rng):
 def transient(rng):
     time, samples, period = _clock(rng)
     rate, frequency = 10 ** rng.uniform(-3, -1), rng.uniform(0.05, 0.5)
-    away = rng.uniform(0.5, 5) * np.exp(-rate * time) * np.cos(2 * np.pi * frequency * time + 1)
-    x = np.cos(2 * np.pi * time) + rng.normal() * np.cos(4 * np.pi * time + 1) + away + rng.uniform(0, 0.3) * away**2
+    decaying = rng.uniform(0.5, 5) * np.exp(-rate * time) * np.cos(2 * np.pi * frequency * time + 1)
+    x = (
+        np.cos(2 * np.pi * time)
+        + rng.normal() * np.cos(4 * np.pi * time + 1)
+        + decaying
+        + rng.uniform(0, 0.3) * decaying**2
+    )
     return Known(x + float(rng.choice([0, 1e-3, 1e-2])) * rng.normal(size=len(x)), 1.0 / samples, period, "transient")
 
 

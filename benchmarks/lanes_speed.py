@@ -58,21 +58,22 @@ def sweep(rounds, periods):
                 "in a batch, wall": (batch, members, periods, time.perf_counter),
                 "by two processes, wall": (on_two, members, periods, time.perf_counter),
             }
-            rates = in_turns({how: partial(rate, *call) for how, call in calls.items()}, rounds)
-        alone = median(rates["one by one"])
-        for how, values in rates.items():
-            found = median(values)
-            print(f"{name}, {how}: {found:.0f} wave periods a second, {found / alone:.2f} times one by one")
+            rates = in_turns({setting: partial(rate, *call) for setting, call in calls.items()}, rounds)
+        single_rate = median(rates["one by one"])
+        for setting, values in rates.items():
+            batch_rate = median(values)
+            ratio = batch_rate / single_rate
+            print(f"{name}, {setting}: {batch_rate:.0f} wave periods a second, {ratio:.2f} times one by one")
 
 
 def main() -> None:
     options = parser(__doc__, 5)
     options.add_argument("--periods", type=float, default=40, help="length of the runs in wave periods (default 40)")
-    given = options.parse_args()
+    arguments = options.parse_args()
     print_load()
     first = seconds(lambda: simulate_batch(scenes({})[:2], periods=0.1))
     print(f"first batch (compilation, or loading what is compiled): {first:.1f} s")
-    sweep(given.rounds, given.periods)
+    sweep(arguments.rounds, arguments.periods)
     print_load()
 
 

@@ -39,14 +39,14 @@ class Counted:
         self.counts["meshes"] += len(points)
         return [self.counting(step) for step in self.inner.frozen(points, parameter, mesh)]
 
-    def show(self, what, call, a_map):
+    def show(self, title, call, a_map):
         """What a call returns; prints what it needed."""
         self.counts.clear()
-        found = []
-        took = seconds(lambda: found.append(call()))
+        results = []
+        took = seconds(lambda: results.append(call()))
         counts = ", ".join(f"{number} {name}" for name, number in self.counts.items())
-        print(f"{took:9.4f} s  {what}: {counts}; worth {took / a_map:.0f} maps", flush=True)
-        return found[0]
+        print(f"{took:9.4f} s  {title}: {counts}; worth {took / a_map:.0f} maps", flush=True)
+        return results[0]
 
 
 def measure(name, system, start, low, value, high, orbits):
@@ -67,19 +67,19 @@ def measure(name, system, start, low, value, high, orbits):
 def main():
     options = parser(__doc__, 1)
     options.add_argument("--cable", action="store_true", help="the cable too: some minutes")
-    asked = options.parse_args()
-    on_one_core(asked.core)
+    arguments = options.parse_args()
+    on_one_core(arguments.core)
     print_load()
-    for _ in range(asked.rounds):
+    for _ in range(arguments.rounds):
         measure("eq. (33)", snap_map(SnapOscillator()), [0.68, 0.0], 0.2, 0.5, 2.0, 60)
-    if asked.cable:
+    if arguments.cable:
 
         def scene_of(value):
             return load_scene("tethered_buoy", {**KEYS, "waves.steepness": value})
 
         state = simulate(scene_of(0.13), periods=60).final_state
         cable, system = cable_map(scene_of, state, 0.13, 0.1)
-        for _ in range(asked.rounds):
+        for _ in range(arguments.rounds):
             measure("cable", system, cable.first, 0.08, 0.13, 0.15, 60)
 
 

@@ -61,8 +61,8 @@ def toolbox(oscillator: SnapOscillator):
 
 
 def main() -> None:
-    given = parser(__doc__, 5).parse_args()
-    on_one_core(given.core)
+    arguments = parser(__doc__, 5).parse_args()
+    on_one_core(arguments.core)
     print_load()
     oscillator = SnapOscillator()
     end, system = 10 * oscillator.period, toolbox(oscillator)
@@ -74,14 +74,14 @@ def main() -> None:
         call(100)
         print(f"{name}: exponents {call(periods)}, error after ten periods {np.abs(last - AFTER_TEN).max():.2g}")
     timed = {name: partial(rate, call, periods) for name, (call, periods, _) in calls.items()}
-    rates = in_turns(timed, given.rounds)
+    rates = in_turns(timed, arguments.rounds)
     for name, values in rates.items():
         show(name, values, "forcing periods a second")
     if system is None:
         print("pynamicalsys is not installed (pip install -e .[bench]): no comparison")
     diagram = partial(snap_diagram, oscillator, "force")
     diagram([1.0], transient_periods=1, periods=10, points=1)
-    walls = [seconds(partial(diagram, np.linspace(0.1, 2.0, 800))) for _ in range(min(3, given.rounds))]
+    walls = [seconds(partial(diagram, np.linspace(0.1, 2.0, 800))) for _ in range(min(3, arguments.rounds))]
     show("orbit diagram of 800 values with exponents, 6000 periods each", walls, "s")
 
 

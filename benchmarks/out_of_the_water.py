@@ -1,4 +1,4 @@
-"""No timing: the picture of docs/out_of_the_water.md, from four sweeps. About five minutes on two cores.
+"""No timing: the picture of docs/results.md#out-of-the-water, from four sweeps. About five minutes on two cores.
 
     .venv/bin/python -m benchmarks.out_of_the_water FOLDER      # writes docs/out_of_the_water.png
 

@@ -1,4 +1,4 @@
-"""The paper's scheme against the conservation form: figure and tables of docs/paper_box.md. About seven minutes.
+"""The paper's scheme against the conservation form: figure and tables of docs/trust.md. About seven minutes.
 
     .venv/bin/python -m benchmarks.paper_box        # writes docs/paper_box.png
 
@@ -28,7 +28,7 @@ from reports.parts.style import SOFT
 SMALL_S, LARGE_S = 10.0, 30.0
 DEPTHS = (22.5, 21.6)
 SEEDED = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
-TOLD = ("end_time_s", "closure_m", "max_turn_rad", "euler_norm_error")
+STATISTICS = ("end_time_s", "closure_m", "max_turn_rad", "euler_norm_error")
 SEEN_S = (5.4, 5.6, 6.0, 8.0, 10.0, 12.0, 20.0, 30.0)
 UNGUARDED = ((41, 0.005), (81, 0.005), (161, 0.0025))  # nodes, step (s): steps that pass the first slack
 
@@ -76,17 +76,18 @@ def unguarded(depth_m, nodes, step_s):
     end, V = positions(line, Y)[:, -1], force_and_velocity(line, Y[:, -1])[1]
     rows = []
     for step in range(1, round(LARGE_S / step_s) + 1):
-        code, _, after = solve(line, step * step_s, level, 60)
+        code, _, next_level = solve(line, step * step_s, level, 60)
         if code != OK:
             break
-        level, V_before = after, V
+        level, V_before = next_level, V
         V = force_and_velocity(line, level.Y[:, -1])[1]
         end = end + 0.5 * step_s * (V + V_before)
         Y = level.Y
         size = np.sum(Y[6:10] ** 2, 0)
         scaled = Y.copy()
         scaled[6:10] /= np.sqrt(size)
-        by_shape, by_unit_t = (np.linalg.norm(positions(line, state)[:, -1]) for state in (Y, scaled))
+        by_shape = np.linalg.norm(positions(line, Y)[:, -1])
+        by_unit_t = np.linalg.norm(positions(line, scaled)[:, -1])
         turn = turns(Y[6:10], Y[10:13], line.h).max()
         rows.append([level.t, by_shape, np.linalg.norm(end), turn, np.abs(size - 1).max(), by_unit_t])
     return np.array(rows).T
@@ -107,11 +108,11 @@ def where_it_stops(depth_m, known):
     grids = [(nodes, step_s, {}) for nodes in (21, 41, 81, 161) for step_s in (0.0125, 0.005, 0.0025)]
     for nodes, step_s, motion in [*grids, (41, 0.005, SEEDED)]:
         overrides = {"tether.nodes": nodes, "solver.step_s": step_s, "solver.scheme": "paper-box", **motion}
-        found = run(scene_of(0.13, depth_m, **overrides), LARGE_S)
-        row = {"nodes": nodes, "step_s": step_s, "dimensions": 3 if motion else 2, "status": found.status}
-        told = {name: found.statistics[name] for name in TOLD}
-        off = abs(radius(found)[-1] - np.interp(found.columns["time_s"][-1], *known))
-        rows.append({**row, **told, "last_error_m": off})
+        result = run(scene_of(0.13, depth_m, **overrides), LARGE_S)
+        row = {"nodes": nodes, "step_s": step_s, "dimensions": 3 if motion else 2, "status": result.status}
+        statistics = {name: result.statistics[name] for name in STATISTICS}
+        off = abs(radius(result)[-1] - np.interp(result.columns["time_s"][-1], *known))
+        rows.append({**row, **statistics, "last_error_m": off})
     print(pd.DataFrame(rows).to_string(index=False))
 
 
@@ -120,15 +121,16 @@ def large_waves(depth_m):
     known, errors, turned = reference(depth_m), [], []
     where_it_stops(depth_m, known)
     for (nodes, step_s), colour in zip(UNGUARDED, COLOURS, strict=False):
-        began = time.perf_counter()
+        start_s = time.perf_counter()
         t, shape, path, turn, norm, unit = unguarded(depth_m, nodes, step_s)
         r = np.interp(t, *known)
         label = f"{nodes} nodes, {1e3 * step_s:g} ms"
-        print(f"  no guards, {label}: reached {t[-1]:.3f} s in {time.perf_counter() - began:.0f} s")
-        found = {"t": t, "shape": shape - r, "path": path - r, "|t| = 1": unit - r, "turn": turn, "|b|^2-1": norm}
-        found = pd.DataFrame({**found, "turn before": np.maximum.accumulate(turn)})
-        print(found.iloc[[np.argmin(np.abs(t - at)) for at in SEEN_S if at <= t[-1] + 1e-9]].round(5).to_string())
-        shown = found[:: round(0.05 / step_s)]
+        print(f"  no guards, {label}: reached {t[-1]:.3f} s in {time.perf_counter() - start_s:.0f} s")
+        columns = {"t": t, "shape": shape - r, "path": path - r, "|t| = 1": unit - r, "turn": turn, "|b|^2-1": norm}
+        columns = pd.DataFrame({**columns, "turn before": np.maximum.accumulate(turn)})
+        printed = [np.argmin(np.abs(t - time_s)) for time_s in SEEN_S if time_s <= t[-1] + 1e-9]
+        print(columns.iloc[printed].round(5).to_string())
+        shown = columns[:: round(0.05 / step_s)]
         for column, name, line in (("shape", label, "-"), ("path", "", ":")):
             errors.append(Curve(shown["t"], np.abs(shown[column]), name, line, colour=colour))
         turned.append(Curve(shown["t"], shown["turn"], colour=colour))

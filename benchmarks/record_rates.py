@@ -1,11 +1,11 @@
 """How often is the verdict on a record of unknown origin (`python -m analysis`) wrong, or missing?
 
-    python -m benchmarks.record_rates [--count N] [--seed N] [--only WORD ...] [--show]
+    python -m benchmarks.record_rates [--count N] [--seed N] [--only WORD ...] [--show] [--write]
 
 N records of each regular kind of `benchmarks.known_records`, which nothing may call chaotic, and 300 cycles of every
 coordinate of ten chaotic flows and of eq. (33), sampled 12, 24 and 48 times a cycle, and 24 times with white noise of 1
-and 5 % of their standard deviation. Prints a row a kind: how many got which word, seconds of processor time a record.
---only: kinds whose name has this word; --show: a line a record, with its evidence.
+and 5 % of their standard deviation. Prints how many records of each kind got which word, and the processor time.
+--only: kinds whose name has this word; --show: a line a record, with its evidence; --write: all kinds, into the page.
 """
 
 import argparse
@@ -17,17 +17,18 @@ import numpy as np
 from analysis import evidence_text
 from benchmarks.known_flows import chaotic_flows, with_noise
 from benchmarks.known_records import REGULAR
+from benchmarks.write_tables import publish
 from campaigns.time_series.study import judged, least_tolerance, seen
 
 CYCLES = 300
 NOISE = {0.0: (12, 24, 48), 0.01: (24,), 0.05: (24,)}  # share of the standard deviation: samples a cycle
-WORDS = "chaotic", "undecided", "quasi-periodic", "period", "transient"
+WORDS = "chaotic", "undecided", "quasi-periodic", "period-N", "transient"
 
 
 def kinds(count, seed):
     """(name, iterator of records) of each kind."""
-    for place, (name, make) in enumerate(REGULAR.items()):
-        yield name, (make(np.random.default_rng([seed, place, number])) for number in range(count))
+    for place, (name, generate) in enumerate(REGULAR.items()):
+        yield name, (generate(np.random.default_rng([seed, place, number])) for number in range(count))
     for share, samplings in NOISE.items():
         rng = np.random.default_rng([seed, 99, round(1000 * share)])
         yield f"chaos, {share:.0%} noise", _flows(share, samplings, rng)
@@ -44,30 +45,32 @@ def main():
     parser.add_argument("--seed", type=int, default=2024)
     parser.add_argument("--only", nargs="*", default=[""], metavar="WORD")
     parser.add_argument("--show", action="store_true")
-    asked = parser.parse_args()
-    print(f"{'':32s}" + "".join(f"{word:>15s}" for word in WORDS) + f"{'s a record':>12s}")
-    for name, records in kinds(asked.count, asked.seed):
-        if not any(word in name for word in asked.only):
-            continue
-        words, spent = Counter(), 0.0
-        for known in records:
-            start = time.process_time()
-            x = np.asarray(known.series, dtype=float)
-            try:
-                view = seen(x, known.step, known.period)
-                verdict = judged(x, view, least_tolerance(view), 0)
-            except ValueError as fault:
-                print(known.name, fault)
-                raise
-            spent += time.process_time() - start
-            words[verdict.regime.split("-")[0] if verdict.period else verdict.regime] += 1
-            if asked.show:
-                print(
-                    f"  {known.name}: {verdict.regime} ({view.kind}, {len(view.points)}) {evidence_text(verdict)}",
-                    flush=True,
-                )
-        row = "".join(f"{words[word]:15d}" for word in WORDS)
-        print(f"{name:32s}{row}{spent / max(sum(words.values()), 1):12.2f}", flush=True)
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args()
+    if options.write and options.only != [""]:
+        parser.error("--write: the table of the page has all kinds; leave --only out")
+    rows = []
+    for name, records in kinds(options.count, options.seed):
+        if any(word in name for word in options.only):
+            words = words_of(records, options.show)
+            rows.append([name, str(words.total()), *(str(words[word]) for word in WORDS)])
+            print(f"{name}: {', '.join(f'{count} {word}' for word, count in words.most_common())}", flush=True)
+    publish("record_rates", rows, options.write)
+
+
+def words_of(records, show):
+    """How many of these records got which word."""
+    words, start_s = Counter(), time.process_time()
+    for known in records:
+        x = np.asarray(known.series, dtype=float)
+        view = seen(x, known.step, known.period)
+        verdict = judged(x, view, least_tolerance(view), 0)
+        words["period-N" if verdict.period else verdict.regime] += 1
+        if show:
+            summary = f"{verdict.regime} ({view.kind}, {len(view.points)}) {evidence_text(verdict)}"
+            print(f"  {known.name}: {summary}", flush=True)
+    print(f"{(time.process_time() - start_s) / max(words.total(), 1):.2f} s of processor time a record")
+    return words
 
 
 if __name__ == "__main__":

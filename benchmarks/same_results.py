@@ -100,7 +100,7 @@ def of_folder(folder: Path) -> dict[str, object]:
     for path in sorted(folder.rglob("*")):
         name = path.relative_to(folder).as_posix()
         if path.suffix == ".csv":
-            digests |= {f"{name}:{column}": found for column, found in of_table(path).items()}
+            digests |= {f"{name}:{column}": column_digest for column, column_digest in of_table(path).items()}
         elif path.suffix == ".nc" and path.parent.name == "trajectories":
             runs[f"{Path(name).parent.as_posix()} {of_arrays(path)}"] += 1
         elif path.suffix in (".txt", ".toml"):
@@ -125,10 +125,10 @@ def compare(old: dict, new: dict) -> int:
     """Print what differs; the number of differences."""
     count = 0
     for command in sorted(old.keys() | new.keys()):
-        before, after = old.get(command, {}), new.get(command, {})
-        for name in sorted(before.keys() | after.keys()):
-            if before.get(name) != after.get(name):
-                kind = "gone" if name not in after else "new" if name not in before else "changed"
+        old_digests, new_digests = old.get(command, {}), new.get(command, {})
+        for name in sorted(old_digests.keys() | new_digests.keys()):
+            if old_digests.get(name) != new_digests.get(name):
+                kind = "gone" if name not in new_digests else "new" if name not in old_digests else "changed"
                 print(f"{command}: {kind}: {name}")
                 count += 1
     return count

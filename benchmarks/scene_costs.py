@@ -39,60 +39,67 @@ LAWS = {
     "bed": {"floor": {"stiffness_Npm3": 1e6, "damping_Nspm3": 1e4, "friction": 0.3}},
     "anchor": {"anchor.position_m": [1.0, 0.0, 0.1]},
 }
-WITH = {
-    f"{kind}, {law}": ("tethered_buoy", changes | more, duration_s)
-    for kind, changes, duration_s in (("cap", CAP, 15.0), ("cap in space", CAP | SPACE, 5.0))
-    for law, more in ({"no law": {}} | LAWS).items()
-}
+WITH = {}
+for kind, changes, duration_s in (("cap", CAP, 15.0), ("cap in space", CAP | SPACE, 5.0)):
+    for law, keys in ({"no law": {}} | LAWS).items():
+        WITH[f"{kind}, {law}"] = ("tethered_buoy", changes | keys, duration_s)
 
 
 def costs(names):
     """{name: (us a Newton iteration, hash of the columns)} of scenes, on this checkout."""
-    found = {}
+    results = {}
     for name in names:
         base, changes, duration_s = (SCENES | WITH)[name]
-        scene = load_scene(base, {"water.depth_m": 22.5} | changes if base == "tethered_buoy" else changes)
+        if base == "tethered_buoy":
+            changes = {"water.depth_m": 22.5} | changes
+        scene = load_scene(base, changes)
         run, least, end = simulate(scene, duration_s=duration_s), float("inf"), time.monotonic() + 1.0
-        told = b"".join(column.tobytes() for column in run.columns.values())
+        content = b"".join(column.tobytes() for column in run.columns.values())
         while time.monotonic() < end:
             took_s = seconds(lambda scene=scene, s=duration_s: simulate(scene, duration_s=s), time.process_time)
             least = min(least, 1e6 * took_s / run.statistics["newton_iterations"])
-        found[name] = least, hashlib.sha256(told).hexdigest()
-    return found
+        results[name] = least, hashlib.sha256(content).hexdigest()
+    return results
 
 
 def costs_in(folder, names):
     """`costs` in a process of its own, with the engine of that checkout."""
     command = [sys.executable, str(Path(__file__)), "--once", *names]
-    done = subprocess.run(
+    process = subprocess.run(
         command,
         cwd=folder,
         env=os.environ | {"PYTHONPATH": str(folder)},
         capture_output=True,
         check=True,
     )
-    return json.loads(done.stdout)
+    return json.loads(process.stdout)
+
+
+def beside_in_words(name, time_us, rounds):
+    """The cost of a scene on the other checkout, and whether its columns are the same."""
+    other_us = median(costs[name][0] for costs in rounds["beside"])
+    equal = rounds["here"][0][name][1] == rounds["beside"][0][name][1]
+    bits = "same bits" if equal else "OTHER NUMBERS"
+    return f" {other_us:7.2f} us beside, ratio {time_us / other_us:.3f}, {bits}"
 
 
 def main() -> None:
     options = parser(__doc__, 3)
     options.add_argument("--beside", metavar="CHECKOUT", type=Path, help="folder of another checkout")
-    given = options.parse_args()
+    arguments = options.parse_args()
     print_load()
     calls = {"here": lambda: costs_in(HERE, [*SCENES, *WITH])}
-    if given.beside is not None:
-        calls["beside"] = lambda: costs_in(given.beside, [*SCENES])
-    rounds = in_turns(calls, given.rounds)
-    us = {name: median(one[name][0] for one in rounds["here"]) for name in SCENES | WITH}
-    for name, found in us.items():
+    if arguments.beside is not None:
+        calls["beside"] = lambda: costs_in(arguments.beside, [*SCENES])
+    rounds = in_turns(calls, arguments.rounds)
+    times_us = {name: median(costs[name][0] for costs in rounds["here"]) for name in SCENES | WITH}
+    for name, time_us in times_us.items():
         kind, _, law = name.partition(", ")
-        line = f"{name:24s} {found:7.2f} us"
+        line = f"{name:24s} {time_us:7.2f} us"
         if law:
-            line += f" {found / us[f'{kind}, no law']:5.2f} times that without"
-        elif given.beside is not None:
-            other = median(one[name][0] for one in rounds["beside"])
-            same = rounds["here"][0][name][1] == rounds["beside"][0][name][1]
-            line += f" {other:7.2f} us beside, ratio {found / other:.3f}, {'same bits' if same else 'OTHER NUMBERS'}"
+            line += f" {time_us / times_us[f'{kind}, no law']:5.2f} times that without"
+        elif arguments.beside is not None:
+            line += beside_in_words(name, time_us, rounds)
         print(line)
     print_load()
 

@@ -31,18 +31,18 @@ def print_load() -> None:
 
 def seconds(call: Callable[[], object], clock: Callable[[], float] = time.perf_counter) -> float:
     """Time of a call by a clock; without one, wall time."""
-    began = clock()
+    start = clock()
     call()
-    return clock() - began
+    return clock() - start
 
 
 def in_turns(calls: dict[str, Callable[[], float]], rounds: int) -> dict[str, list[float]]:
     """What each call returns in every round; the calls take turns (A B C A B C ...)."""
-    found: dict[str, list[float]] = {name: [] for name in calls}
+    results: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(rounds):
         for name, call in calls.items():
-            found[name].append(call())
-    return found
+            results[name].append(call())
+    return results
 
 
 def show(name: str, values: list[float], unit: str) -> None:

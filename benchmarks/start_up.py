@@ -27,29 +27,32 @@ CACHED = "cached start: from nothing to the end of one wave period"
 
 def run(kernels: Path, *words: str) -> float:
     """Wall time of `python words...` with the folder `kernels` for compiled code."""
-    how = {"cwd": ROOT, "env": os.environ | {"TETHER_CACHE_DIR": str(kernels)}, "stdout": subprocess.DEVNULL}
-    return seconds(partial(subprocess.run, [sys.executable, *words], check=True, **how))
+    settings = {"cwd": ROOT, "env": os.environ | {"TETHER_CACHE_DIR": str(kernels)}, "stdout": subprocess.DEVNULL}
+    return seconds(partial(subprocess.run, [sys.executable, *words], check=True, **settings))
 
 
 def main() -> None:
-    mains = [path for package in ("campaigns", "reports") for path in sorted((ROOT / package).rglob("__main__.py"))]
-    names = [".".join(path.parent.relative_to(ROOT).parts) for path in mains]
+    mains = [*sorted((ROOT / "campaigns").rglob("__main__.py")), *sorted((ROOT / "reports").rglob("__main__.py"))]
     options = parser(__doc__, 7)
     options.add_argument("--cold-rounds", type=int, default=3, help="cold compiles (default 3)")
-    given = options.parse_args()
-    on_one_core(given.core)
+    arguments = options.parse_args()
+    on_one_core(arguments.core)
     print_load()
     warm = {
         "an empty Python process": ("-c", "pass"),
         "imports of the engine, kernels loaded": ("-c", "from engine import simulate"),
         CACHED: ("-c", ONE_PERIOD),
-    } | {f"python -m {name} --help": ("-m", name, "--help") for name in names}
+    }
+    for path in mains:
+        name = ".".join(path.parent.relative_to(ROOT).parts)
+        warm[f"python -m {name} --help"] = ("-m", name, "--help")
     with tempfile.TemporaryDirectory() as folder:
-        cold = [run(Path(folder, str(i)), "-c", ONE_PERIOD) for i in range(given.cold_rounds)]
-        found = in_turns({name: partial(run, Path(folder, "0"), *words) for name, words in warm.items()}, given.rounds)
+        cold = [run(Path(folder, str(i)), "-c", ONE_PERIOD) for i in range(arguments.cold_rounds)]
+        calls = {name: partial(run, Path(folder, "0"), *words) for name, words in warm.items()}
+        times_of = in_turns(calls, arguments.rounds)
     show("cold start: the same with no compiled kernels", cold, "s")
-    print(f"{median(cold) - median(found[CACHED]):10.4g} s  of that, compilation")
-    for name, times in found.items():
+    print(f"{median(cold) - median(times_of[CACHED]):10.4g} s  of that, compilation")
+    for name, times in times_of.items():
         show(name, times, "s")
     print_load()
 

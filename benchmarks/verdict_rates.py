@@ -1,13 +1,13 @@
 """How often is the verdict on a simulated motion (`analysis.motion_regime`) wrong, late, or missing?
 
-    python -m benchmarks.verdict_rates [--quick] [--only WORD ...] [--cable]
+    python -m benchmarks.verdict_rates [--quick] [--only WORD ...] [--cable] [--write]
 
 Motions of which a much longer record of their own says what they are: eq. (33) over frequency, force and starts,
 integrated exactly; tori and locked motions of a forced van der Pol oscillator; the Henon map; the strange nonchaotic
 attractor of Grebogi, Ott, Pelikan & Yorke. --cable: also 60 buoys in small and moderate waves, at drawn depths and
-stiffnesses, and kA = 0.13 at four depths (eight minutes of a core). Prints a row a kind and word, "later" where a
-motion settles only after the periods that were judged; and the scatter of z = (value of a stretch - value of the
-rest)/error of the exponent.
+stiffnesses, and kA = 0.13 at four depths (eight minutes of a core). Prints which motions got which word ("later" where
+a motion settles only after the periods that were judged) and two tables: how many words are right, and the standard
+deviation of z = (exponent of a stretch - that of the rest)/stated error. --write: all of it, into the pages.
 """
 
 import argparse
@@ -24,12 +24,15 @@ from analysis.oscillator import SnapOscillator
 from analysis.oscillator.growth import random_starts
 from analysis.oscillator.strobing import growth_over_values
 from benchmarks.known_records import GOLDEN
+from benchmarks.write_tables import publish
 from campaigns.judge import LEAST_CHECK, SURE
 from engine import load_scene, simulate_each
 from engine.views import state_of
 
 BUDGET, TOLERANCE = 1500, 0.01
 STRETCHES = 200, 500, 2000  # periods
+VIOLENT_DEPTHS_M = 20.8, 21.0, 21.6, 22.5
+OPEN = "undecided", "transient"
 
 
 def snap_motions(count, periods):
@@ -112,7 +115,7 @@ def henon_motions(count, periods):
 
 def cable_motions(changes, periods):
     """(strobed, growth, scale, depth in words) of the scene `tethered_buoy` with each of these changes."""
-    scenes = [load_scene("tethered_buoy", {"output.tangent_vectors": 1, **some}) for some in changes]
+    scenes = [load_scene("tethered_buoy", {"output.tangent_vectors": 1, **keys}) for keys in changes]
     runs = dict(simulate_each(scenes, periods))
     for number in range(len(scenes)):
         run, step_s, period_s = runs[number], scenes[number].sample_step_s(), scenes[number].waves.period_s
@@ -127,17 +130,29 @@ def cable_motions(changes, periods):
 def mild_cables(count, periods):
     """Buoys in small and moderate waves at random depths, stiffnesses in tension and in bending."""
     random = np.random.default_rng(7)
-    drawn = random.uniform((0.016, 20.8, 4e4, -0.7), (0.1, 25.0, 8e4, 0.5), (count, 4))
-    names = "waves.steepness", "water.depth_m", "tether.tension.stiffness_N", "tether.bending_stiffness_Nm2"
-    return cable_motions([dict(zip(names, (*row[:3], 10.0 ** row[3]), strict=True)) for row in drawn], periods)
+    changes = []
+    for drawn in random.uniform((0.016, 20.8, 4e4, -0.7), (0.1, 25.0, 8e4, 0.5), (count, 4)):
+        steepness, depth_m, stiffness_N, bending_exponent = drawn
+        changes.append(
+            {
+                "waves.steepness": steepness,
+                "water.depth_m": depth_m,
+                "tether.tension.stiffness_N": stiffness_N,
+                "tether.bending_stiffness_Nm2": 10.0**bending_exponent,
+            }
+        )
+    return cable_motions(changes, periods)
 
 
 def violent_cables(count, periods):
     """kA = 0.13 at the depths where it is chaos, chaos, a torus and period 2, pushed in two ways."""
-    depths, pushes = (20.8, 21.0, 21.6, 22.5), (0.0, 0.1)
-    names = "waves.steepness", "water.depth_m", "start.buoy_velocity_mps"
-    pairs = [(depth, push) for depth in depths for push in pushes]
-    return cable_motions([dict(zip(names, (0.13, h, [v, 0.0, 0.0]), strict=True)) for h, v in pairs], periods)
+    changes = []
+    for depth_m in VIOLENT_DEPTHS_M:
+        for push_mps in (0.0, 0.1):
+            velocity = [push_mps, 0.0, 0.0]
+            keys = {"waves.steepness": 0.13, "water.depth_m": depth_m, "start.buoy_velocity_mps": velocity}
+            changes.append(keys)
+    return cable_motions(changes, periods)
 
 
 KINDS = {  # motions, how many, periods of each
@@ -186,11 +201,63 @@ def judged(strobed, growth, scale):
 def scatter(growth, length):
     """(value of a stretch - that of the rest)/error, for the first 40 stretches of that length."""
     growth = growth[500:]
-    (whole,) = tangent_lyapunov(growth)
-    apart = min(length, 500)
-    stretches = [tangent_lyapunov(growth[at : at + length])[0] for at in range(0, len(growth) - length, apart)]
-    of_the_rest = np.sqrt(1.0 - length / len(growth))  # the whole holds the stretch, and so lies nearer to it
-    return [(one.value - whole.value) / (of_the_rest * one.error) for one in stretches[:40]]
+    (total,) = tangent_lyapunov(growth)
+    spacing = min(length, 500)
+    overlap = np.sqrt(1.0 - length / len(growth))  # the whole contains the stretch, and so lies nearer to it
+    scores = []
+    for first in range(0, len(growth) - length, spacing)[:40]:
+        (exponent,) = tangent_lyapunov(growth[first : first + length])
+        scores.append((exponent.value - total.value) / (overlap * exponent.error))
+    return scores
+
+
+def right(true_word, word):
+    """Whether a word is that of the truth."""
+    return (true_word, word) in (("periodic", "periodic"), ("torus", "quasi-periodic"), ("chaotic", "chaotic"))
+
+
+def counted(kind, generate, count, periods):
+    """(Counter of (truth, settles later, word), mean of the periods judged, {name, stretch: scores z}) of a kind."""
+    counts, judged_periods, scores = Counter(), [], {}
+    for strobed, growth, *known_scale in generate(count, periods):
+        # of the settled motion: starts of eq. (33) may lie a hundred times as far out
+        scale, depth = known_scale or (max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max()), "")
+        (true_word, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
+        judged_periods.append(verdict.transient + verdict.points - 1)
+        word = "periodic" if verdict.period else verdict.regime
+        counts[true_word, since > judged_periods[-1], word] += 1
+        if generate is violent_cables or (true_word == "chaotic" and not depth):
+            for length in STRETCHES:
+                scores.setdefault((f"buoy, {depth}" if depth else kind, length), []).extend(scatter(growth, length))
+    return counts, np.mean(judged_periods), scores
+
+
+def rates_row(kind, counts, mean_periods):
+    """The row of a kind of motions in the table of words."""
+    totals = Counter()
+    for (true_word, settles_later, word), number in counts.items():
+        if true_word == "not known":
+            outcome = "not known"
+        elif right(true_word, word):
+            outcome = "right"
+        elif settles_later:
+            outcome = "later"
+        elif word in OPEN:
+            outcome = "open"
+        else:
+            outcome = "wrong"
+        totals[outcome] += number
+    cells = [str(totals[outcome]) for outcome in ("right", "wrong", "open", "later")]
+    return [kind, str(counts.total()), *cells, f"{mean_periods:.0f}"]
+
+
+def errors_rows(scores):
+    """The rows of the table of errors: a motion, and the scatter of z over stretches of each length."""
+    rows = []
+    for name in dict.fromkeys(name for name, _ in scores):
+        cells = [f"{np.std(scores[name, length]):.2f} ({len(scores[name, length])})" for length in STRETCHES]
+        rows.append([name, *cells])
+    return rows
 
 
 def main():
@@ -198,26 +265,22 @@ def main():
     parser.add_argument("--quick", action="store_true", help="a tenth of the motions")
     parser.add_argument("--only", nargs="+", default=[""], metavar="WORD", help="kinds whose name has this word")
     parser.add_argument("--cable", action="store_true", help="runs of the engine too: eight minutes of a core")
-    asked = parser.parse_args()
-    for kind, (make, count, periods) in (KINDS | CABLES if asked.cable else KINDS).items():
-        if not any(word in kind for word in asked.only):
+    parser.add_argument("--write", action="store_true", help="write the tables into their page: of all kinds")
+    options = parser.parse_args()
+    if options.write and (options.quick or options.only != [""] or not options.cable):
+        parser.error("--write: the tables of the page have all motions; give --cable, and neither --quick nor --only")
+    rows, scores = [], {}
+    for kind, (generate, count, periods) in (KINDS | CABLES if options.cable else KINDS).items():
+        if not any(word in kind for word in options.only):
             continue
-        table, needed, found = Counter(), [], {}
-        for strobed, growth, *more in make(count // 10 if asked.quick else count, periods):
-            # of the settled motion: starts of eq. (33) may lie a hundred times as far out
-            scale, depth = more or (max(1.0, np.ptp(strobed[periods // 2 :], axis=0).max()), "")
-            (what, since), verdict = truth(strobed, growth, scale), judged(strobed, growth, scale)
-            needed.append(verdict.transient + verdict.points - 1)
-            word = "periodic" if verdict.period else verdict.regime
-            table[what + (" later" if since > needed[-1] else ""), word] += 1
-            if make is violent_cables or (what == "chaotic" and not depth):
-                for length in STRETCHES:
-                    found.setdefault(f"{depth or what}, {length} periods", []).extend(scatter(growth, length))
-        print(f"{kind}: {sum(table.values())} motions, {np.mean(needed):.0f} periods on average")
-        for (what, word), times in sorted(table.items()):
-            print(f"    {what:<15} called {word:<15} {times}")
-        for name, z in found.items():
-            print(f"    z, {name}: standard deviation {np.std(z):.2f} ({len(z)})", flush=True)
+        number = count // 10 if options.quick else count
+        counts, mean_periods, of_kind = counted(kind, generate, number, periods)
+        for (true_word, settles_later, word), times in sorted(counts.items()):
+            print(f"{kind}: {true_word}{' later' if settles_later else ''}, called {word}: {times}", flush=True)
+        rows.append(rates_row(kind, counts, mean_periods))
+        scores |= of_kind
+    publish("verdict_rates", rows, options.write)
+    publish("exponent_errors", errors_rows(scores), options.write)
 
 
 if __name__ == "__main__":

@@ -50,12 +50,12 @@ def compare(names, samples, noise):
         print(f"\n{name}: {samples} samples, noise {noise:g}, truth {truth:.4f} nats/time")
         calls = {label: partial(method, series, step) for label, method in OURS.items()} | theirs(series, step)
         for label, call in calls.items():
-            began = time.perf_counter()
+            start = time.perf_counter()
             try:
                 estimate, fault = call(), ""
             except Exception as error:
                 estimate, fault = np.nan, f"{type(error).__name__}: {error}"
-            spent, value = time.perf_counter() - began, float(getattr(estimate, "value", estimate))
+            spent, value = time.perf_counter() - start, float(getattr(estimate, "value", estimate))
             error, reason = getattr(estimate, "error", np.nan), getattr(estimate, "reason", fault)
             off = f"{value:+10.1e}"
             if truth:

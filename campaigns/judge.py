@@ -5,9 +5,9 @@ from functools import partial
 
 import engine.scene
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
+from tables import OPEN, TANGENT_ERROR, TANGENT_EXPONENT
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
-OPEN = ("undecided", "transient")  # regimes that decide nothing
 LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
@@ -108,7 +108,7 @@ def going_on(
         return Further(_carrying(scene), ahead - done, trajectory)
     judged, check = round(done) - (row.get("transient_periods") or 0), checks.get(round(done))
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
-        value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
+        value, error = row[TANGENT_EXPONENT], row[TANGENT_ERROR]
         enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
         return Further(tighter_scene(_carrying(scene)), min(enough, judged), trajectory, check=True)
     if check is not None and check.status == "ok" and row.get("regime_tighter") != "chaotic":
@@ -150,7 +150,7 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
 def judged_job(order, labels: dict, scene, start=None, most: int | None = None):
     """A run of a study's order: of the length asked for, or as long as its regime needs (`going_on`).
 
-    start: the state (`engine.final_state`) of another run that it begins in; None: as the scene says. most: as there;
+    start: the state (`engine.FinalState`) of another run that it begins in; None: as the scene says. most: as there;
     the run is the same one, and goes on for those who ask for more of it.
     """
     from campaigns.machinery.plan import Job

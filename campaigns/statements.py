@@ -13,12 +13,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from campaigns.columns import csv_of
 from engine.atomic import write_atomic
+from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS, STATEMENTS, csv_of, listed
 
-FILE = "statements.csv"
-COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
-HOLDS, HOLDS_IF, FAILS, OPEN = "holds", "holds if", "does not hold", "–"
 NOT_SHOWN = "No run shows it."
 Check = tuple[str, float]  # where it was looked, and the number that the rule judges there
 
@@ -54,9 +51,9 @@ class Statement:
 
     @property
     def verdict(self) -> str:
-        """HOLDS, HOLDS_IF, FAILS or OPEN."""
+        """HOLDS, HOLDS_IF, FAILS or NOT_JUDGED."""
         passed = [holds for _, holds in self.checks]
-        return OPEN if not passed else HOLDS if all(passed) else HOLDS_IF if any(passed) else FAILS
+        return NOT_JUDGED if not passed else HOLDS if all(passed) else HOLDS_IF if any(passed) else FAILS
 
     @property
     def condition(self) -> str:
@@ -77,7 +74,7 @@ def judge(claim: Claim, results: object) -> Statement:
 
 def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> None:
     """Judge the claims and write statements.csv; a file that says the same already stays as it is. Raises OSError."""
-    path, content = folder / FILE, as_csv([judge(claim, results) for claim in claims])
+    path, content = folder / STATEMENTS, as_csv([judge(claim, results) for claim in claims])
     if not path.exists() or path.read_bytes() != content:
         write_atomic(path, content)
 
@@ -89,7 +86,7 @@ def as_csv(statements: Sequence[Statement]) -> bytes:
         claim = one.claim
         said = (claim.text, one.verdict, one.condition, one.found, claim.threshold, claim.evidence)
         rows.append([number, claim.place, *said])
-    return csv_of(COLUMNS, rows)
+    return csv_of(STATEMENT_COLUMNS, rows)
 
 
 def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim]:
@@ -145,7 +142,7 @@ def shown(value: float, form: str) -> str:
     ('−12.3 %', '0.50', '–', '0.00')
     """
     if not math.isfinite(value):
-        return OPEN
+        return NOT_JUDGED
     text = format(value, form)
     if not re.search("[1-9]", text):
         text = text.removeprefix("-")
@@ -155,12 +152,6 @@ def shown(value: float, form: str) -> str:
 def told(numbers: Iterable[Check], form: str) -> str:
     """Numbers with their names: "1: 43.2, 2: 111.2"."""
     return ", ".join(f"{name}: {shown(value, form)}" for name, value in numbers)
-
-
-def listed(words: Iterable[str]) -> str:
-    """ "a", "a and b", "a, b and c"; "none" of nothing."""
-    words = list(words)
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else "none"
 
 
 def grouped(places: list[str]) -> str:

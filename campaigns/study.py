@@ -1,7 +1,7 @@
 """What a campaign is, as one record, and the command that is made of it.
 
 A `Study` says which runs there are (`cases`), how a run becomes a row (`measures`), and what its command line offers
-beside the options that all studies share. docs/howto_campaign.md shows a complete one. A campaign that does not run
+beside the options that all studies share. docs/developing.md shows a complete one. A campaign that does not run
 variants of one scene has its work in `done`.
 """
 
@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 import engine
-from campaigns.columns import Column
 from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import counting, last
 from campaigns.machinery.runner import run, write_scene
+from tables import Column
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "compiled": ["source_hash"],
-        "final_state": ["FinalState"],
-        "going_on": ["between"],
+        "trajectory.final_state": ["FinalState"],
+        "run.going_on": ["between"],
         "massless": ["MasslessRuns", "massless_covers", "massless_rest", "massless_runs"],
-        "pieces": ["compile_piece", "seconds_of", "shares_of"],
+        "run.pieces": ["compile_piece", "seconds_of", "shares_of"],
         "scene": ["Scene", "SceneError", "list_scenes", "load_scene"],
-        "simd.cover": ["goes_in_lanes"],
-        "simulation": ["simulate", "simulate_batch", "simulate_each"],
+        "parameters.cover": ["goes_in_lanes"],
+        "run.simulation": ["simulate", "simulate_batch", "simulate_each"],
         "trajectory": ["Trajectory"],
     },
 )

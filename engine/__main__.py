@@ -11,7 +11,6 @@ is the exponent that tells chaos from other motions.
 import argparse
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 import engine.scene
@@ -24,20 +23,6 @@ TANGENTS = "output.tangent_vectors"
 EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
 
 
-@dataclass(frozen=True)
-class Order:
-    """A scene, how long it runs (periods of its waves, or seconds), the file of its figure, its start; None: not said.
-
-    Without a length it runs until its verdict.
-    """
-
-    scene: "engine.Scene | None"
-    periods: float | None
-    duration_s: float | None
-    out: Path | None
-    start: "engine.final_state.FinalState | None" = None
-
-
 class _Parser(argparse.ArgumentParser):
     def error(self, message):
         raise ValueError(message)
@@ -46,66 +31,74 @@ class _Parser(argparse.ArgumentParser):
 def parser() -> argparse.ArgumentParser:
     """The options of the command."""
     words = {"description": __doc__, "epilog": EXITS, "formatter_class": argparse.RawDescriptionHelpFormatter}
-    made = _Parser(prog="python -m engine", allow_abbrev=False, **words)
-    made.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
+    options = _Parser(prog="python -m engine", allow_abbrev=False, **words)
+    options.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
     several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
-    made.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
+    options.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
     goes = "file of a run (`Trajectory.save`, or trajectories/ of a campaign) from whose end this one goes on"
-    made.add_argument("--start-from", metavar="FILE", type=Path, help=f"{goes} (default: from rest)")
-    length = made.add_mutually_exclusive_group()
+    options.add_argument("--start-from", metavar="FILE", type=Path, help=f"{goes} (default: from rest)")
+    length = options.add_mutually_exclusive_group()
     until = (
         f"length in wave periods (default: until the verdict, {MOST_PERIODS} at most; without perturbations {PERIODS})"
     )
     length.add_argument("--periods", metavar="N", type=float, help=until)
     length.add_argument("--duration", metavar="S", type=float, help="length in seconds; needed without waves")
     shown = "file of the figure, .png, .svg or .pdf (default: a window, or results/engine/NAME.png without a display)"
-    made.add_argument("--out", metavar="FILE", type=Path, help=shown)
-    return made
+    options.add_argument("--out", metavar="FILE", type=Path, help=shown)
+    return options
 
 
-def read_order(argv: list[str], faults: list[str]) -> Order:
-    """The order in the words of the command line; every fault is appended to `faults`."""
+def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
+    """The options of the command line, `scene` a Scene and `start` its state; every fault is appended to `faults`.
+
+    Without a length, `periods` or `duration`, the scene runs until its verdict.
+    """
     try:
         options = parser().parse_args(argv)
     except ValueError as error:
         hint = "; keys of the scene are given as --set KEY=VALUE" if "unrecognized" in str(error) else ""
         faults.append(f"{error}{hint}")
-        return Order(None, None, None, None)
-    changes, scene = {}, None
+        return None
+    name, options.scene, options.start = options.scene, None, None
+    changes = {}
     for word in options.set:
         try:
             changes |= [engine.scene.parse_assignment(word)]
         except engine.SceneError as error:
             faults += error.faults
     try:
-        scene = engine.load_scene(options.scene, changes)
-        if TANGENTS not in changes and views.in_regular_waves(scene) and views.carries_tangents(scene):
-            scene = engine.load_scene(options.scene, {**changes, TANGENTS: 1})
+        options.scene = engine.load_scene(name, changes)
+        if TANGENTS not in changes and views.in_regular_waves(options.scene) and views.carries_tangents(options.scene):
+            options.scene = engine.load_scene(name, {**changes, TANGENTS: 1})
     except engine.SceneError as error:
         faults += error.faults
-    periods, duration_s = options.periods, options.duration
-    if scene is not None and scene.waves is None and duration_s is None:
-        faults.append(f"--duration: not given for {options.scene!r}, a scene without waves; allowed: seconds, above 0")
-    elif scene is not None and periods is None and duration_s is None and not scene.output.tangent_vectors:
-        periods = PERIODS
-    for name, given in (("--periods", periods), ("--duration", duration_s)):
-        if given is not None and not 0.0 < given < float("inf"):
-            faults.append(f"{name}: given {given:g}; allowed: a finite number above 0")
+    scene = options.scene
+    if scene is not None and scene.waves is None and options.duration is None:
+        faults.append(f"--duration: not given for {name!r}, a scene without waves; allowed: seconds, above 0")
+    elif scene is not None and options.periods is options.duration is None and not scene.output.tangent_vectors:
+        options.periods = PERIODS
+    for option, length in (("--periods", options.periods), ("--duration", options.duration)):
+        if length is not None and not 0.0 < length < float("inf"):
+            faults.append(f"{option}: given {length:g}; allowed: a finite number above 0")
     if options.out is not None:
         faults += _faults_of(options.out)
-    start = None
     if not faults:
-        from engine.scene.size_limits import check_room
+        faults += _faults_of_run(options)
+    return options
 
-        try:
-            check_room(scene, duration_s or (periods or MOST_PERIODS) * scene.waves.period_s)
-            if options.start_from is not None:
-                from engine.simulation import checked_start
 
-                start = checked_start(scene, options.start_from)
-        except ValueError as error:
-            faults.append(f"--start-from: {error}" if options.start_from is not None else str(error))
-    return Order(scene, periods, duration_s, options.out, start)
+def _faults_of_run(options: argparse.Namespace) -> list[str]:
+    """What lets no run of these options begin; sets the state that it begins in."""
+    from engine.parameters.limits import check_room
+    from engine.run.start import checked_start
+
+    scene, file = options.scene, options.start_from
+    try:
+        check_room(scene, options.duration or (options.periods or MOST_PERIODS) * scene.waves.period_s)
+        options.start = checked_start(scene, file)
+    except ValueError as error:
+        return [f"--start-from: {error}" if file is not None else str(error)]
+    return []
 
 
 def _faults_of(out: Path) -> list[str]:
@@ -131,12 +124,12 @@ def main(argv: list[str] | None = None) -> int:
         return _refused(faults)
     print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
-        if order.periods is None and order.duration_s is None:
-            run = _until_told(order.scene, order.start)
+        if order.periods is None and order.duration is None:
+            run = _until_verdict(order.scene, order.start)
         else:
-            length = order.periods, order.duration_s
-            run = engine.simulate(order.scene, *length, lambda share: _tell(f"{share:.0%}"), order.start)
-        _tell("")
+            length = order.periods, order.duration
+            run = engine.simulate(order.scene, *length, lambda share: _show_progress(f"{share:.0%}"), order.start)
+        _show_progress("")
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was written", file=sys.stderr)
         return 130
@@ -147,14 +140,14 @@ def main(argv: list[str] | None = None) -> int:
     return 0 if run.status == "ok" else 1
 
 
-def _until_told(scene, start):
+def _until_verdict(scene, start):
     """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
-    run, done = None, 0
-    while done < MOST_PERIODS:
-        _tell(f"{done} wave periods")
-        look = min(views.look_after(done), MOST_PERIODS)
-        later = engine.simulate(scene, look - done, start=run or start)
-        run, done = later if run is None else run.followed_by(later), look
+    run, periods = None, 0
+    while periods < MOST_PERIODS:
+        _show_progress(f"{periods} wave periods")
+        look = min(views.look_after(periods), MOST_PERIODS)
+        later = engine.simulate(scene, look - periods, start=run or start)
+        run, periods = later if run is None else run.followed_by(later), look
         if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
             break
     return run
@@ -166,7 +159,7 @@ def _refused(faults: list[str]) -> int:
     return 2
 
 
-def _tell(text: str) -> None:
+def _show_progress(text: str) -> None:
     if sys.stderr.isatty():
         print(f"\r{text:<24}\r", end="", file=sys.stderr, flush=True)
 

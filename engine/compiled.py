@@ -7,17 +7,19 @@ import hashlib
 from functools import cache
 from pathlib import Path
 
-from numba import types
+from numba import from_dtype, types
 from numba.extending import models, register_model
 
 from machine_code.parts import compiled_in_parts
 from machine_code.store import folder_of, hash_of
 
+from .record import KINDS, Kind
 from .simd.fma import with_fused_sums
 from .simd.vector import LaneRecord
 
 _ROOT = Path(__file__).parent
 _KEPT_CACHES = 6
+_KINDS = {from_dtype(dtype): kind for dtype, kind in KINDS.items()}
 
 
 # Numba writes a record into the names of compiled functions as a number that counts the types its process has met.
@@ -67,8 +69,7 @@ class _Choice:
 
     def __call__(self, p, *arguments):
         """In Python, with a record of NumPy: of what `work_arrays` is made of."""
-        kind = self._numba_type_.place(p.dtype.names, False, False)
-        return self.kernels[kind].py_func(p, *arguments)
+        return self.kernels[self._numba_type_.place(KINDS[p.dtype])].py_func(p, *arguments)
 
 
 class _ChoiceType(types.Callable, types.Dummy):
@@ -80,15 +81,18 @@ class _ChoiceType(types.Callable, types.Dummy):
 
     def _chosen(self, p):
         in_lanes = isinstance(p, LaneRecord)
-        return self.kernels[self.place(p.fields, in_lanes, in_lanes and p.plain)]
+        kind = Kind(plain=p.plain) if in_lanes else _KINDS[p]
+        return self.kernels[self.place(kind, in_lanes)]
 
-    def place(self, fields, in_lanes, plain_lanes):
-        """Which of the kernels serves a record with these fields."""
-        if len(self.kernels) > 4 and "anchor_z" in fields:
+    def place(self, kind, in_lanes=False):
+        """Which of the kernels serves a record of this kind."""
+        if kind.extras and len(self.kernels) > 4:
             return 4
-        if plain_lanes or "plain" in fields:
+        if kind.plain:
             return 3
-        return 1 if "GI" in fields else 2 if in_lanes else 0
+        if kind.spatial:
+            return 1
+        return 2 if in_lanes else 0
 
     def get_call_type(self, context, arguments, keywords):
         return self._chosen(arguments[0]).get_call_type(context, arguments, keywords)

@@ -36,7 +36,7 @@ def natural_frequencies(scene) -> Modes | None:
     pull = (scene.water.density_kgpm3 * volume - buoy.mass_kg) * scene.gravity_mps2
     if pull <= 0.0:
         return None
-    from engine.scales import strain_at, tension_at
+    from engine.physics.strains import strain_at, tension_at
 
     law = scene.tether.tension
     strain = strain_at(pull, law)

@@ -4,6 +4,8 @@
 and readers of scenes both import this module; it imports nothing of the engine.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 BUOY, HELD, FREE = 0, 1, 2  # end: what the upper end is
@@ -36,15 +38,15 @@ def _dtype(counts, values):
 # order: 1 + the lower order of a method and its embedded one; shortest_wave: its k^2; Rw: R, and ma: m_a of NOTATION.md
 RECORD = np.dtype(
     _dtype(
-        "nodes grid_at law law_at law_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt above end end_motion "
-        "end_at end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive max_newton loop_release "
-        "max_releases at_rest all_waves",
-        "m w0 EI p1 p2 p3 p4 p5 ct cn ma Rw depth k omega amplitude phase direction ramp "
-        "M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release end_fx end_fz end_decay "
-        "barrier c_quadratic c_linear per_strain per_force per_speed per_curvature "
-        "order rtol newton_tolerance fixed_step max_step min_step start_x start_z "
-        "inertia per_ringing phase_per_step shortest output_step release_step turn_step growth_per_step shortest_wave "
-        "profile_step window alpha_m alpha_f gamma pace",
+        "nodes grid_at law law_at law_n drag drag_at drag_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt "
+        "above end end_motion end_at end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive "
+        "max_newton loop_release max_releases at_rest all_waves",
+        "m w0 EI p1 p2 p3 p4 p5 diameter ct cn drag1 drag2 drag3 drag4 ma Rw depth k omega amplitude phase "
+        "direction ramp M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release "
+        "end_fx end_fz end_decay barrier c_quadratic c_linear per_strain per_force per_speed per_curvature order "
+        "rtol newton_tolerance fixed_step max_step min_step start_x start_z inertia per_ringing phase_per_step "
+        "shortest output_step release_step turn_step growth_per_step shortest_wave profile_step window alpha_m "
+        "alpha_f gamma pace",
     )
 )
 # Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own
@@ -57,15 +59,35 @@ SPATIAL = np.dtype(
     )
     + RECORD.descr
 )
-# A planar scene whose every term has the form that lanes have too (`engine.simd.cover.is_plain`): no other is compiled.
+# A planar scene whose every term has the form that lanes have too (`parameters.cover.is_plain`): no other is compiled.
 PLAIN = np.dtype(_dtype("plain", "") + RECORD.descr)
 # Scenes with a law of `engine.physics.extras`, in a plane and in space: no other scene has its fields, or compiles it
 _EXTRAS = _dtype(
     "surfaced floored",
-    "anchor_x anchor_y anchor_z damping pushed buoyed width bed_stiffness bed_damping bed_friction bed_speed bed_onset",
+    "anchor_x anchor_y anchor_z damping pushed buoyed bed_stiffness bed_damping bed_friction bed_speed bed_onset",
 )
 EXTRA = np.dtype(_dtype("extra", "") + _EXTRAS + RECORD.descr)
 EXTRA_SPATIAL = np.dtype(_dtype("extra_spatial", "") + _EXTRAS + SPATIAL.descr)
+
+
+class Kind(NamedTuple):
+    """What the type of a record says of its scene, so that each scene gets the kernels that it needs.
+
+    spatial: three dimensions; extras: a law of `engine.physics.extras`; plain: every term as lanes have it.
+    """
+
+    spatial: bool = False
+    extras: bool = False
+    plain: bool = False
+
+
+KINDS = {
+    RECORD: Kind(),
+    SPATIAL: Kind(spatial=True),
+    PLAIN: Kind(plain=True),
+    EXTRA: Kind(extras=True),
+    EXTRA_SPATIAL: Kind(spatial=True, extras=True),
+}
 # small_steps, cautious: steps of backward Euler, of slow growth still to come; attempts: steps tried up to window_end;
 # small, cut: the trial is one of backward Euler, ends at the corner (s), which no step may cross; dt_before: the last
 # accepted step (0: of no use); turned: upper node of the element whose released turn is held, with the sign of the
@@ -88,9 +110,9 @@ def lengths_of(record: np.void, tables: np.ndarray) -> np.ndarray:
 
 def has_extras(record: np.void | np.dtype) -> bool:
     """Is this record, or its dtype, that of a scene with a law of `engine.physics.extras`?"""
-    return "anchor_z" in getattr(record, "dtype", record).names
+    return KINDS[getattr(record, "dtype", record)].extras
 
 
 def is_spatial(record: np.void | np.dtype) -> bool:
     """Is this record, or its dtype, that of a scene in three dimensions?"""
-    return "GI" in getattr(record, "dtype", record).names
+    return KINDS[getattr(record, "dtype", record)].spatial

@@ -14,10 +14,10 @@ def open_streams() -> None:
         setattr(sys, name, stream)
 
 
-def printed(told: Callable[[], int]) -> int:
+def printed(command: Callable[[], int]) -> int:
     """The exit code of a function that prints; 0 where nobody reads to the end, as behind `| head`."""
     try:
-        code = told()
+        code = command()
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end of the process

@@ -75,9 +75,9 @@ def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "
     from analysis import spectrum as spectrum_of
 
     step_s, period_s = _forcing(run)
-    done, first = _periods(run), _transient(run, transient_periods)
-    length = (done - first) // WHOLE_WINDOW * WHOLE_WINDOW or done - first
-    return spectrum_of(_samples(run, column), step_s, period_s, done - length, length)
+    periods, first = _periods(run), _transient(run, transient_periods)
+    length = (periods - first) // WHOLE_WINDOW * WHOLE_WINDOW or periods - first
+    return spectrum_of(_samples(run, column), step_s, period_s, periods - length, length)
 
 
 def section(
@@ -99,10 +99,10 @@ def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
     if carried(run):
         return tangent_lyapunov(turned(run.tangent.growth_nats[:, 0], first))[0]
     radius_m = run.columns["radius_m"][round(first * period_s / step_s) :]
-    found = wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
-    if not found.found and carries_tangents(run.scene):
-        return replace(found, reason=f"{found.reason}; output.tangent_vectors = 1 measures it in {NEEDED} periods")
-    return found
+    result = wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
+    if not result.found and carries_tangents(run.scene):
+        return replace(result, reason=f"{result.reason}; output.tangent_vectors = 1 measures it in {NEEDED} periods")
+    return result
 
 
 def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) -> "Verdict":
@@ -118,11 +118,13 @@ def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) 
     strobed = poincare_section(coordinates, step_s, period_s).points
     growth = run.tangent.growth_nats[: len(strobed) - 1, 0] if carried(run) else None
     settings = {"scale": scale, "tolerance": STROBE_TOLERANCE, "max_period": LONGEST_PERIOD}
-    found = motion_regime(strobed, growth, tighter=tighter, **settings)
-    lacking = [] if found.evidence else [f"most motions are told in {look_after(look_after(look_after(0)))}"]
-    if growth is None and found.regime == "undecided" and carries_tangents(run.scene):
-        lacking.append("chaos and tori need output.tangent_vectors = 1")
-    return replace(found, reason="; ".join([found.reason, *lacking]))
+    result = motion_regime(strobed, growth, tighter=tighter, **settings)
+    reasons = [result.reason]
+    if not result.evidence:
+        reasons.append(f"most motions are told in {look_after(look_after(look_after(0)))}")
+    if growth is None and result.regime == "undecided" and carries_tangents(run.scene):
+        reasons.append("chaos and tori need output.tangent_vectors = 1")
+    return replace(result, reason="; ".join(reasons))
 
 
 def look_after(periods: int) -> int:
@@ -136,21 +138,22 @@ def facts(run: "Trajectory") -> dict[str, str]:
     """What a run did, in words: the name of a fact -> its text; extremes of all of it, and after its beginning."""
     waves, end_s = run.scene.waves, float(run.columns["time_s"][-1]) if len(run.columns["time_s"]) else 0.0
     length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.4g} s"
-    told = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
+    texts = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
     if run.message:
-        told["message"] = run.message
+        texts["message"] = run.message
     if run.began:
-        told["began"] = run.began
+        texts["began"] = run.began
     if len(run.columns["time_s"]) > 3:
-        told["radius"] = _extremes(run, "radius_m", "radius_m", "m")
-        told["tension"] = _extremes(run, "tension_top_low_N", "tension_top_high_N", "N at the top")
-    if loops := run.statistics.get("loop_releases"):
-        told["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
+        texts["radius"] = _extremes(run, "radius_m", "radius_m", "m")
+        texts["tension"] = _extremes(run, "tension_top_low_N", "tension_top_high_N", "N at the top")
+    loops = run.statistics.get("loop_releases")
+    if loops:
+        texts["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
     if run.status == "ok" and in_regular_waves(run.scene):
         if carried(run):
-            told["exponent"] = f"{exponent(run, None)}, after wave period {_transient(run, None)}"
-        told["verdict"] = str(verdict(run))
-    return told
+            texts["exponent"] = f"{exponent(run, None)}, after wave period {_transient(run, None)}"
+        texts["verdict"] = str(verdict(run))
+    return texts
 
 
 def _extremes(run: "Trajectory", low: str, high: str, unit: str) -> str:
@@ -164,8 +167,8 @@ def _extremes(run: "Trajectory", low: str, high: str, unit: str) -> str:
     for first in sorted({0, min(begun, len(time_s) - 1)}):
         least, largest = first + run.columns[low][first:].argmin(), first + run.columns[high][first:].argmax()
         ends = f"{run.columns[low][least]:.2f} (t = {time_s[least]:.5g} s)", f"{run.columns[high][largest]:.2f} {unit}"
-        after = f"after t = {time_s[first]:.5g} s" if first else "whole run"
-        texts.append(f"{after}: {' to '.join(ends)} (t = {time_s[largest]:.5g} s)")
+        part = f"after t = {time_s[first]:.5g} s" if first else "whole run"
+        texts.append(f"{part}: {' to '.join(ends)} (t = {time_s[largest]:.5g} s)")
     return "; ".join(texts)
 
 
@@ -178,7 +181,7 @@ def html(run: "Trajectory") -> str:
 def dataset(run: "Trajectory") -> "xarray.Dataset":
     import xarray
 
-    from engine.final_state import PREFIX
+    from engine.trajectory.final_state import PREFIX
 
     data = xarray.load_dataset(BytesIO(run.to_bytes()), engine="scipy")
     return data.drop_vars([name for name in data.variables if name.startswith(PREFIX)])
@@ -193,7 +196,8 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     time, unit, parts = run.columns["time_s"], "t (s)", {"": slice(None)}
     rows = [["tension", "path"], ["radius", "path"]]
     sound = all(np.isfinite(values).all() for values in run.columns.values())
-    if forced := sound and _forced(run.scene) is not None and _periods(run) > 1:
+    forced = sound and _forced(run.scene) is not None and _periods(run) > 1
+    if forced:
         period_s = _forcing(run)[1]
         time, unit = time / period_s, "t/T (forcing periods)"
         parts["last "] = time >= time[-1] - LAST_PERIODS
@@ -201,13 +205,13 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 2.5 * len(rows)), layout="constrained")
     axes = figure.subplot_mosaic(rows)
     for prefix, part in parts.items():
-        when = f", last {LAST_PERIODS} periods" if prefix else ""
+        span = f", last {LAST_PERIODS} periods" if prefix else ""
         low, high, top = (run.columns[f"tension_top{kind}_N"][part] for kind in ("_low", "_high", ""))
         axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0, rasterized=True)
         axes[f"{prefix}tension"].plot(time[part], top, **look)
-        axes[f"{prefix}tension"].set(title=f"tension at the upper end (N){when}")
+        axes[f"{prefix}tension"].set(title=f"tension at the upper end (N){span}")
         axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
-        axes[f"{prefix}radius"].set(xlabel=unit, title=f"distance r from the anchor (m){when}")
+        axes[f"{prefix}radius"].set(xlabel=unit, title=f"distance r from the anchor (m){span}")
     if forced:
         points, lines = run.section().points, run.spectrum()
         axes["section"].plot(*points.T, ".", markersize=3)
@@ -220,8 +224,9 @@ def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
     else:
         axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
         axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")
-    found = verdict(run).regime if run.status == "ok" and in_regular_waves(run.scene) else run.status
-    figure.suptitle(f"{run.scene.title or run.scene.name}: {found}")
+    judged = run.status == "ok" and in_regular_waves(run.scene)
+    outcome = verdict(run).regime if judged else run.status
+    figure.suptitle(f"{run.scene.title or run.scene.name}: {outcome}")
     if path is not None:
         content, kind = BytesIO(), str(path).rpartition(".")[2]
         figure.savefig(content, format=kind, dpi=100)
@@ -256,6 +261,6 @@ def _periods(run: "Trajectory") -> int:
     return int((len(run.columns["time_s"]) - 1) * step_s / period_s + 1e-6)
 
 
-def _transient(run: "Trajectory", given: int | None) -> int:
-    """Periods left out: those given, else the first third of the run, as `analysis.motion_regime` does."""
-    return _periods(run) // 3 if given is None else given
+def _transient(run: "Trajectory", periods: int | None) -> int:
+    """Periods left out: these, else the first third of the run, as `analysis.motion_regime` does."""
+    return _periods(run) // 3 if periods is None else periods

@@ -142,11 +142,11 @@ def compiled_in_parts(function, folder: Path | None):
     Functions of plain Numba that call it get its own machine code: they would not take in what the part calls.
     """
     part = compiled(function, None, no_cpython_wrapper=True, pipeline_class=_PartCompiler)
-    whole = compiled(function, folder, pipeline_class=_WholeCompiler)
+    complete = compiled(function, folder, pipeline_class=_WholeCompiler)
 
     def chosen(name):
-        of_part, own = getattr(part, name), getattr(whole, name)
-        return lambda *arguments: (of_part if _within_kernel(whole.typingctx) else own)(*arguments)
+        of_part, of_complete = getattr(part, name), getattr(complete, name)
+        return lambda *arguments: (of_part if _within_kernel(complete.typingctx) else of_complete)(*arguments)
 
-    whole.get_call_template, whole.get_overload = chosen("get_call_template"), chosen("get_overload")
-    return whole
+    complete.get_call_template, complete.get_overload = chosen("get_call_template"), chosen("get_overload")
+    return complete

@@ -40,13 +40,13 @@ def hash_of(*packages: Path, endings: tuple[str, ...] = (".py",)) -> str:
 
 def kept_hash(files: Mapping[str, Path]) -> str:
     """`sources.code_hash`, remembered on disk."""
-    return code_hash(files, folder_for("sources", "code", kept=1))
+    return code_hash(files, folder_for("sources", "code", count=1))
 
 
-def folder_for(name: str, sources: str, kept: int) -> Path | None:
+def folder_for(name: str, sources: str, count: int) -> Path | None:
     """Folder `name`-`sources` for machine code; None where nothing can be written.
 
-    In $TETHER_CACHE_DIR, else the user's cache, else a temporary folder. Of older folders of this name the last `kept`
+    In $TETHER_CACHE_DIR, else the user's cache, else a temporary folder. Of older folders of this name the last `count`
     stay.
     """
     for root in _roots():
@@ -59,7 +59,7 @@ def folder_for(name: str, sources: str, kept: int) -> Path | None:
         probe.close()
         with contextlib.suppress(OSError):  # another process may be dropping the same folders
             older = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
-            for _, old in older[: -kept or None]:
+            for _, old in older[: -count or None]:
                 shutil.rmtree(old, ignore_errors=True)
         _in_use.append(folder)
         return folder

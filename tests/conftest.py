@@ -3,7 +3,7 @@
 import pytest
 
 MANY = 1000  # tests, from which nearly every kernel is needed
-SCENES = (  # what most tests need: changes of the tethered buoy, and as of `engine.pieces.shares_of`
+SCENES = (  # what most tests need: changes of the tethered buoy, and as of `engine.run.pieces.shares_of`
     ({}, True, True),
     ({}, False, True),
     ({"buoy.submergence": "spherical-cap"}, False, False),

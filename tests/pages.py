@@ -11,13 +11,16 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 # pages of docs/ with a block of Python: all their blocks are run, in order
 PAGES = sorted(path.stem for path in (ROOT / "docs").glob("*.md") if "```python" in path.read_text(encoding="utf-8"))
-PAGES += ["gallery", "../README"]
+PAGES += ["../README"]
 COMMAND = ".venv/bin/python -m "
 NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
 
 
 def blocks(name: str) -> list[tuple[str, str]]:
-    """(kind, text) of every fenced block of docs/NAME.md, in order."""
+    """(kind, text) of every fenced block of docs/NAME.md, in order.
+
+    A block of the kind "text" is what the block of Python before it prints; "output" is what a script prints.
+    """
     text = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8")
     return re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE)
 

@@ -49,9 +49,10 @@ def done(order: Order):
     """
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
-    from campaigns.machinery.folder import made_by, write_table
+    from campaigns.machinery.folder import made_by
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
+    from tables import write_table
 
     own, out, ours = order.own, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
@@ -93,13 +94,13 @@ def parameters(order: Order) -> dict[str, object]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
-    from campaigns.answers import known
+    from tables import number_of
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     sentences = []
     for work in order.own.effort.works:
         shipped_rows = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
-        if errors := [known(row, "error") for row in shipped_rows if isfinite(known(row, "error"))]:
+        if errors := [number_of(row, "error") for row in shipped_rows if isfinite(number_of(row, "error"))]:
             wall_ms = (
                 1e3 * median(row["wall_s"] for row in shipped_rows) * BY_NAME[work].period_s / BY_NAME[work].duration_s
             )

@@ -16,10 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns import columns
 from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.machinery.folder import run_of
+from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)

@@ -7,7 +7,7 @@
 Protocol: without --scene the buoy is in 22.5 m of water, where it has two motions. The motions are found from rest,
 from motions of a massless tether, and from starts spread over the grid until 24 of them find no new one. Then all other
 starts run until they join a motion or settle on one of their own, at most for 160 wave periods; what has not settled by
-then is counted as unsettled. Each motion is judged by a run of its own (docs/verdicts.md), and goes on at a tenth of
+then is counted as unsettled. Each motion is judged by a run of its own (docs/motions.md), and goes on at a tenth of
 the tolerance and on a finer grid of the line. The smallest start that leads to the motion of the largest tension is
 searched over its direction, and bisected in size to 1 %, on both grids. The edge state between that motion and the one
 from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.
@@ -21,10 +21,10 @@ from campaigns.explore.settings import ROW_SOURCES
 from campaigns.explore.sweep import ONLY, SPEED_MPS
 from campaigns.judge import judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
+from tables import read_table, write_table
 
 COUNT, MOVED_M, BUDGET = 15, 2.0, 1500
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -130,7 +130,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("motions", "shock", "edge"), ())
     for folder in parts:
         with contextlib.suppress(OSError, ValueError):  # none, as where there is one motion
-            parts[folder] = read_rows(order.how.out / folder / "table.csv")
+            parts[folder] = read_table(order.how.out / folder / "table.csv")
     return sentences(rows, order.own.grid.across, order.cases[0].scene, parts)
 
 

@@ -3,14 +3,12 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from campaigns.answers import Row, greatest, kilonewton, known, spans
+from campaigns.answers import greatest, kilonewton
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.explore.along import from_rest
 from campaigns.explore.answer import use_of
-from campaigns.explore.starts import UNSETTLED
-from campaigns.statements import listed
+from tables import PEAK, UNSETTLED, Row, listed, number_of, ranges
 
-PEAK = "tension_top_max_N"
 NONE_FOUND = "No start has settled, so there is no motion to name."
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
@@ -25,13 +23,13 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
         yield NONE_FOUND
         return
     ways = listed(f"{one['motion']}{' from rest' if from_rest(one) else ''} ({_pull(one)})" for one in motions)
-    at = f"kA = {known(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
+    at = f"kA = {number_of(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
     yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
     yield _shares(rows, motions)
     if worst is motions[0] and len(motions) > 1:
         yield f"Motion {worst['motion']} pulls hardest: no start of the grid leads to more."
     elif parts["shock"]:
-        times = known(worst, PEAK) / known(motions[0], PEAK)
+        times = number_of(worst, PEAK) / number_of(motions[0], PEAK)
         yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as A."
     if parts["shock"]:
         yield _shock(parts["shock"], across)
@@ -50,7 +48,7 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
 
 
 def _pull(one: Row) -> str:
-    return f"{one.get('regime') or one['status']}, {kilonewton(known(one, PEAK))}"
+    return f"{one.get('regime') or one['status']}, {kilonewton(number_of(one, PEAK))}"
 
 
 def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
@@ -65,9 +63,9 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     """The direction of a smallest start in words: "23 degrees below the direction of the waves"."""
     if PHASE in across:
         ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
-        way = ways[known(shock, COLUMNS[across[0]]) < 0.0]
+        way = ways[number_of(shock, COLUMNS[across[0]]) < 0.0]
         return f"{way}, {_phase(shock):.2f} T before a crest,"
-    x, z = (known(shock, COLUMNS[one]) for one in across)
+    x, z = (number_of(shock, COLUMNS[one]) for one in across)
     angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
     ahead = "along the waves" if x >= 0.0 else "against the waves"
     if STRAIGHT < angle < 90.0 - STRAIGHT:
@@ -80,24 +78,26 @@ def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
     if not good:
         return f"No smallest start was found: {rows[0]['message']}."
     first, *others = good
-    if known(first, "size") == 0.0:
+    if number_of(first, "size") == 0.0:
         return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
-    said = f"{known(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
+    said = (
+        f"{number_of(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
+    )
     for row in others:
-        said += f"; on {known(row, 'nodes'):.0f} nodes {known(row, 'size'):.2g} {unit} {_way(row, across)}"
+        said += f"; on {number_of(row, 'nodes'):.0f} nodes {number_of(row, 'size'):.2g} {unit} {_way(row, across)}"
     return f"{said}." if others else f"{said}; on a finer grid of the line {rows[-1]['message']}."
 
 
 def _phase(row: Row) -> float:
     """Time from the start to a crest, as a share of the wave period."""
-    return known(row, COLUMNS[PHASE]) / (2.0 * math.pi)
+    return number_of(row, COLUMNS[PHASE]) / (2.0 * math.pi)
 
 
 def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
     least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)
     for row in (row for row in rows if row["motion"] == letter):
-        least[_phase(row)] = min(abs(known(row, COLUMNS[across[0]])), least[_phase(row)])
+        least[_phase(row)] = min(abs(number_of(row, COLUMNS[across[0]])), least[_phase(row)])
     sizes, phases = list(least.values()), [round(phase, 3) for phase in least]
     low, high = min(sizes), max(filter(math.isfinite, sizes), default=math.inf)
     told = {
@@ -105,7 +105,9 @@ def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
         f"it takes {high:.2g} m/s, the most": high,
         "none is needed" if low == 0.0 else f"{low:.2g} m/s are enough": low,
     }
-    found = (f"at {spans([size == of for size in sizes], phases)} T {said}" for said, of in told.items() if of in sizes)
+    found = (
+        f"at {ranges(phases, [size == of for size in sizes], 2)} T {said}" for said, of in told.items() if of in sizes
+    )
     return f"How a gust leads to {letter}, by the time from it to a crest: {'; '.join(reversed([*found]))}."
 
 
@@ -113,9 +115,9 @@ def _edge(edge: Row) -> Iterator[str]:
     if edge["status"] != "ok":
         yield f"No edge state between {edge['motion']} and {edge['other']} could be followed: the border was lost."
         return
-    period = known(edge, "strobed_period")
+    period = number_of(edge, "strobed_period")
     kind = f"a motion of period {period:.0f}" if math.isfinite(period) else "a motion without a period up to 16"
-    pull, growth = kilonewton(known(edge, PEAK)), known(edge, "growth_bits_per_period")
+    pull, growth = kilonewton(number_of(edge, PEAK)), number_of(edge, "growth_bits_per_period")
     yield (
         f"Between {edge['motion']} and {edge['other']} lies {kind} that no start keeps ({pull}): runs leave it by "
         f"{growth:.2g} bits a period."

@@ -11,13 +11,13 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.basins.found import Found
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.explore.along import Motion
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, section_of
 from campaigns.judge import job_from
-from campaigns.machinery.folder import run_of, write_table
+from campaigns.machinery.folder import run_of
 from engine.views import LONGEST_PERIOD
+from tables import MESSAGE, RUN_KEY, STATUS, Column, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -64,7 +64,7 @@ class Edge:
 
         None where rounds have run out, or the border has been lost.
         """
-        from engine.going_on import between
+        from engine.run.going_on import between
 
         starts, beyond = self.found.along.starts, 0.0 if self.known else BEYOND
         while self.rounds < ROUNDS and beyond <= BEYOND**3:

@@ -4,16 +4,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from campaigns.basins.grid import Grid
-from campaigns.columns import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column
 from campaigns.explore.along import FROM_REST, MOTION, Along, Motion
 from campaigns.explore.proposals import proposals
 from campaigns.explore.rows import STEEPNESS
-from campaigns.explore.starts import JOINED, KICKS, OUTCOME, Asked, Ended, Start, as_it_is, settled_of
+from campaigns.explore.starts import KICKS, OUTCOME, Asked, Ended, Start, as_it_is, settled_of
 from campaigns.judge import judged_job
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
+from tables import JOINED, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
 PEAK = Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line in its motion", 0)

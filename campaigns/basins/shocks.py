@@ -5,11 +5,10 @@ from functools import partial
 
 from campaigns.basins.found import Found
 from campaigns.basins.smallest import Shock, smallest
-from campaigns.columns import MESSAGE, STATUS, Column
 from campaigns.explore.along import MOTION, Motion
 from campaigns.explore.starts import KICKS
-from campaigns.machinery.folder import write_table
 from engine.scene import scene_from_toml
+from tables import MESSAGE, STATUS, Column, write_table
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not
 FOLDER = "shock"

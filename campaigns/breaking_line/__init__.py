@@ -137,15 +137,15 @@ def beside(order: Order) -> Iterator[Callable]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """Speeds of the broken ends, how far they are off theory, and the paper's statements that do not hold."""
-    from campaigns.answers import known, verdicts
-    from campaigns.statements import listed
+    from campaigns.answers import verdicts
+    from tables import listed, number_of
 
     speeds, errors = [], []
     for row in rows:
         if row["kind"] != "case" or row["status"] != "ok":
             continue
-        speeds.append(f"{known(row, 'end_speed_mps'):.0f} (case {row['case']})")
-        error = known(row, "end_speed_error")
+        speeds.append(f"{number_of(row, 'end_speed_mps'):.0f} (case {row['case']})")
+        error = number_of(row, "end_speed_error")
         if isfinite(error):
             errors.append(abs(error))
     if speeds:

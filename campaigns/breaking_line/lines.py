@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.breaking_line.theory import theory_of
-from campaigns.machinery.folder import Row as Line
-from campaigns.machinery.folder import read_rows, run_of
+from campaigns.machinery.folder import run_of
+from tables import Row as Line
+from tables import read_table
 
 FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 CASES = (*FAST, *SLOW)
@@ -29,7 +30,7 @@ PRINTED = {  # of the four tensions: strain, and share of the strength, which ca
 def read_lines(folder: Path) -> tuple[Line, ...]:
     """Every run of the folder's table. Raises OSError, ValueError (`tables.read_rows`)."""
     lines = []
-    for line in read_rows(folder / "table.csv"):
+    for line in read_table(folder / "table.csv"):
         run = motion_of(folder, line)
         if run is not None:
             line |= _from_theory(run)

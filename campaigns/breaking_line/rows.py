@@ -10,7 +10,7 @@ import numpy as np
 
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
-from campaigns.columns import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, counted
+from tables import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, counted
 
 _COUNTED = tuple(column for column in STATISTICS if column not in (LOOPS, REJECTED))
 COLUMNS = (

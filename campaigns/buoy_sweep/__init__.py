@@ -4,7 +4,7 @@
     python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
 
 Protocol: the same scene from rest for every value of waves.steepness, each as long as its regime needs
-(docs/verdicts.md) and not beyond --budget, or all of --periods; then every other motion that is found there
+(docs/motions.md) and not beyond --budget, or all of --periods; then every other motion that is found there
 (docs/motions.md), one row a motion. `--starts rest` leaves these out. The transient, found by the verdict or given, is
 left out of extremes, slack and section. Kicks are drawn by --seed; nothing else is random.
 
@@ -22,15 +22,14 @@ from campaigns.explore.settings import ROW_SOURCES, settings_of
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
+from tables import read_table
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
-PAPER_STEEPNESS = (0.016, 0.13)
 SWEPT = "waves.steepness"
 DIMENSIONS = ("2", "3", "auto")
 
@@ -147,7 +146,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     found: dict[str, tuple[dict, ...]] = {}
     for folder in (name for name, made in beside.items() if made):
         with contextlib.suppress(OSError, ValueError):  # none, as where no run ended
-            found[folder] = read_rows(order.how.out / folder / "table.csv")
+            found[folder] = read_table(order.how.out / folder / "table.csv")
     return sentences(rows, "steepness", "kA", order.cases[0].scene, **found)
 
 

@@ -11,24 +11,34 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from string import ascii_uppercase
 
-from campaigns.columns import Column
 from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import FOUND_BY, Asked, Ended, Start, Starts, as_it_is, settled_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan
+from tables import REGIMES, SHEET, Column
 
 MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
 MOTIONS = (
     MOTION,
     Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
-    Column("share_low", "", "share ≥", "lower end of its 95 % interval (Wilson), for kicks drawn independently", 2),
-    Column("share_high", "", "share ≤", "upper end of its 95 % interval (Wilson), for kicks drawn independently", 2),
-    Column("kicks", "", "kicks", "kicks at this value, of which the share is", 0),
+    Column(
+        "share_low", "", "share ≥", "lower end of its 95 % interval (Wilson), for kicks drawn independently", 2, REGIMES
+    ),
+    Column(
+        "share_high",
+        "",
+        "share ≤",
+        "upper end of its 95 % interval (Wilson), for kicks drawn independently",
+        2,
+        REGIMES,
+    ),
+    Column("kicks", "", "kicks", "kicks at this value, of which the share is", 0, SHEET),
     FOUND_BY,
     Column(
         "confirmed",
         symbol="confirmed",
         meaning="whether its branch stays at a tenth of the tolerance and on a finer grid",
+        page=SHEET,
     ),
 )
 UP, DOWN = 1, -1

@@ -9,23 +9,31 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from statistics import median
 
-from campaigns.answers import OPEN_WORDS, Row, between, greatest, kilonewton, known, of_kicks, regimes, spans
+from campaigns.answers import OPEN_WORDS, greatest, kilonewton, regimes
 from campaigns.explore.along import from_rest
 from campaigns.machinery.session import MOST_LINES
-from campaigns.statements import listed
 from engine.views import in_regular_waves
+from tables import (
+    BUOY_HEIGHT,
+    CAPPED,
+    COARSE,
+    EMPTY,
+    OTHER_MOTION,
+    PEAK,
+    PEAK_ERROR,
+    Row,
+    listed,
+    number_of,
+    of_kicks,
+    ranges,
+)
 
-PEAK, ERROR = "tension_top_max_N", "tension_top_max_error_N"
-HEIGHT = "max_buoy_height_above_water_m"
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
 MOST_ENDS = 4  # that are told
 TOLD = 3  # jumps beside the largest that are told
 SMALLER = "Smaller jumps of the largest tension between"
 FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
 LOOPS = "loops were released (motion.dimensions)"
-COARSE = 0.05  # of the largest tension: an error above it is told in words
-OTHER = "becomes another motion"  # said in a row's message (`errors.error_N`)
-CAPPED = "wetted cap"  # role of companions
 
 
 def sentences(
@@ -35,12 +43,12 @@ def sentences(
 
     companions, ends: rows of its folders of these names.
     """
-    good = [row for row in rows if row["status"] == "ok" and math.isfinite(known(row, PEAK))]
+    good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
     if not good:
         return ["No run lasts beyond the transient, so nothing can be said of the motion."]
-    good.sort(key=lambda row: known(row, key))
+    good.sort(key=lambda row: number_of(row, key))
     first = [row for row in good if from_rest(row)]
-    regular, rest = regimes(first, symbol, [known(row, key) for row in first], scene)
+    regular, rest = regimes(first, symbol, [number_of(row, key) for row in first], scene)
     many = [*coexisting(good, key, symbol, ends)]
     said = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular] if many else regular
     found = [*said, *jumps(first, key, symbol), *rest, *many, *use(good, key, symbol, scene, companions)]
@@ -49,49 +57,54 @@ def sentences(
 
 def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """The largest jump in numbers, and where the next ones are. rows: sorted."""
-    pairs = [(abs(math.log(known(b, PEAK) / known(a, PEAK))), a, b) for a, b in pairwise(rows) if _pull(a) and _pull(b)]
+    pairs = [
+        (abs(math.log(number_of(b, PEAK) / number_of(a, PEAK))), a, b)
+        for a, b in pairwise(rows)
+        if _pull(a) and _pull(b)
+    ]
     least = max(LEAST_JUMP, TYPICAL * median(size for size, *_ in pairs)) if pairs else math.inf
     found = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
     for _, a, b in found[:1]:
-        before, after = (known(row, "radius_max_m") - known(row, "radius_min_m") for row in (a, b))
-        slack = (100.0 * known(row, "slack_fraction") for row in (a, b))
+        before, after = (number_of(row, "radius_max_m") - number_of(row, "radius_min_m") for row in (a, b))
+        slack = (100.0 * number_of(row, "slack_fraction") for row in (a, b))
         yield (
-            f"Between {symbol} = {known(a, key):.4g} and {known(b, key):.4g} the motion jumps to one "
+            f"Between {symbol} = {number_of(a, key):.4g} and {number_of(b, key):.4g} the motion jumps to one "
             f"{after / before if before else math.inf:.2g} times as large: peak tension {_change(a, b)}, "
             f"swing of r {before:.2f} -> {after:.2f} m, "
             "time with less than 5 % of the static tension {:.0f} -> {:.0f} %.".format(*slack)
         )
-    if more := sorted((known(a, key), known(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
+    if more := sorted((number_of(a, key), number_of(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
         yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
 
 
 def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> Iterator[str]:
     """Where one value has several motions, the one that pulls hardest there, and where motions end."""
-    values = list(dict.fromkeys(known(row, key) for row in rows))
-    at = {value: [row for row in rows if known(row, key) == value] for value in values}
+    values = list(dict.fromkeys(number_of(row, key) for row in rows))
+    at = {value: [row for row in rows if number_of(row, key) == value] for value in values}
     several = [value for value in values if len(at[value]) > 1]
     if not several:
         return
     worst, usual = max(
         (
-            (greatest(at[value], PEAK), min(at[value], key=lambda row: (not from_rest(row), known(row, PEAK))))
+            (greatest(at[value], PEAK), min(at[value], key=lambda row: (not from_rest(row), number_of(row, PEAK))))
             for value in several
         ),
-        key=lambda pair: known(pair[0], PEAK) / max(known(pair[1], PEAK), 1e-9),
+        key=lambda pair: number_of(pair[0], PEAK) / max(number_of(pair[1], PEAK), 1e-9),
     )
-    said = f"One wave has several motions at {symbol} = {spans([value in several for value in values], values)}"
+    said = f"One wave has several motions at {symbol} = {ranges(values, [value in several for value in values], 2)}"
     if worst is not usual:
         rest = "the one from rest" if from_rest(usual) else f"motion {usual['motion']}"
-        counted = of_kicks(worst)
-        share = f", and {counted} kicks end in it (95 % interval of the share: {between(worst)})" if counted else ""
-        said += (
-            f"; at {symbol} = {known(worst, key):.4g} motion {worst['motion']} pulls {kilonewton(known(worst, PEAK))}, "
-            f"{rest} {kilonewton(known(usual, PEAK))}{share}"
-        )
+        share, counted = "", of_kicks(worst)
+        if counted != EMPTY:
+            interval = f"{number_of(worst, 'share_low'):.2f} to {number_of(worst, 'share_high'):.2f}"
+            share = f", and {counted} kicks end in it (95 % interval of the share: {interval})"
+        pulls, usual_pulls = (kilonewton(number_of(row, PEAK)) for row in (worst, usual))
+        place = f"{symbol} = {number_of(worst, key):.4g}"
+        said += f"; at {place} motion {worst['motion']} pulls {pulls}, {rest} {usual_pulls}{share}"
     yield f"{said}."
     words = []
     for end in ends:
-        exact, inside, outside = (known(end, f"{key}_{side}") for side in ("end", "with", "without"))
+        exact, inside, outside = (number_of(end, f"{key}_{side}") for side in ("end", "with", "without"))
         told = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
         becomes = f", into {end['leads_to']}" if end.get("leads_to") else ""
         words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {told}{becomes}")
@@ -102,26 +115,26 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) 
 
 
 def _pull(row: Row) -> bool:
-    return known(row, PEAK) > 0.0
+    return number_of(row, PEAK) > 0.0
 
 
 def _change(before: Row, after: Row) -> str:
     """ "4.4 -> 9.4 kN"."""
-    return f"{known(before, PEAK) / 1e3:.2g} -> {known(after, PEAK) / 1e3:.2g} kN"
+    return f"{number_of(before, PEAK) / 1e3:.2g} -> {number_of(after, PEAK) / 1e3:.2g} kN"
 
 
 def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> Iterator[str]:
     """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
-    times = f" ({known(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
+    times = f" ({number_of(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
     motion = "" if from_rest(peak) else f", motion {peak['motion']}"
-    said = f"Largest tension {largest(peak)} at {symbol} = {known(peak, key):.4g}{motion}{times}"
+    said = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}{motion}{times}"
     sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
     for row in sound:
         if _of(row, key) == _of(peak, key):
-            said += f"; with the {CAPPED} {kilonewton(known(row, PEAK))}"
+            said += f"; with the {CAPPED} {kilonewton(number_of(row, PEAK))}"
     yield f"{said}."
-    searched = any(math.isfinite(known(row, "share")) for row in rows)
+    searched = any(math.isfinite(number_of(row, "share")) for row in rows)
     if scene is None:
         return
     yield use_of(peak, scene, searched)
@@ -129,7 +142,7 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     if free is None or free is peak:
         return
     which = f"With the {CAPPED} the largest tension is" if free in sound else "Largest tension without that:"
-    yield f"{which} {largest(free)} at {symbol} = {known(free, key):.4g}. {use_of(free, scene, searched)}"
+    yield f"{which} {largest(free)} at {symbol} = {number_of(free, key):.4g}. {use_of(free, scene, searched)}"
 
 
 def use_of(row: Row, scene, searched: bool) -> str:
@@ -143,18 +156,18 @@ def use_of(row: Row, scene, searched: bool) -> str:
 
 def _checks(row: Row, scene, searched: bool) -> str:
     """What was checked of the tension of a row, and what was not, by what the row knows and the scene has."""
-    error, waves = known(row, ERROR) / known(row, PEAK), scene.waves
-    room = 3 in (known(row, "dimensions"), scene.motion.dimensions)
+    error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
+    room = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
     grid = f"grid and steps (± {100.0 * error:.2g} %)" if math.isfinite(error) else "grid and steps"
-    checks = {grid: math.isfinite(error), "loops": math.isfinite(known(row, "loop_releases"))}
+    checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
     if scene.buoy is not None and waves is not None:
         wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
-        checks["wetted buoy"] = wetted or math.isfinite(known(row, HEIGHT))
+        checks["wetted buoy"] = wetted or math.isfinite(number_of(row, BUOY_HEIGHT))
     if in_regular_waves(scene):
         checks["that the motion has settled"] = row.get("regime") not in (None, "", *OPEN_WORDS)
         checks |= {"other motions": searched, "an irregular sea": False}
     elif waves is not None:
-        checks[f"a sea longer than its {known(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
+        checks[f"a sea longer than its {number_of(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
     if scene.water is not None:
         checks["the sea bed"] = scene.floor is not None
     checks["motion out of the plane"] = room
@@ -164,25 +177,25 @@ def _checks(row: Row, scene, searched: bool) -> str:
 
 def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
-    error = known(row, ERROR)
-    return f"{kilonewton(known(row, PEAK))}{f' (± {error / 1e3:.2g} kN)' if math.isfinite(error) else ''}"
+    error = number_of(row, PEAK_ERROR)
+    return f"{kilonewton(number_of(row, PEAK))}{f' (± {error / 1e3:.2g} kN)' if math.isfinite(error) else ''}"
 
 
 def _of(row: Row, key: str) -> tuple:
-    return known(row, key), str(row.get("motion") or "")
+    return number_of(row, key), str(row.get("motion") or "")
 
 
 def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
     if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
-        if row.get("role") != CAPPED and known(row, HEIGHT) > scene.buoy.diameter_m:
+        if row.get("role") != CAPPED and number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m:
             yield FLIES
-    if known(row, "loop_releases") > 0 and known(row, "dimensions") != 3:
+    if number_of(row, "loop_releases") > 0 and number_of(row, "dimensions") != 3:
         yield LOOPS
-    if known(row, ERROR) > COARSE * known(row, PEAK):
-        yield f"it holds to {100.0 * known(row, ERROR) / known(row, PEAK):.0f} % only"
-    if OTHER in str(row.get("message")):
-        yield f"with smaller elements and steps it {OTHER}"
+    if number_of(row, PEAK_ERROR) > COARSE * number_of(row, PEAK):
+        yield f"it holds to {100.0 * number_of(row, PEAK_ERROR) / number_of(row, PEAK):.0f} % only"
+    if OTHER_MOTION in str(row.get("message")):
+        yield f"with smaller elements and steps it {OTHER_MOTION}"
 
 
 def static_tension(scene) -> float | None:

@@ -14,15 +14,14 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.answers import greatest
-from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
 from campaigns.explore.along import MOTION, from_rest
-from campaigns.explore.answer import CAPPED
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of, run
 from engine.scene import scene_from_toml
+from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
 
 ROLE = Column("role", symbol="role", meaning="what was changed in the run of table.csv")
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
@@ -123,7 +122,7 @@ def start_of(plan: Plan, row: dict):
 def of_largest_tension(rows: list[dict]) -> dict | None:
     """The row of the largest tension; None where no run ended as asked."""
     good = [row for row in rows if row["status"] == "ok" and row.get("run_key")]
-    return greatest(good, "tension_top_max_N") or next(iter(good), None)
+    return greatest(good, PEAK) or next(iter(good), None)
 
 
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:

@@ -3,12 +3,11 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.explore.along import CARRIED, DOWN, MOTION, UP, Along, Motion
-from campaigns.explore.starts import JOINED, Asked, Ended, Start
+from campaigns.explore.starts import Asked, Ended, Start
 from campaigns.judge import tighter_scene
-from campaigns.machinery.folder import write_table
 from engine.scene import scene_from_toml
+from tables import JOINED, MESSAGE, RUN_KEY, STATUS, Column, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly

@@ -29,18 +29,35 @@ from functools import partial
 
 import numpy as np
 
-from campaigns.answers import PERIODIC, kilonewton, known
-from campaigns.columns import MESSAGE, PERIODS_RUN, RINGING, RUN_KEY, STATUS, WALL_S, Column, counted
-from campaigns.explore.answer import COARSE, OTHER
+from campaigns.answers import kilonewton
 from campaigns.explore.approach import orbit_ahead
 from campaigns.explore.batches import UNFOLLOWED, Batch, changed, finer
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
-from campaigns.explore.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
+from campaigns.explore.starts import OUTCOME, as_it_is, section_of, settled_of
 from campaigns.judge import job_from, tighter_scene
-from campaigns.machinery.folder import read_rows, run_of, write_table
+from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Plan, Summary
 from engine import goes_in_lanes, simulate
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
+from tables import (
+    COARSE,
+    JOINED,
+    MESSAGE,
+    OTHER_MOTION,
+    PEAK,
+    PERIODIC,
+    PERIODS_RUN,
+    RINGING,
+    RUN_KEY,
+    STATUS,
+    UNSETTLED,
+    WALL_S,
+    Column,
+    counted,
+    number_of,
+    read_table,
+    write_table,
+)
 
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
 FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")
@@ -79,7 +96,7 @@ def errors(plan: Plan, summary: Summary) -> float:
     analysis_s = Batch("errors", "errors of the largest tensions", COLUMNS, companion_row, jobs, True).do(plan)
     if not jobs:
         return analysis_s
-    found = {row["of_run"]: row for row in read_rows(plan.how.out / "errors" / "table.csv")}
+    found = {row["of_run"]: row for row in read_table(plan.how.out / "errors" / "table.csv")}
     for row in summary.rows:
         if (companion := found.get(row.get("run_key"))) is not None:
             error, said = error_N(row, usual[row["run_key"]], companion)
@@ -139,7 +156,7 @@ def slack_shares(trajectory, transient_periods: float, period: int | None) -> np
 
 def slack_error(shares: np.ndarray, companion: dict) -> tuple[float, list[str]]:
     """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
-    away = abs(known(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
+    away = abs(number_of(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
     scatter = shares.std(ddof=1) if len(shares) > 1 else 0.0
     error = float(4.0 / 3.0 * away + 3.0 * scatter / math.sqrt(max(len(shares), 1)))
     told = error > SLACK_COARSE and away > 2.0 * scatter
@@ -153,11 +170,11 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str
     """
     if companion["status"] != "ok":
         return math.nan, [f"error of the largest tension not known: {CHANGED} the run ended, {companion['status']}"]
-    largest_N, again_N = known(row, "tension_top_max_N"), known(companion, USUAL.name)
+    largest_N, again_N = number_of(row, PEAK), number_of(companion, USUAL.name)
     error = largest_N - usual_N + 2.0 * abs(again_N - usual_N) + (row.get(RINGING.name) or 0.0)
     said = []
     if companion[OUTCOME.name] == UNSETTLED:
-        said.append(f"{CHANGED} it {OTHER}: largest tensions {kilonewton(usual_N)} -> {kilonewton(again_N)}")
+        said.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {kilonewton(usual_N)} -> {kilonewton(again_N)}")
     if error > COARSE * largest_N:
         said.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
     return error, said

@@ -1,7 +1,8 @@
 """The periodic orbit under a run of a buoy in regular waves: its multipliers, with their errors.
 
 A run near a stable orbit shows the orbit, not how fast perturbations die out along each direction, and not that the
-orbit is one. Newton's method on the map over a wave period (`engine.period_map`) finds it to 1e-9 from the last state.
+orbit is one. Newton's method on the map over a wave period (`engine.run.period_map`) finds it to 1e-9 from the last
+state.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from campaigns.columns import Column
+from tables import SHEET, Column
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,18 +29,21 @@ MULTIPLIERS = (
         "multiplier_modulus", "", "|μ|",
         "modulus of the leading multiplier of the periodic orbit: what a period of it makes of a perturbation", 3,
     ),
-    Column("multiplier_angle_rad", "rad", "arg μ", "angle of the leading multiplier in the complex plane, 0 to π", 3),
-    Column("multiplier_error", "", "± μ", "largest change of the multiplier over steps of the same tolerance", 3),
+    Column(
+        "multiplier_angle_rad", "rad", "arg μ",
+        "angle of the leading multiplier in the complex plane, 0 to π", 3, SHEET,
+    ),
+    Column("multiplier_error", "", "± |μ|", "largest change of the multiplier over steps of the same tolerance", 3),
 )  # fmt: skip
 
 
 def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     """The PeriodMap of a state, and the OrbitMap of it. size: the change of the parameter that counts as 1.
 
-    Raises ValueError and ArithmeticError as `engine.period_map.PeriodMap`.
+    Raises ValueError and ArithmeticError as `engine.run.period_map.PeriodMap`.
     """
     from analysis.orbits import OrbitMap
-    from engine.period_map import PeriodMap
+    from engine.run.period_map import PeriodMap
 
     cable = PeriodMap(scene_of, state, value)
     return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)

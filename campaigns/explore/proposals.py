@@ -12,7 +12,7 @@ from campaigns.machinery.folder import keep_json, kept_json, made_by
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.pools import opened
 from campaigns.machinery.progress import stage
-from engine.scales import tension_at
+from engine.physics.strains import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
 LONGER = 320  # wave periods of the start from rest and of kicks that come nearer to a period, if 80 do not settle them

@@ -10,28 +10,34 @@ import numpy as np
 
 from analysis.evidence import evidence_text
 from analysis.looks import CLOSE, next_look
-from campaigns.columns import (
+from campaigns.explore.along import MOTIONS
+from campaigns.explore.approach import judged_by_orbit
+from campaigns.explore.multipliers import MULTIPLIERS, orbit_row
+from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
+from engine.run.rest import static_tension_N
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
+from tables import (
     LINE_COUNTS,
     MESSAGE,
+    OPEN,
     PERIODS_RUN,
+    PLANE,
+    REGIMES,
     RUN_KEY,
+    SHEET,
     SOLVER_COUNTS,
     STATUS,
     Column,
     counted,
+    finite,
     names,
-    number,
 )
-from campaigns.explore.along import MOTIONS
-from campaigns.explore.approach import judged_by_orbit
-from campaigns.explore.multipliers import MULTIPLIERS, orbit_row
-from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
-from engine.at_rest import static_tension_N
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
-DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
-TRANSIENT = Column("transient_periods", "", "transient", "wave periods at the start that are left out of extremes", 0)
+DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0, PLANE)
+TRANSIENT = Column(
+    "transient_periods", "", "transient", "wave periods at the start that are left out of extremes", 0, REGIMES
+)
 STROBED = Column("strobed_period", "", "N", "wave periods after which the motion repeats; empty where none is found", 0)
 SLACK = Column(
     "slack_fraction", "", "χ",
@@ -46,7 +52,7 @@ EXTREMES = (
     Column("tension_top_min_N", "N", "T_min", "smallest tension at the top of the line after the transient", 0),
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line after the transient", 0),
     SLACK,
-    Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3),
+    Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3, SHEET),
 )  # fmt: skip
 ERROR = Column(
     "tension_top_max_error_N", "N", "± T_max",
@@ -57,18 +63,26 @@ SLACK_ERROR = Column(
     "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
 )
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
-REGIME = Column("regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided")
+REGIME = Column(
+    "regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided", page=REGIMES
+)
 _BITS = "bits/period"
 WOLF = (
-    Column("lyapunov_wolf_bits_per_period", _BITS, "σ_W", "largest Lyapunov exponent of r, by Wolf's method", 3),
+    Column(
+        "lyapunov_wolf_bits_per_period", _BITS, "σ_W", "largest Lyapunov exponent of r, by Wolf's method", 3, REGIMES
+    ),
     Column("lyapunov_wolf_error", _BITS, "± σ_W", "standard error of the exponent by Wolf's method", 3),
 )
 TANGENT = (
-    Column("lyapunov_tangent_bits_per_period", _BITS, "σ_t", "largest Lyapunov exponent, from tangent dynamics", 3),
+    Column(
+        "lyapunov_tangent_bits_per_period", _BITS, "σ_t", "largest Lyapunov exponent, from tangent dynamics", 3, REGIMES
+    ),
     Column("lyapunov_tangent_error", _BITS, "± σ_t", "standard error of the exponent from tangent dynamics", 3),
 )
 OFFPLANE = (
-    Column("offplane_growth_bits_per_period", _BITS, "σ_y", "growth of an infinitesimal push across the plane", 3),
+    Column(
+        "offplane_growth_bits_per_period", _BITS, "σ_y", "growth of an infinitesimal push across the plane", 3, SHEET
+    ),
     Column("offplane_growth_error", _BITS, "± σ_y", "standard error of the growth rate across the plane", 3),
 )
 HEIGHT = Column(
@@ -81,9 +95,14 @@ COLUMNS = (
     *MOTIONS,
     STATUS,
     REGIME,
-    Column("regime_tighter", symbol="tighter", meaning="regime of a chaotic run repeated at a tenth of the tolerance"),
-    Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words"),
-    Column("evidence", symbol="evidence", meaning="tests behind the regime: name, value, threshold, met"),
+    Column(
+        "regime_tighter",
+        symbol="tighter",
+        meaning="regime of a chaotic run repeated at a tenth of the tolerance",
+        page=SHEET,
+    ),
+    Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words", page=SHEET),
+    Column("evidence", symbol="evidence", meaning="tests behind the regime: name, value, threshold, met", page=SHEET),
     PERIODS_RUN,
     TRANSIENT,
     STROBED,
@@ -96,14 +115,24 @@ COLUMNS = (
     *OFFPLANE,
     HEIGHT,
     *LINE_COUNTS,
-    Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3),
-    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3),
+    Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3, PLANE),
+    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3, PLANE),
     Column(
-        "planar_loop_releases", "", "planar loops", "loop releases of the run in the plane that this one replaces", 0
+        "planar_loop_releases",
+        "",
+        "planar loops",
+        "loop releases of the run in the plane that this one replaces",
+        0,
+        PLANE,
     ),
-    Column("planar_regime", symbol="planar regime", meaning="regime of the run in the plane that this one replaces"),
-    Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2),
-    Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2),
+    Column(
+        "planar_regime",
+        symbol="planar regime",
+        meaning="regime of the run in the plane that this one replaces",
+        page=PLANE,
+    ),
+    Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2, PLANE),
+    Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2, PLANE),
     *SOLVER_COUNTS,
     RUN_KEY,
     MESSAGE,
@@ -229,7 +258,7 @@ def lasts(columns, step_s: float, length_s: float) -> bool:
 
 def exponents(columns: tuple[Column, Column], found) -> dict[str, object]:
     """An Exponent in the two columns of its value and its standard error."""
-    return dict(zip(names(columns), (number(found.value), number(found.error)), strict=True))
+    return dict(zip(names(columns), (finite(found.value), finite(found.error)), strict=True))
 
 
 def settled(scene, columns, transient_s: float) -> dict[str, object]:

@@ -17,21 +17,33 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted
 from campaigns.explore.approach import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS
-from campaigns.machinery.folder import claimed, made_by, run_of, write_table
+from campaigns.machinery.folder import claimed, made_by, run_of
 from campaigns.machinery.plan import Further, Job, Plan, Summary
 from campaigns.machinery.runner import run
 from engine.scene import scene_from_toml
 from engine.views import state_of
+from tables import (
+    JOINED,
+    LOOPS,
+    MESSAGE,
+    PERIODS_RUN,
+    RUN_KEY,
+    SETTLED,
+    STATUS,
+    UNSETTLED,
+    WALL_S,
+    Column,
+    counted,
+    write_table,
+)
 
 LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
 FOUND_BY = Column("found_by", symbol="found by", meaning="rest, massless (model), kick, or carried from a neighbour")
-SETTLED, JOINED, UNSETTLED = "settled", "joined", "unsettled"
 KICKS = (
     Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),

@@ -5,13 +5,13 @@ from dataclasses import replace
 from functools import cache
 
 import engine
-from campaigns.columns import Column
 from campaigns.judge import judged_job
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
 from engine.views import carries_tangents, in_regular_waves
+from tables import Column
 
 KICKS, SPEED_MPS = 8, 6.0
 OTHERS = 1.2  # time of all other motions, as a share of that of the runs from rest (measured): for the time left
@@ -38,7 +38,7 @@ def start_of(order: Order, scene):
     """The state of --start-from, or None. What is wrong with it, or with going on from it in this scene, is told."""
     if order.own.start_from is None:
         return None
-    from engine.simulation import checked_start
+    from engine.run.start import checked_start
 
     try:
         if scene.waves is None:

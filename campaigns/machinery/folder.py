@@ -5,11 +5,9 @@ campaigns out of the same folder; the system drops it when its holder dies, howe
 """
 
 import contextlib
-import csv
 import errno
 import fcntl
 import hashlib
-import io
 import json
 import math
 import os
@@ -21,10 +19,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import engine
-from campaigns.columns import Column, csv_of, dictionary, dictionary_path, names
 from engine.atomic import write_atomic
+from tables import Column, Row, names, write_table
 
-Row = dict[str, object]  # of a table, by column
 PROGRESS = ".progress-"  # begins the names of folders in which workers say how far they are
 SEAL = b"sha256:" + 64 * b"0"  # stands in a content that `write_sealed` is given
 _SEALED = re.compile(rb"sha256:[0-9a-f]{64}")
@@ -124,27 +121,6 @@ class Table:
         self._written_s = time.monotonic()
 
 
-def write_table(path: Path, columns: tuple[Column, ...], rows: list[dict]) -> None:
-    """Write the dictionary of the columns, then the rows. Raises OSError."""
-    write_atomic(dictionary_path(path), dictionary(columns))
-    head = names(columns)
-    write_atomic(path, csv_of(head, ([_cell(row.get(name)) for name in head] for row in rows)))
-
-
-def read_rows(path: Path) -> tuple[Row, ...]:
-    """The rows of a table: words as they are, numbers as floats, nan where the table is empty.
-
-    Raises OSError where table or dictionary cannot be read, ValueError where they do not fit each other.
-    """
-    declared, rows = (
-        list(csv.DictReader(io.StringIO(place.read_text(encoding="utf-8")))) for place in (dictionary_path(path), path)
-    )
-    if not rows:
-        raise ValueError(f"{path.name} has no rows")
-    words = {row["name"] for row in declared if not row["digits"]}
-    return tuple({name: text if name in words else float(text or "nan") for name, text in row.items()} for row in rows)
-
-
 def stored_run(folder: Path, key: str) -> "engine.Trajectory":
     """The run with this content key. Raises TrajectoryError where its file is not there, damaged, or of another run."""
     return engine.Trajectory.load(trajectory_path(folder, key), {"run_key": key})
@@ -156,15 +132,6 @@ def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
         return stored_run(folder, row["run_key"]) if row["status"] == "ok" else None
     except ValueError:  # TrajectoryError
         return None
-
-
-def _cell(entry: object) -> str:
-    # Unknown is empty, never 0 and never the word nan.
-    if entry is None or (isinstance(entry, float) and math.isnan(entry)):
-        return ""
-    if hasattr(entry, "item"):
-        return _cell(entry.item())
-    return repr(entry) if isinstance(entry, float) else " ".join(str(entry).split())
 
 
 def read_json(path: Path) -> object:

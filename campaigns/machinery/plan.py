@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import engine
-from campaigns.columns import Column
 from campaigns.machinery.cli import Running
+from tables import Column
 
 
 class Further(NamedTuple):

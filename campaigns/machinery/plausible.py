@@ -24,12 +24,12 @@ PYTHON = "if it is meant, run it from Python: engine.simulate"
 def doubts(scene, duration_s: float | None = None) -> Iterator[str]:
     """Fault lines of a scene, and of a run of that length; none where both are plausible.
 
-    A run must end, and memory must hold what it keeps (`engine.scene.size_limits`).
+    A run must end, and memory must hold what it keeps (`engine.parameters.limits`).
     """
     for key, given, allowed in _odd(scene):
         yield fault(key, given, f"{allowed}; {PYTHON}")
     if duration_s:
-        from engine.scene.size_limits import check_room
+        from engine.parameters.limits import check_room
 
         try:
             check_room(scene, duration_s)
@@ -64,7 +64,7 @@ def without_waves(name: str, scene) -> Iterator[str]:
         key = "waves.components" if waves.jonswap is None else "waves.jonswap"
         yield (
             f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
-            "period; engine.simulate runs irregular waves (docs/howto_waves.md)"
+            "period; engine.simulate runs irregular waves (docs/scenes.md#waves)"
         )
 
 

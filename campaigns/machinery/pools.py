@@ -5,7 +5,7 @@ When a worker process dies, `execute` raises `PoolBroken` with the tasks that ma
 starts afresh. loky and threads run through joblib. dask runs through its own futures, not joblib's backend for dask,
 which waits for ever when a worker is lost (joblib 1.6).
 
-The workers of a dask cluster may be on other machines that see no folder of ours. docs/howto_cluster.md says what may
+The workers of a dask cluster may be on other machines that see no folder of ours. docs/developing.md says what may
 go wrong there, and what becomes of it. A cluster that is lost, or is of another version, is CampaignStopped, one line:
 finished runs are on disk, and the same command goes on.
 """
@@ -31,7 +31,7 @@ ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
-_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports")
+_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports", "tables")
 _GO_ON = "finished runs are kept; mend the cluster and run the same command again"
 _REFUSED = "refused, not the same version as here: {}; install there what is installed here, and start it again"
 

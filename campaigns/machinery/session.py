@@ -30,8 +30,8 @@ from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import counting, stage
 from engine.atomic import write_atomic
 from engine.streams import open_streams, printed
+from tables import ANSWER, PROVENANCE
 
-PROVENANCE, ANSWER = "provenance.json", "answer.txt"
 MOST_LINES = 8  # of an answer
 REPORT_S, ROW_S = 1.5, 0.07  # of a report, and of each row in it (measured): for the time left
 _PACKAGES = (

@@ -19,15 +19,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from campaigns import sweep
-from campaigns.answers import known
 from campaigns.explore import sweep as motions
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
 from campaigns.machinery import cli
-from campaigns.machinery.folder import claimed, read_rows, run_of
+from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
+from tables import number_of, read_table
 
 KEY, RANGE, VALUES, BUDGET = "waves.steepness", (0.05, 0.16), 9, 700
 ORBITS, BRANCHES = 60, 8
@@ -64,7 +64,7 @@ def read(options, faults: list[str]) -> None:
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest of `campaigns.sweep`; of --start-from a run that goes on for a period."""
-    from engine.period_map import why_no_map
+    from engine.run.period_map import why_no_map
 
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.own.vary:
@@ -141,15 +141,15 @@ def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
     (key,) = order.own.vary
     found: dict[tuple[str, int], list[dict]] = {}
-    for row in read_rows(folder / "table.csv"):
-        period = known(row, "strobed_period")
+    for row in read_table(folder / "table.csv"):
+        period = number_of(row, "strobed_period")
         if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.own.motion in (None, row["motion"]):
             found.setdefault((str(row["motion"]), int(period)), []).append(row)
     for (letter, period), rows in found.items():
         row = rows[len(rows) // 2]
         run = run_of(folder, row)
         if run is not None and run.final_state is not None:
-            yield letter, known(row, key.column.name), period, run.final_state.at_zero()
+            yield letter, number_of(row, key.column.name), period, run.final_state.at_zero()
 
 
 def _under_file(order: Order, job: Job) -> Iterator[tuple]:
@@ -176,7 +176,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("branches", "events", "orbits"), ())
     for name in parts:
         with contextlib.suppress(ValueError):  # a table without rows
-            parts[name] = read_rows(order.how.out / name / "table.csv")
+            parts[name] = read_table(order.how.out / name / "table.csv")
     return sentences(rows, order.own.vary[0].column, parts)
 
 

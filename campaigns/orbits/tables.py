@@ -4,13 +4,12 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
-from campaigns.columns import MESSAGE, STATUS, Column, csv_of
 from campaigns.explore.along import MOTION
 from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
-from campaigns.machinery.folder import write_table
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
+from tables import MESSAGE, STATUS, Column, csv_of, write_table
 
 BRANCH = Column("branch", symbol="branch", meaning="the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)

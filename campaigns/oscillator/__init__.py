@@ -66,12 +66,12 @@ def _work():
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """The exponent in words, where that part has a result; the force up to which the line stays taut."""
     from analysis.oscillator import SnapOscillator, grazing_force
-    from campaigns.answers import known
+    from tables import number_of
 
     sentences = []
     exponents = next((row for row in rows if row["part"] == "exponents" and row["status"] == "ok"), None)
     if exponents is not None:
-        value, error = known(exponents, "lambda_1_bits_per_period"), known(exponents, "lambda_1_bits_error")
+        value, error = number_of(exponents, "lambda_1_bits_per_period"), number_of(exponents, "lambda_1_bits_error")
         word = "neither shown chaotic nor regular"
         if value > 2 * error:
             word = "chaotic"

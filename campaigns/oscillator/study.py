@@ -29,12 +29,12 @@ from analysis.oscillator import (
     strobed_states_within,
 )
 from analysis.oscillator.growth import random_starts
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import Table, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import stage
 from engine.atomic import write_atomic
+from tables import MESSAGE, RUN_KEY, STATUS, Column
 
 SEED = 0
 Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
@@ -42,13 +42,13 @@ COLUMNS = (
     Column("part", symbol="part", meaning="what is computed"),
     STATUS,
     Column("lambda_1_nats_per_time", "nats/time", "λ_1", "largest exponent, mean over the starts", 6),
-    Column("lambda_1_error", "nats/time", "error", "its standard error", 6),
+    Column("lambda_1_error", "nats/time", "± λ_1", "its standard error", 6),
     Column("lambda_1_bits_per_period", "bits/period", "λ_1", "the same in bits per forcing period", 6),
-    Column("lambda_1_bits_error", "bits/period", "error", "its standard error", 6),
+    Column("lambda_1_bits_error", "bits/period", "± λ_1", "its standard error", 6),
     Column("lambda_2_nats_per_time", "nats/time", "λ_2", "smaller exponent", 6),
     Column("sum_plus_damping", "nats/time", "λ_1 + λ_2 + μ", "zero in theory", 4),
     Column("section_dimension", "", "D", "Kaplan-Yorke dimension of the section", 4),
-    Column("section_dimension_error", "", "error", "its standard error", 4),
+    Column("section_dimension_error", "", "± D", "its standard error", 4),
     Column("slack_fraction", "", "χ", "share of the time in which the tether is slack", 3),
     Column("starts", "", "starts", "motions followed", 0),
     Column("elsewhere", "", "elsewhere", "starts left out because they settled on a periodic attractor", 0),

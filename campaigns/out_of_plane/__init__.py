@@ -18,11 +18,10 @@ from functools import partial
 from campaigns.explore.settings import ROW_SOURCES
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.judge import LEAST_JUDGED, judged_scene
-from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
+from tables import LARGE, SMALL, read_table, write_table
 
-SMALL, LARGE = 0.016, 0.13  # the paper's two waves
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
 LOOPING_DEPTHS_M = (21.0, 21.6, 22.0)  # where planar runs of the large wave have to release loops
 STIFFNESSES_NM2 = (0.1, 0.4, 4.0)
@@ -167,20 +166,21 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int, quick: bo
     pairs_of_rows = [(good[in_plane(case)], good[case]) for case in spatial if case in good and in_plane(case) in good]
     looped = [pairs.pair_row(plan.how.out, *pair, transient) for pair in pairs_of_rows if pair[0]["loop_releases"]]
     write_table(plan.how.out / "pairs.csv", pairs.COLUMNS, looped)
-    results = Results(plane=read_rows(plan.how.out / "table.csv"), plane_large=base.steepness)
+    results = Results(plane=read_table(plan.how.out / "table.csv"), plane_large=base.steepness)
     write_statements(plan.how.out, [claim for claim in claims(quick) if "fig. 20" in claim.place], results)
     return 0.0
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How far buoy and rope leave the plane, and the paper's statements on figure 20 that do not hold."""
-    from campaigns.answers import greatest, known, verdicts
+    from campaigns.answers import greatest, verdicts
+    from tables import number_of
 
     for steepness in (SMALL, LARGE):
         at = [row for row in rows if row["steepness"] == steepness and row["status"] == "ok"]
         farthest = greatest(at, "buoy_lateral_max_m"), greatest(at, "rope_lateral_max_m")
         if None not in farthest:
-            buoy_m, rope_m = known(farthest[0], "buoy_lateral_max_m"), known(farthest[1], "rope_lateral_max_m")
+            buoy_m, rope_m = number_of(farthest[0], "buoy_lateral_max_m"), number_of(farthest[1], "rope_lateral_max_m")
             sentence = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
             yield sentence.format(steepness, buoy_m, rope_m)
     yield from verdicts(order.how.out, quoted=4)

@@ -9,13 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.columns import DEPTH, Column
 from campaigns.machinery.folder import run_of
+from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
 MOST_OFF = 0.01  # of the range of r: what the ends of the ranges may differ by
 MOST_ACROSS = 1.5  # times the distance of the halves of one record
-EXPONENT, ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"
 _SAME = "1 where both runs have the same {}; empty where the records are too short to say"
 COLUMNS = (
     DEPTH,
@@ -65,7 +64,7 @@ def agreement(planar: dict, spatial: dict, across: float, within: float) -> dict
     """In what two rows of table.csv agree: 1, 0, or None where the records are too short to say."""
     ends_off = [abs(planar[end] - spatial[end]) for end in ("radius_min_m", "radius_max_m")]
     range_off = max(ends_off) / (planar["radius_max_m"] - planar["radius_min_m"])
-    exponents, errors = ([row.get(name) for row in (planar, spatial)] for name in (EXPONENT, ERROR))
+    exponents, errors = ([row.get(name) for row in (planar, spatial)] for name in (WOLF_EXPONENT, WOLF_ERROR))
     measured = all(value is not None and math.isfinite(value) for value in exponents)
     regimes = [row.get("regime") for row in (planar, spatial)]
     agreements = {

@@ -7,7 +7,6 @@ but the exponent of an infinitesimal perturbation across its plane (offplane_gro
 
 import numpy as np
 
-from campaigns.columns import DEPTH, MESSAGE, PERIODS_RUN, RUN_KEY, STATISTICS, STATUS, STIFFNESS, Column, counted
 from campaigns.explore.rows import (
     DIMENSIONS,
     EXTREMES,
@@ -22,39 +21,104 @@ from campaigns.explore.rows import (
     sound_part,
 )
 from campaigns.judge import record_regime, tangent_of
+from tables import (
+    BODIES,
+    DEPTH,
+    MESSAGE,
+    PAIRS,
+    PERIODS_RUN,
+    PLANE,
+    RUN_KEY,
+    RUNS,
+    SHEET,
+    STATISTICS,
+    STATUS,
+    STIFFNESS,
+    Column,
+    counted,
+    on,
+)
 
 EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still linear in the push
 RISE_PERIODS = 4  # after its least value, within which lateral distance has risen to the first burst
-_BODIES = {"buoy": "y_m", "rope": "offplane_m"}
 
 
 def _lateral_columns(body: str) -> tuple[Column, ...]:
     """What is measured of the distance from the plane of the waves of the buoy or of the rope."""
     rate = "growth rate of the {body}'s lateral distance where it grows or decays exponentially{}".format
     measures = (
-        ("motion", "", "motion", "growth, decay, bursts ...: how the lateral distance of the {body} behaves", None),
-        ("rate_bits_per_period", "bits/period", "rate", rate("", body=body), 3),
-        ("rate_error", "bits/period", "σ rate", "standard error of the growth rate of the {body}", 3),
-        ("rate_nats_per_period", "nats/period", "rate", rate(", in nats", body=body), 3),
-        ("fit_from_period", "periods", "from", "begin of the window in which the rate of the {body} was fitted", 1),
-        ("fit_to_period", "periods", "to", "end of the window in which the rate of the {body} was fitted", 1),
-        ("fit_span_nats", "nats", "span", "growth of the {body}'s lateral distance over the window of the fit", 1),
-        ("bursts", "", "bursts", "bursts of the {body} away from the plane", 0),
-        ("burst_median_m", "m", "median", "median size of the bursts of the {body}", 3),
-        ("burst_max_m", "m", "largest", "size of the largest burst of the {body}", 3),
-        ("first_burst_period", "periods", "first at", "time of the first burst of the {body}", 1),
-        ("first_burst_m", "m", "first", "size of the first burst of the {body}", 3),
-        ("rise_nats", "nats", "rise", "growth of the {body}'s distance from its least to the rope's first burst", 1),
-        ("rise_periods", "periods", "rise in", "wave periods that this growth of the {body}'s distance takes", 1),
-        ("lateral_max_m", "m", "max |y|", "largest lateral distance of the {body} over the whole run", 2),
-        ("lateral_late_m", "m", "late |y|", "largest lateral distance of the {body} in the second half of the run", 3),
-        ("share_of_inplane", "", "of in-plane", "lateral_max_m of the {body} divided by inplane_m", 3),
-        ("early_gain_s", "s", "|y|/push", f"largest |y| in {EARLY_PERIODS} periods of the {{body}} by the push", 3),
-        ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None),
+        (
+            "motion",
+            "",
+            "motion",
+            "growth, decay, bursts ...: how the lateral distance of the {body} behaves",
+            None,
+            PLANE,
+        ),
+        ("rate_bits_per_period", "bits/period", "rate", rate("", body=body), 3, PLANE),
+        ("rate_error", "bits/period", "± rate", "standard error of the growth rate of the {body}", 3, PLANE),
+        ("rate_nats_per_period", "nats/period", "rate", rate(", in nats", body=body), 3, PLANE),
+        (
+            "fit_from_period",
+            "periods",
+            "from",
+            "begin of the window in which the rate of the {body} was fitted",
+            1,
+            PLANE,
+        ),
+        ("fit_to_period", "periods", "to", "end of the window in which the rate of the {body} was fitted", 1, PLANE),
+        (
+            "fit_span_nats",
+            "nats",
+            "span",
+            "growth of the {body}'s lateral distance over the window of the fit",
+            1,
+            PLANE,
+        ),
+        ("bursts", "", "bursts", "bursts of the {body} away from the plane", 0, PLANE),
+        ("burst_median_m", "m", "median", "median size of the bursts of the {body}", 3, PLANE),
+        ("burst_max_m", "m", "largest", "size of the largest burst of the {body}", 3, PLANE),
+        ("first_burst_period", "periods", "first at", "time of the first burst of the {body}", 1, PLANE),
+        ("first_burst_m", "m", "first", "size of the first burst of the {body}", 3, SHEET),
+        (
+            "rise_nats",
+            "nats",
+            "rise",
+            "growth of the {body}'s distance from its least to the rope's first burst",
+            1,
+            SHEET,
+        ),
+        (
+            "rise_periods",
+            "periods",
+            "rise in",
+            "wave periods that this growth of the {body}'s distance takes",
+            1,
+            SHEET,
+        ),
+        ("lateral_max_m", "m", "max |y|", "largest lateral distance of the {body} over the whole run", 2, PLANE),
+        (
+            "lateral_late_m",
+            "m",
+            "late |y|",
+            "largest lateral distance of the {body} in the second half of the run",
+            3,
+            SHEET,
+        ),
+        ("share_of_inplane", "", "of in-plane", "lateral_max_m of the {body} divided by inplane_m", 3, PLANE),
+        (
+            "early_gain_s",
+            "s",
+            "|y|/push",
+            f"largest |y| in {EARLY_PERIODS} periods of the {{body}} by the push",
+            3,
+            SHEET,
+        ),
+        ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None, SHEET),
     )
     return tuple(
-        Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits)
-        for name, unit, symbol, meaning, digits in measures
+        Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits, page)
+        for name, unit, symbol, meaning, digits, page in measures
     )
 
 
@@ -66,20 +130,25 @@ COLUMNS = (
     DIMENSIONS,
     Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
     Column("seed_direction", symbol="direction", meaning="direction of the push; empty for a planar run"),
-    Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0),
-    PERIODS_RUN,
+    Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0, SHEET),
+    *on(RUNS, PERIODS_RUN),
     STATUS,
-    *(column for body in _BODIES for column in _lateral_columns(body)),
-    Column("inplane_m", "m", "in-plane", "half the larger range of the buoy's x and z after the transient", 2),
-    Column("bow_inplane_m", "m", "bow", "largest distance of a node from the chord of the line, in the plane", 2),
+    *(column for body in BODIES for column in _lateral_columns(body)),
+    Column("inplane_m", "m", "in-plane", "half the larger range of the buoy's x and z after the transient", 2, SHEET),
     Column(
-        "bow_lateral_m", "m", "bow |y|", "largest distance of a node from the chord of the line, across the plane", 3
+        "bow_inplane_m", "m", "bow", "largest distance of a node from the chord of the line, in the plane", 2, SHEET
     ),
-    *EXTREMES,
-    STROBED,
-    REGIME,
-    *WOLF,
-    *TANGENT,
+    Column(
+        "bow_lateral_m",
+        "m",
+        "bow |y|",
+        "largest distance of a node from the chord of the line, across the plane",
+        3,
+        SHEET,
+    ),
+    *on(PAIRS, *EXTREMES),
+    *on(SHEET, STROBED),
+    *on(PAIRS, REGIME, *WOLF, *TANGENT),
     *OFFPLANE,
     *STATISTICS,
     RUN_KEY,
@@ -99,9 +168,9 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
         row |= measured
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][first:])) for name in ("x_m", "z_m"))
     if scene.motion.dimensions == 3 and len(columns["time_s"]) > 1:
-        for body, name in _BODIES.items():
+        for body, name in BODIES.items():
             row |= {f"{body}_{key}": entry for key, entry in _lateral(columns[name], scene, row).items()}
-        for body, name in _BODIES.items() if row["rope_first_burst_period"] is not None else ():
+        for body, name in BODIES.items() if row["rope_first_burst_period"] is not None else ():
             rise = _rise(columns[name], scene, row["rope_first_burst_period"])
             row |= {f"{body}_rise_nats": rise[0], f"{body}_rise_periods": rise[1]}
     if trajectory.profiles is not None and len(trajectory.profiles.time_s):

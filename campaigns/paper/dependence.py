@@ -10,15 +10,15 @@ from itertools import product
 from pathlib import Path
 from typing import get_args
 
-from campaigns.buoy_sweep import PAPER_STEEPNESS as STEEPNESSES
 from campaigns.buoy_sweep import measures as of_the_sweep
-from campaigns.columns import DEPTH, STIFFNESS, Column, names
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.rows import STEEPNESS
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.plan import Summary
 from campaigns.study import Measures, Order, Study
+from tables import DEPTH, STIFFNESS, Column, names
+from tables import PAPER_STEEPNESS as STEEPNESSES
 
 SCENE = "tethered_buoy"
 DEPTHS_M = (20.8, 21.0, 21.3, 21.6, 22.0, 22.5, 23.0, 25.0)

@@ -14,8 +14,9 @@ import numpy as np
 
 from campaigns.breaking_line.lines import read_lines
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import Row, read_json, read_rows, run_of, stored_run, trajectory_path
-from campaigns.paper.measures import LARGE, SMALL, buckling_waves, calm_measures, scales, snaps, violent_measures
+from campaigns.machinery.folder import read_json, run_of, stored_run, trajectory_path
+from campaigns.paper.measures import buckling_waves, calm_measures, scales, snaps, violent_measures
+from tables import LARGE, SMALL, Row, read_table
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
 NODES = (41, 81)  # of the part `doubled`
@@ -59,7 +60,7 @@ class Parts:
             folder = self.root / name
             try:
                 provenance = json.loads((folder / "provenance.json").read_text(encoding="utf-8"))
-                self._parts[name] = Part(folder, read_rows(folder / "table.csv"), provenance)
+                self._parts[name] = Part(folder, read_table(folder / "table.csv"), provenance)
             except FileNotFoundError as error:
                 raise LeftOut(f"the part `{name}` is not there: {Path(error.filename).name} is missing") from None
             except (OSError, ValueError, KeyError) as error:
@@ -199,7 +200,7 @@ def _rms(values: np.ndarray) -> float:
 def _dependence(parts: Parts, numbers: dict) -> dict:
     """Rows with `snaps` at the large wave, of those that differ from the first in depth and buoyancy at most."""
     folder = parts.root / "dependence"
-    rows, provenance = read_rows(folder / "table.csv"), read_json(parts.root / "provenance.json") or {}
+    rows, provenance = read_table(folder / "table.csv"), read_json(parts.root / "provenance.json") or {}
     transient = int(provenance.get("dependence", {}).get("transient") or 0)
     wanted = {key: rows[0][key] for key in ("above_still_water", "bending_stiffness_Nm2")} | {"steepness": LARGE}
     rows_with_snaps = []

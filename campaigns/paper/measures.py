@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from campaigns.explore.rows import NEAR_ZERO, lasts, sound_part
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from engine.natural_frequencies import Modes
     from engine.trajectory import Profiles, Trajectory
 
-SMALL, LARGE = 0.016, 0.13  # kA of sections 4.2.1 and 4.2.2
 WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 SETTLED = 20  # last wave periods of a record
 EARLY, LATE = (0, 20), (40, 60)  # wave periods between which a free oscillation is compared

@@ -12,7 +12,6 @@ A part that ended is not even begun again while its sources, its command, its ta
 otherwise its campaign runs, and does what its own folder lacks.
 """
 
-import csv
 import hashlib
 import importlib
 import json
@@ -20,7 +19,6 @@ import time
 from argparse import Namespace
 from pathlib import Path
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column, names
 from campaigns.machinery import cli
 from campaigns.machinery.folder import CampaignStopped, Table, made_by, of_the_page, trajectory_path
 from campaigns.machinery.plan import Summary
@@ -29,6 +27,7 @@ from campaigns.machinery.session import command_line
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
 from engine.atomic import write_atomic
+from tables import MESSAGE, RUN_KEY, STATUS, Column, any_rows, names
 
 COLUMNS = (
     Column("part", "", "part", "folder of the part"),
@@ -45,9 +44,10 @@ COLUMNS = (
 SOURCES = (
     "analysis",
     "engine",
+    "tables",
     "campaigns/machinery",
     *(f"campaigns/{name}" for name in ("buoy_sweep", "sweep", "breaking_line", "oscillator", "out_of_plane")),
-    *(f"campaigns/{name}.py" for name in ("columns", "judge", "study", "statements", "figure_data")),
+    *(f"campaigns/{name}.py" for name in ("judge", "study", "statements", "figure_data")),
     *(f"reports/{name}" for name in ("parts", "figures", "buoy_sweep", "sweep")),
     *(f"reports/{name}" for name in ("breaking_line", "oscillator", "out_of_plane")),
     "campaigns/paper/dependence.py",
@@ -83,7 +83,7 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
     write_atomic(out / "scene.toml", (head + load_scene(dependence.SCENE).to_toml()).encode())
     table = Table(out / "table.csv", COLUMNS, list(PARTS))
     known = {*names(COLUMNS)}
-    for row in _rows(out):
+    for row in any_rows(out / "table.csv"):
         if row.keys() == known and row["part"] in PARTS:
             table.rows[row["part"]] = row
     timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
@@ -97,15 +97,6 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
             timing[name] += row[name]
     table.write()
     return timing, Summary(table.in_order(), len(order.parts) - len(todo), len(todo), 0.0)
-
-
-def _rows(out: Path) -> list[dict[str, str]]:
-    """The rows of a table.csv as it is; none where it cannot be read."""
-    try:
-        with open(out / "table.csv", encoding="utf-8", newline="") as file:
-            return list(csv.DictReader(file))
-    except (OSError, ValueError, csv.Error):
-        return []
 
 
 def _key(part: str, order: Namespace) -> str:
@@ -129,7 +120,9 @@ def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Namespace)
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
-    sound = [trajectory_path(out, run["run_key"]).exists() for run in _rows(out) if run["status"] == "ok"]
+    sound = [
+        trajectory_path(out, run["run_key"]).exists() for run in any_rows(out / "table.csv") if run["status"] == "ok"
+    ]
     reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
     return bool(sound) and all(sound) and reported
 

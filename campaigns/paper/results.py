@@ -4,12 +4,12 @@ from pathlib import Path
 
 from campaigns.machinery.folder import made_by, of_the_page, read_json
 from campaigns.paper.figures import FIGURES, LEFT_OUT, files_of, place_of, write_figure_data
-from campaigns.statements import FILE as STATEMENTS
 from campaigns.statements import write_statements
+from tables import STATEMENTS as STATEMENTS
 
 PAGES = ("report.html", "report.pdf")
 TABLES = ("campaigns/breaking_line/statements.toml", "campaigns/paper/statements.toml", "reports/paper/tables.toml")
-SOURCES = ("analysis", "engine", "campaigns", "reports", *TABLES)
+SOURCES = ("analysis", "engine", "campaigns", "reports", "tables", *TABLES)
 
 
 def maker() -> str:

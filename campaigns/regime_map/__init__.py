@@ -7,7 +7,7 @@
 
 Protocol: a massless tether does the whole grid first and proposes starts. Then each cell is run from rest, from the
 proposals, from kicks, and from the motions of the cells beside it where these are no motion of its own yet. A motion
-that repeats at its first look is judged by that (verdict: cheap); any other goes on as docs/verdicts.md says, up to
+that repeats at its first look is judged by that (verdict: cheap); any other goes on as docs/motions.md says, up to
 --budget. Cells at borders are bisected with --refine. Kicks are drawn by --seed; nothing else is random.
 """
 
@@ -19,13 +19,13 @@ from campaigns.buoy_sweep import STUDY as SWEEP
 from campaigns.explore import sweep as motions
 from campaigns.explore.settings import ROW_SOURCES
 from campaigns.machinery import cli, session
-from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.regime_map import cuts
 from campaigns.regime_map.cells import Grid
 from campaigns.study import Measures, Order, Study
 from campaigns.sweep import varied
 from engine.views import carries_tangents, in_regular_waves
+from tables import read_table
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
 STARTS, MOST_CELLS = 3, 100_000
@@ -144,7 +144,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
 
     cells: tuple[dict, ...] = ()
     with contextlib.suppress(OSError, ValueError):
-        cells = read_rows(order.how.out / "cells" / "table.csv")
+        cells = read_table(order.how.out / "cells" / "table.csv")
     keys = [one for one in order.own.grid.every if one.key.startswith("buoy.")]
     known: dict[tuple, object] = {}
 

@@ -3,11 +3,10 @@
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
-from campaigns.answers import CHAOTIC, OPEN_WORDS, PERIODIC, QUASI, Row, greatest, kilonewton, known, of_kicks
-from campaigns.columns import Column
+from campaigns.answers import OPEN_WORDS, greatest, kilonewton
 from campaigns.explore.answer import reasons, use_of
-from campaigns.regime_map.tables import FAILED, RATIO, SCREENED, TENSION
-from campaigns.statements import listed
+from campaigns.regime_map.tables import RATIO, TENSION
+from tables import CHAOTIC, EMPTY, FAILED, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
 
 
 def sentences(
@@ -17,13 +16,13 @@ def sentences(
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
     """
-    coarse = [one for one in cells if known(one, "level") == 0.0]
+    coarse = [one for one in cells if number_of(one, "level") == 0.0]
     done = [one for one in coarse if one["source"] != SCREENED]
     if not done:
         yield f"Nothing is computed: {len(coarse)} cells are screened with a massless tether, which is no result."
         peak = greatest(coarse, RATIO.name)
         if peak is not None:
-            yield f"Largest tension there: {known(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
+            yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
         return
     said = f"{len(done)} cells of the coarse grid and {len(cells) - len(coarse)} finer ones are computed"
     left = len(coarse) - len(done)
@@ -33,19 +32,19 @@ def sentences(
     open_ = sum(words[word] for word in OPEN_WORDS)
     parts = {CHAOTIC: words[CHAOTIC], QUASI: words[QUASI], "periodic": calm}
     led = listed(f"{word} on {_share(count, done)}" for word, count in parts.items())
-    chaotic = {_place(one, keys) for one in motions if one.get("regime") == CHAOTIC and known(one, "level") == 0.0}
+    chaotic = {_place(one, keys) for one in motions if one.get("regime") == CHAOTIC and number_of(one, "level") == 0.0}
     yield f"Rest leads to a motion that is {led} of the map; {_share(open_, done)} is not decided."
     if len(chaotic) > words[CHAOTIC]:
         yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
     if (peak := greatest(cells, TENSION.name)) is not None:
         there = [one for one in motions if _place(one, keys) == _place(peak, keys)]
         counted = of_kicks(greatest(there, TENSION.name) or {})
-        ends = f"; {counted} kicks there end in it" if counted else ""
-        pulls = f"{kilonewton(known(peak, TENSION.name))}, {known(peak, RATIO.name):.3g} times that at rest"
+        ends = f"; {counted} kicks there end in it" if counted != EMPTY else ""
+        pulls = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
         yield f"Largest tension {pulls}, at {_at(peak, keys)}{ends}."
-        yield from _use([one for one in motions if known(one, TENSION.name) > 0.0], keys, scene)
-    several = [one for one in done if known(one, "motions") > 1]
-    most = max((known(one, "motions") for one in several), default=1)
+        yield from _use([one for one in motions if number_of(one, TENSION.name) > 0.0], keys, scene)
+    several = [one for one in done if number_of(one, "motions") > 1]
+    most = max((number_of(one, "motions") for one in several), default=1)
     if several:
         yield f"On {_share(len(several), done)} of the map the start decides: up to {most:.0f} motions."
     cheap = sum(one.get("verdict") == "cheap" for one in motions)
@@ -56,11 +55,11 @@ def sentences(
 
 def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
-    some = sorted(motions, key=lambda one: -known(one, TENSION.name))
+    some = sorted(motions, key=lambda one: -number_of(one, TENSION.name))
     free = next((one for one in some if not [*reasons(one, scene(one))]), None)
     for row in some[:1]:
-        searched = known(row, "share") == known(row, "share")
-        best = f" Without that it is {kilonewton(known(free, TENSION.name))}, at {_at(free, keys)}." if free else ""
+        searched = number_of(row, "share") == number_of(row, "share")
+        best = f" Without that it is {kilonewton(number_of(free, TENSION.name))}, at {_at(free, keys)}." if free else ""
         yield use_of(row, scene(row), searched) + ("" if free is row else best)
 
 

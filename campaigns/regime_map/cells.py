@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
 
-from campaigns.columns import Column
 from campaigns.sweep import Varied
+from tables import Column
 
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 CARRIED = "carried"

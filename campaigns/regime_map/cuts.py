@@ -6,8 +6,9 @@ import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from campaigns.machinery.folder import claimed, read_rows, trajectory_path
+from campaigns.machinery.folder import claimed, trajectory_path
 from campaigns.study import Order
+from tables import read_table
 
 
 def read(words: list[str] | None, keys, faults: list[str]) -> dict[str, object]:
@@ -40,7 +41,7 @@ def cut(order: Order, simulate: Callable | None = None) -> int:
     out = how.out / "cuts" / ",".join(f"{key}={value}" for key, value in chosen.items())
     keys = {case.key for case in order.cases if _of(case.labels, chosen)}
     with contextlib.suppress(OSError, ValueError):  # a map that has not come to its end
-        keys |= {row["run_key"] for row in read_rows(how.out / "table.csv") if _of(row, chosen)}
+        keys |= {row["run_key"] for row in read_table(how.out / "table.csv") if _of(row, chosen)}
     with claimed(out):
         for there, here in ((trajectory_path(how.out, key), trajectory_path(out, key)) for key in sorted(keys)):
             if there.exists() and not here.exists():

@@ -14,7 +14,6 @@ from dataclasses import replace
 import engine
 from analysis.evidence import read_evidence
 from analysis.looks import CLOSE, NO_GROWTH
-from campaigns.columns import number
 from campaigns.explore.along import Lattice, Motion, from_rest
 from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
@@ -22,7 +21,6 @@ from campaigns.explore.starts import DISPLACED, start_job
 from campaigns.explore.sweep import job_of
 from campaigns.explore.transients import outlasting
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery.folder import write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import tell
 from campaigns.machinery.runner import run
@@ -30,7 +28,8 @@ from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
 from campaigns.regime_map.tables import STATIC
 from campaigns.study import Order
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
+from tables import finite, write_table
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them
@@ -53,7 +52,7 @@ def cell_row(trajectory, checks=None) -> dict[str, object]:
         row["verdict"] = FULL
     first = (trajectory.columns[name][:1] for name in ("radius_rate_mps", "angle_rate_radps"))
     if all(len(rate) and rate[0] == 0.0 for rate in first):
-        row[STATIC.name] = number(static_tension_N(trajectory.scene, trajectory.columns))
+        row[STATIC.name] = finite(static_tension_N(trajectory.scene, trajectory.columns))
     return row
 
 

@@ -6,20 +6,32 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.columns import LOOPS, MESSAGE, RUN_KEY, STATUS, WALL_S, Column
 from campaigns.explore.rows import COLUMNS, EXTREMES, HEIGHT, REGIME, STEEPNESS, TANGENT
-from campaigns.machinery.folder import write_table
 from engine.atomic import write_atomic
+from tables import (
+    COMPUTED,
+    FAILED,
+    LOOPS,
+    MESSAGE,
+    REGIMES,
+    RUN_KEY,
+    SCREENED,
+    SHEET,
+    STATUS,
+    WALL_S,
+    Column,
+    write_table,
+)
 
 STROBES = 64  # wave periods of a motion at most
-COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"
-LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0)
+LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0, SHEET)
 VERDICT = Column(
     "verdict",
     symbol="verdict",
-    meaning="cheap: the motion repeats at one look; full: the procedure of docs/verdicts.md",
+    meaning="cheap: the motion repeats at one look; full: the procedure of docs/motions.md#how-a-run-is-judged",
+    page=REGIMES,
 )
-STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of a run that begins there", 0)
+STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of a run that begins there", 0, SHEET)
 COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)

@@ -15,10 +15,10 @@ from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
 
-from campaigns.answers import known
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Summary
 from campaigns.study import Order, Study
+from tables import number_of
 
 FUZZ, QUICK_FUZZ = 1000, 40
 DRIFT_PERIODS = 100_000
@@ -52,13 +52,11 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How the cases ended, and the random scenes; what nobody can explain by name."""
-    from engine.excursions import own_words
-
     cases = [row for row in rows if row["part"] == "case"]
     counts = Counter(str(row["verdict"]) for row in cases)
     yield f"{len(cases)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
-    judged = [row for row in cases if row["verdict"] == "ok" and math.isfinite(known(row, "measured_tension"))]
-    silent = [known(row, "measured_tension") for row in judged if not own_words(row.get("message") or "")]
+    judged = [row for row in cases if row["verdict"] == "ok" and math.isfinite(number_of(row, "measured_tension"))]
+    silent = [number_of(row, "measured_tension") for row in judged if not row.get("warning")]
     if silent:
         said = f"Largest tensions are off by {100.0 * max(silent):.2g} % at most in {len(silent)} runs that say nothing"
         yield f"{said}; {len(judged) - len(silent)} more say how far theirs hold."

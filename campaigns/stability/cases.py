@@ -16,12 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.fuzz import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
-from engine.excursions import own_words
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -46,6 +45,7 @@ COLUMNS = (
     ),
     Column("bar_tension", "", "its bar", "what that has to stay below where the run does not say that it is off", 4),
     Column("how", symbol="how we know", meaning="the check"),
+    Column("warning", symbol="warning", meaning="what the run says of its own accuracy"),
     Column("limit", symbol="why", meaning="why another ending is expected"),
     Column("length_s", "s", "run", "length of the run that was asked for", 2),
     *STATISTICS,
@@ -141,7 +141,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         except OSError as error:
             return {_NOT_SAVED: write_failure(path.parents[1], error)}
     row = {name: run.statistics.get(name) for name in names(STATISTICS)}
-    row |= {"run_status": run.status, "message": run.message}
+    row |= {"run_status": run.status, "message": run.message, "warning": run.own_message}
     outcome, _, _ = outcome_of(run, case.length_s)
     if outcome not in ("ok", "ended"):
         return row | {"verdict": UNEXPLAINED, "run_status": outcome}
@@ -150,8 +150,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
     measured, how, *tensions = getattr(checks, case.check)(run, case)
-    warned = own_words(run.message)
-    right = measured <= case.bar and (warned or all(tension <= case.bar_tension for tension in tensions))
+    right = measured <= case.bar and (run.own_message or all(tension <= case.bar_tension for tension in tensions))
     verdict = OK if right else LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
     found = {"measured": measured, "stiffness_N": getattr(scene.tether.tension, "stiffness_N", None)}
     found["measured_tension"] = tensions[0] if tensions else None

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from engine import Trajectory, load_scene, simulate
-from engine.scales import strain_at, tension_at
+from engine.physics.strains import strain_at, tension_at
 
 if TYPE_CHECKING:
     from campaigns.stability.cases import Case

@@ -22,11 +22,11 @@ from functools import cache
 import numpy as np
 
 import engine
-from campaigns.columns import Column
 from campaigns.machinery.pools import end_with
 from campaigns.stability.random_scenes import VALID, faults_of
+from engine.parameters.limits import longest_step
 from engine.scene import build_scene
-from engine.scene.size_limits import longest_step
+from tables import Column
 
 DONE, RAISED, LATE, DIED = "done", "traceback", "hang", "crash"
 PATIENCE = 5.0  # times the limit, in seconds of the wall clock

@@ -13,14 +13,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.folder import (
-    CampaignStopped,
-    keep_row,
-    kept_row,
-    made_by,
-    trajectory_path,
-    write_table,
-)
+from campaigns.machinery.folder import CampaignStopped, keep_row, kept_row, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import stage
@@ -29,6 +22,7 @@ from campaigns.stability import cases, fuzz, random_scenes
 from campaigns.stability.cases import all_cases, drift_case
 from engine import load_scene
 from engine.atomic import write_atomic
+from tables import write_table
 
 SOURCES = ("engine", "campaigns/stability", "campaigns/stability/random_scenes.toml")
 CHUNK = {random_scenes.VALID: 20, random_scenes.INVALID: 200}

@@ -19,16 +19,15 @@ from functools import partial, reduce
 from itertools import product
 from math import inf
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 from campaigns.explore import sweep as motions
 from campaigns.explore.settings import ROW_SOURCES, settings_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.folder import read_rows
 from campaigns.machinery.plan import Job
 from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted, read_table
 
 MOST_KEYS = 2
 
@@ -237,20 +236,21 @@ def beside(order: Order) -> Iterator[Callable]:
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load."""
-    from campaigns.answers import greatest, known
-    from campaigns.explore.answer import PEAK, largest, sentences, use_of
+    from campaigns.answers import greatest
+    from campaigns.explore.answer import largest, sentences, use_of
+    from tables import PEAK, number_of
 
     keys = [one.key for one in order.own.vary]
     if len(keys) == 1:
         ends: tuple[dict, ...] = ()
         if starts_of(order) is not None:
             with contextlib.suppress(OSError, ValueError):
-                ends = read_rows(order.how.out / "ends" / "table.csv")
+                ends = read_table(order.how.out / "ends" / "table.csv")
         return sentences(rows, keys[0], keys[0], order.cases[0].scene, ends=ends)
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     said = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
     if (peak := greatest(rows, PEAK)) is not None:
-        where = " and ".join(f"{key} = {known(peak, key):.4g}" for key in keys)
+        where = " and ".join(f"{key} = {number_of(peak, key):.4g}" for key in keys)
         said.append(f"Largest tension {largest(peak)} at {where}.")
         said.append(use_of(peak, order.cases[0].scene, searched=False))
     return said

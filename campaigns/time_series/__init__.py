@@ -5,7 +5,7 @@
 Any evenly sampled column will do. With --period, that of the forcing, the motion is judged once per period; a file
 whose rows are a section already takes --period equal to --step. Without it the motion is judged at its maxima, or,
 where less than six samples lie in a mean period, sample by sample. Noise is not called chaos: that word needs a
-positive exponent and what noise does not have (docs/howto_time_series.md).
+positive exponent and what noise does not have (docs/time_series.md).
 """
 
 import argparse

@@ -22,9 +22,9 @@ import numpy as np
 import pandas
 
 from analysis.poincare import PHASES
-from campaigns.columns import Column, dictionary, names
 from campaigns.time_series.study import MAXIMA, SAMPLES, STROBED, Study
 from engine.atomic import write_atomic
+from tables import Column, dictionary, names
 
 WIDTH, NAMES = 100, 24
 MARK = {True: "yes", False: "no", None: "--"}

@@ -35,11 +35,11 @@ def read(options: Namespace, faults: list[str]) -> None:
 
 def done(order: Order):
     """All runs, side by side; then each case beside its source. Returns times and summary."""
-    from campaigns.machinery.folder import write_table
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
+    from tables import write_table
 
     out = order.how.out
     plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
@@ -65,9 +65,9 @@ def parameters(order: Order) -> dict[str, object]:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How many cases hold, which miss and by how much, the one nearest to its bar, what was not run."""
-    from campaigns.machinery.folder import read_rows
+    from tables import read_table
 
-    judged = read_rows(order.how.out / "cases.csv")
+    judged = read_table(order.how.out / "cases.csv")
     rows_of_verdicts: dict[str, list[dict]] = {HOLDS: [], MISSES: [], NOT_RUN: []}
     for row in judged:
         rows_of_verdicts.setdefault(row["verdict"], []).append(row)

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 from campaigns.machinery.plan import Job
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 
 HOLDS, MISSES, NOT_RUN, TOLD = "holds", "misses", "not run", "told"
 DATA = Path(__file__).with_name("data")

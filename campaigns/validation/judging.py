@@ -1,13 +1,13 @@
-"""Each case beside its source: rows of cases.csv, the points of both curves, and the table of docs/validation.md."""
+"""Each case beside its source: rows of cases.csv, the points of both curves, and the table of docs/trust.md."""
 
 from collections.abc import Iterable
 from pathlib import Path
 
-from campaigns.columns import Column
 from campaigns.machinery.folder import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
 from engine import Trajectory
+from tables import Column
 
 POINTS = (
     Column("case", symbol="case", meaning="name of the case"),

@@ -84,22 +84,22 @@ def system():
 
 def element():
     """Free bodies: an element of the tether, and the buoy."""
-    figure, (left, right) = canvas(2.7, (-2.6, 2.6), (-2.9, 2.9), 2)
+    figure, (left_axes, right) = canvas(2.7, (-2.6, 2.6), (-2.9, 2.9), 2)
     t, n = np.array([0.6, 0.8]), np.array([-0.8, 0.6])
     corners = [side * 1.1 * t + edge * 0.25 * n for side, edge in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
-    left.add_patch(plt.Polygon(corners, facecolor=ROPE, alpha=0.35, edgecolor=ROPE))
-    arrow(left, 1.1 * t, 1.15 * t, r"$\mathbf{N}+\mathbf{N}_s ds$", FORCE, 1.05, ha="right")
-    arrow(left, -1.1 * t, -1.15 * t, r"$-\mathbf{N}$", FORCE, 1.2)
-    arrow(left, (0, 0), (0, -1.7), r"$w_0$", FORCE, 1.18)
-    arrow(left, 0.25 * n, 1.2 * n, r"$F_n$", FORCE, 1.25)
-    arrow(left, -0.5 * t - 0.5 * n, 1.3 * t, r"$F_t$", FORCE, 0.95, ha="left", va="top")
-    left.text(-2.5, 2.6, r"$\mathbf{N}=T\mathbf{t}+S_n\mathbf{n}+S_b\mathbf{b}$", va="center")
+    left_axes.add_patch(plt.Polygon(corners, facecolor=ROPE, alpha=0.35, edgecolor=ROPE))
+    arrow(left_axes, 1.1 * t, 1.15 * t, r"$\mathbf{N}+\mathbf{N}_s ds$", FORCE, 1.05, ha="right")
+    arrow(left_axes, -1.1 * t, -1.15 * t, r"$-\mathbf{N}$", FORCE, 1.2)
+    arrow(left_axes, (0, 0), (0, -1.7), r"$w_0$", FORCE, 1.18)
+    arrow(left_axes, 0.25 * n, 1.2 * n, r"$F_n$", FORCE, 1.25)
+    arrow(left_axes, -0.5 * t - 0.5 * n, 1.3 * t, r"$F_t$", FORCE, 0.95, ha="left", va="top")
+    left_axes.text(-2.5, 2.6, r"$\mathbf{N}=T\mathbf{t}+S_n\mathbf{n}+S_b\mathbf{b}$", va="center")
     for sign in (1, -1):
         turn = np.linspace(0.2, 2.4, 20) + (0 if sign > 0 else np.pi)
         bend = sign * 0.8 * t[:, None] + 0.55 * np.array([np.cos(turn - 0.6), np.sin(turn - 0.6)])
-        left.plot(*bend, color=QUIET, lw=1.2)
-    left.text(1.55, 1.15, "$M$", color=QUIET)
-    left.text(-1.95, -0.85, "$M$", color=QUIET)
+        left_axes.plot(*bend, color=QUIET, lw=1.2)
+    left_axes.text(1.55, 1.15, "$M$", color=QUIET)
+    left_axes.text(-1.95, -0.85, "$M$", color=QUIET)
     right.add_patch(plt.Circle((0, 0), 0.75, facecolor="white", edgecolor=INK, lw=1.5))
     arrow(right, (0, 0.75), (0, 1.3), "$B$", FORCE, 1.2)
     arrow(right, (0, 0), (0, -1.9), "$W$", FORCE, 1.15)
@@ -113,18 +113,18 @@ def element():
 
 def box():
     """The box of the paper in space and time, and the box of the conservation form with its elimination."""
-    figure, (left, right) = canvas(2.6, (-1.6, 3.4), (-0.9, 4.3), 2)
-    left.add_patch(plt.Rectangle((0, 0.6), 2.2, 2.2, facecolor=WATER, alpha=0.12, edgecolor=WATER))
+    figure, (left_axes, right) = canvas(2.6, (-1.6, 3.4), (-0.9, 4.3), 2)
+    left_axes.add_patch(plt.Rectangle((0, 0.6), 2.2, 2.2, facecolor=WATER, alpha=0.12, edgecolor=WATER))
     for x in (0, 2.2):
         for z in (0.6, 2.8):
-            left.plot(x, z, "o", color=INK, ms=7)
-    left.plot(1.1, 1.7, "s", color=FORCE, ms=6)
-    left.text(1.1, 1.95, "eq. (28)", ha="center", va="bottom", color=FORCE)
+            left_axes.plot(x, z, "o", color=INK, ms=7)
+    left_axes.plot(1.1, 1.7, "s", color=FORCE, ms=6)
+    left_axes.text(1.1, 1.95, "eq. (28)", ha="center", va="bottom", color=FORCE)
     for x, text in ((0, "$t_{i-1}$"), (2.2, "$t_i$")):
-        left.text(x, 0.15, text, ha="center")
+        left_axes.text(x, 0.15, text, ha="center")
     for z, text in ((0.6, "$k-1$"), (2.8, "$k$")):
-        left.text(-0.25, z, text, ha="right", va="center")
-    left.text(0.9, 3.8, "paper", ha="center")
+        left_axes.text(-0.25, z, text, ha="right", va="center")
+    left_axes.text(0.9, 3.8, "paper", ha="center")
     right.plot([0.6, 0.6], [-0.3, 3.4], color=ROPE, lw=2)
     for z, text in ((0.6, r"$a$"), (2.2, r"$b$"), (3.3, ""), (-0.3, "")):
         right.plot(0.6, z, "o", color=INK, ms=7)
@@ -145,16 +145,16 @@ def stages():
     path = 0.15 + 0.7 * time**2
     ax.plot(time, path, color=WATER, lw=2)
     for c in (0.0, 0.5, 0.8, 1.0):
-        here = np.interp(c, time, path)
-        ax.plot(c, here, "o", color=INK, ms=6)
-        ax.plot([c, c], [0, here], color=QUIET, lw=0.7, ls=":")
+        level = np.interp(c, time, path)
+        ax.plot(c, level, "o", color=INK, ms=6)
+        ax.plot([c, c], [0, level], color=QUIET, lw=0.7, ls=":")
     c, back = 0.8, 0.25
-    here, slope = np.interp(c, time, path), 1.4 * c
-    start = (c - back, here - back * slope)
+    level, slope = np.interp(c, time, path), 1.4 * c
+    start = (c - back, level - back * slope)
     ax.plot(*start, "s", color=FORCE, ms=7)
-    ax.annotate("", (c, here), start, arrowprops={"arrowstyle": "-|>", "color": FORCE, "lw": 1.6})
+    ax.annotate("", (c, level), start, arrowprops={"arrowstyle": "-|>", "color": FORCE, "lw": 1.6})
     ax.text(start[0] + 0.02, start[1] - 0.03, r"$\tilde C$", color=FORCE, va="top")
-    ax.text(c + 0.02, here - 0.02, "$C_i$", va="top")
+    ax.text(c + 0.02, level - 0.02, "$C_i$", va="top")
     ax.text(0.14, 0.62, r"$K_i=c_0\,(C_i-\tilde C)$", color=FORCE)
     ax.annotate("", (c, 0.1), (c - back, 0.1), arrowprops={"arrowstyle": "<->", "color": QUIET})
     ax.text(c - back / 2, 0.13, r"$1/c_0=a_{ii}\Delta t$", ha="center", va="bottom", color=QUIET, fontsize=10)

@@ -37,7 +37,7 @@ def formulas(text):
     """A block of a page with its formulas as MathML."""
     if text.startswith("```math"):
         return f"<div>{mathml(text[7:-3], 'block')}</div>"
-    return text if text.startswith("`") else re.sub(r"\$([^$\n]+)\$", lambda found: mathml(found[1]), text)
+    return text if text.startswith("`") else re.sub(r"\$([^$\n]+)\$", lambda match: mathml(match[1]), text)
 
 
 def mathml(tex, display="inline"):
@@ -46,13 +46,13 @@ def mathml(tex, display="inline"):
     return f"<span>{convert(' '.join(tex.split()), display=display)}</span>"
 
 
-def cell(found):
+def cell(notebook_cell):
     """A cell of a notebook as Markdown, with what it printed and drew."""
-    source = "".join(found["source"])
-    if found["cell_type"] == "markdown":
+    source = "".join(notebook_cell["source"])
+    if notebook_cell["cell_type"] == "markdown":
         return source
     parts = [f"```python\n{source}\n```"]
-    for output in found["outputs"]:
+    for output in notebook_cell["outputs"]:
         data = output.get("data", {})
         if "image/png" in data:
             parts.append(f'<img alt="figure" src="data:image/png;base64,{"".join(data["image/png"]).strip()}">')
@@ -74,9 +74,9 @@ def names(package):
 
 def entry(name, item):
     """Heading, signature and docstring of a function or class, and of the methods written in it."""
-    said = inspect.getdoc(item) or ""
+    docstring = inspect.getdoc(item) or ""
     called = f"{name}{inspect.signature(item)}" if inspect.isfunction(item) else name
-    parts = [f"### {name}", f"<pre>{html.escape(called)}\n\n{html.escape(said)}</pre>"]
+    parts = [f"### {name}", f"<pre>{html.escape(called)}\n\n{html.escape(docstring)}</pre>"]
     if inspect.isclass(item):
         for key, method in vars(item).items():
             method = getattr(method, "__func__", method)

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..natural_frequencies import natural_frequencies
-from ..parameters import record_of
+from ..parameters import numbers_of
+from ..parameters.cover import has_rare_laws
+from ..physics.strains import strain_at, tension_at
 from ..physics.tension import LAWS, NAMES
-from ..scales import strain_at, tension_at
 from ..scene.models import Scene
-from ..simd.cover import has_extras
 from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 
 # in a wave period, or in one of the radial motion where that is shorter
@@ -61,8 +61,8 @@ def massless_runs(
     for name, (number, least) in counts.items():
         if number < least or number != int(number):
             raise ValueError(f"{name} is {number}; allowed: a whole number from {least} on")
-    how = scene.tether.length_m, scene.waves.period_s, int(first_period), int(steps)
-    return MasslessRuns(*_march(scene, record, tables, starts, int(periods), how))
+    settings = scene.tether.length_m, scene.waves.period_s, int(first_period), int(steps)
+    return MasslessRuns(*_march(scene, record, tables, starts, int(periods), settings))
 
 
 def massless_rest(scene: Scene) -> tuple[float, float]:
@@ -98,7 +98,7 @@ def why_not_covered(scene: Scene) -> str | None:
         return "no waves, or irregular ones: it counts in wave periods"
     if current is not None and (current.law != "uniform" or buoy.submergence != "full"):
         return "a current that is not uniform, or one about a wetted cap"
-    if has_extras(scene):
+    if has_rare_laws(scene):
         return "a line with damping, a surface, a floor, an anchor of its own or the whole push of the water"
     volume = math.pi / 6.0 * buoy.diameter_m**3
     if scene.water.density_kgpm3 * volume <= buoy.mass_kg:
@@ -110,12 +110,10 @@ def _parameters(scene):
     """Parameter record and tables; refuses a scene that the model does not cover."""
     if reason := why_not_covered(scene):
         raise ValueError(f"the massless tether does not cover this scene: {reason}")
-    tables = []
-    record = record_of(scene, tables)[0]
-    return record, np.concatenate(tables)
+    return numbers_of(scene)
 
 
-def _march(scene, record, tables, starts, periods, how):
+def _march(scene, record, tables, starts, periods, settings):
     """Arrays of MasslessRuns; side by side but for a law that is looked up in a table."""
     from .kernels import march, march_lanes
 
@@ -124,19 +122,19 @@ def _march(scene, record, tables, starts, periods, how):
         strobed, measures = np.full((k, periods + 1, 4), np.nan), np.full((k, periods, 3), np.nan)
         X, F = np.zeros((1, 2)), np.zeros((1, 4))
         for i, start in enumerate(starts):
-            march(record, tables, *how, tuple(start), strobed[i], measures[i], X, F)
+            march(record, tables, *settings, tuple(start), strobed[i], measures[i], X, F)
         return strobed, measures
     blocks = -(-k // COUNT)
     shapes = (len(REAL),), (blocks, 4), (blocks, periods + 1, 4), (blocks, periods, 3), (1, 2), (1, 4)
     arrays = tuple(lane_zeros(*shape) for shape in shapes)
-    values, side_by_side, *found = arrays[:4]
+    values, side_by_side, strobed, measures = arrays[:4]
     values[:] = np.array([record[name] for name in REAL])[:, None]
     side_by_side[:] = np.resize(starts, (blocks, COUNT, 4)).transpose(0, 2, 1)
-    for array in found:
-        array[:] = np.nan
+    strobed[:] = measures[:] = np.nan
     counts = np.array([record[name] for name in WHOLE])
-    march_lanes(np.zeros(1, record.dtype), counts, arrays, tables, *how)
-    return tuple(np.moveaxis(array, -1, 1).reshape(-1, *array.shape[1:-1])[:k] for array in found)
+    march_lanes(np.zeros(1, record.dtype), counts, arrays, tables, *settings)
+    lanes = strobed, measures
+    return tuple(np.moveaxis(array, -1, 1).reshape(-1, *array.shape[1:-1])[:k] for array in lanes)
 
 
 def _steps(scene):

@@ -118,15 +118,15 @@ def _cubic(s, a, b, a_s, b_s):
 def _change(dt, a, b, a_t, b_t):
     """Share of a step of dt (s) at which a gauge that is a before and b after it changes sign; 1 where it does not."""
     rises = b > 0.0
-    found = ((a <= 0.0) & rises) | ((a > 0.0) & (b <= 0.0))
-    low, high = where(found, 0.0, 1.0), where(found, 1.0, 1.0)
-    if not some(found):
+    changes = ((a <= 0.0) & rises) | ((a > 0.0) & (b <= 0.0))
+    low, high = where(changes, 0.0, 1.0), where(changes, 1.0, 1.0)
+    if not some(changes):
         return high
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         value = _cubic(middle, a, b, dt * a_t, dt * b_t)
-        before = where(rises, -value, value) > 0.0
-        low, high = where(before, middle, low), where(before, high, middle)
+        too_early = where(rises, -value, value) > 0.0
+        low, high = where(too_early, middle, low), where(too_early, high, middle)
     return 0.5 * (low + high)
 
 
@@ -165,9 +165,9 @@ def march(p, tables, length, period, first, steps, y, strobed, measures, X, F):
             at, want = t, dt
             for trial in range(3):  # the whole step, or then its two parts; a lane without a change makes it, then none
                 new = step(p, tables, length, at, want, y, X, F)
-                after = _gauges(p, tables, length, at + want, new)
+                new_gauges = _gauges(p, tables, length, at + want, new)
                 if trial == 0:
-                    share = _first_change(dt, gauges, after)
+                    share = _first_change(dt, gauges, new_gauges)
                     if some(share < 1.0):
                         want = share * dt
                         continue
@@ -176,7 +176,7 @@ def march(p, tables, length, period, first, steps, y, strobed, measures, X, F):
                 if trial != 1:
                     break
                 at, want = t + want, dt - want
-            gauges = after
+            gauges = new_gauges
         sound = finite((y[0] + y[1]) + (y[2] + y[3]))
         T = larger(tension(high / length - 1.0, p, tables)[0], 0.0)
         for i in range(4):

@@ -16,14 +16,14 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..excursions import message_of
 from ..physics.sea import direction_of
 from ..record import SAMPLE_WIDTH, STATE
-from ..run import columns_of, heading_of, sample_count, statistics_of
 from ..scene.models import Scene
 from ..time import status as codes
 from ..time.statics import why_no_rest
 from ..trajectory import Profiles, Trajectory
+from ..trajectory.columns import columns_of, heading_of, sample_count, statistics_of
+from ..trajectory.excursions import with_excursions
 from .ends import force_and_velocity
 from .line import EPS, EULER, OMEGA, TO_ENGINE, Line, line_of, turns
 from .newton import TOLERANCE, solve
@@ -66,16 +66,16 @@ def run(
     line = line_of(scene, accelerations)
     record = Record(scene, line, duration_s, most_gap)
     state = record.state
-    dt, most = float(line.record["fixed_step"]), int(line.record["max_newton"])
+    dt, max_iterations = float(line.record["fixed_step"]), int(line.record["max_newton"])
     tolerance = scene.solver.newton_tolerance or TOLERANCE
-    began = time.perf_counter()
+    started = time.perf_counter()
     status, Y = at_rest(scene, line)
     if status == codes.OK:
         level = level_of(line, 0.0, Y)
         flat = FLAT * float(line.tension(Y[EPS])[1].max())
         status = record.keep(level)
     while status == codes.OK and (len(record.rows), len(record.profiles)) != (record.goal, record.profile_goal):
-        status, used, level = solve(line, (state["steps"] + 1) * dt, level, most, tolerance, flat)
+        status, used, level = solve(line, (state["steps"] + 1) * dt, level, max_iterations, tolerance, flat)
         state["newton"] += used
         if status != codes.OK:
             state["failures"] = 1
@@ -85,21 +85,22 @@ def run(
         if progress is not None and state["steps"] % STEPS_PER_CALL == 0:
             progress(min(1.0, level.t / duration_s))
     state["t"] = state["steps"] * dt
-    own = {"closure_m": record.closure, "euler_norm_error": record.norm_error}
-    statistics = statistics_of(state, time.perf_counter() - began) | own
+    drifts = {"closure_m": record.closure, "euler_norm_error": record.norm_error}
+    statistics = statistics_of(state, time.perf_counter() - started) | drifts
     message = ""
     if status in (codes.STATICS_FAILED, codes.IN_THE_AIR):
         message = f"paper-box: {codes.ADVICE[status]}"
         message += why_no_rest(line.record, scene) if status == codes.STATICS_FAILED else ""
     elif status != codes.OK:
         turn, end = state["max_turn"], (state["steps"] + state["failures"]) * dt
-        said = SAID[status].format(turn=turn, gap=record.closure)
+        reason = SAID[status].format(turn=turn, gap=record.closure)
         seen = f"turn per element up to {turn:.3g} rad, strain down to {state['min_strain']:.3g} before"
         cure = 'add nodes, shorten solver.step_s, or take solver.scheme = "conservation"'
-        message = f"paper-box: {said} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
-    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), heading_of(scene))
-    message = message_of(message, scene, columns, codes.WORDS[status])
-    return Trajectory(scene, codes.WORDS[status], message, columns, statistics, record.lines())
+        message = f"paper-box: {reason} in the step of {dt:.3g} s to t = {end:.6g} s ({seen}): {cure}"
+    columns = columns_of(np.array(record.rows).reshape(-1, SAMPLE_WIDTH), scene)
+    message, excursions = with_excursions(message, scene, columns, codes.WORDS[status])
+    profiles = record.lines()
+    return Trajectory(scene, codes.WORDS[status], message, columns, statistics, profiles, excursions=excursions)
 
 
 class Record:
@@ -146,10 +147,10 @@ class Record:
             return codes.TURN_UNRESOLVED
         return codes.SHAPE_LOST if self.closure > self.most_gap else codes.OK
 
-    def _due(self, kept: list, step: float, goal: int, now: tuple) -> Iterator[tuple[float, np.ndarray]]:
+    def _due(self, rows: list, step: float, goal: int, now: tuple) -> Iterator[tuple[float, np.ndarray]]:
         """Times of samples within the step that ends now, and the values (8, n) then: x, y, z, velocity, strain, T."""
         (t0, start), (t1, end) = self.before, now
-        while len(kept) < goal and (t := len(kept) * step) <= t1 + ROUNDING * (t1 - t0):
+        while len(rows) < goal and (t := len(rows) * step) <= t1 + ROUNDING * (t1 - t0):
             part = min((t - t0) / (t1 - t0), 1.0) if t1 > t0 else 1.0
             yield t, (1 - part) * start + part * end
 

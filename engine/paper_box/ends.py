@@ -51,8 +51,8 @@ def upper(
     if line.record["end"] == BUOY:
         balance, V = buoy_load(line, Y, water)
         if old is not None:
-            before, V_old = buoy_load(line, old.Y[:, -1:], old.water[:, -1:])
-            balance = line.record["M_total"] * (V - V_old) / (t - old.t) + 0.5 * (balance + before)
+            balance_old, V_old = buoy_load(line, old.Y[:, -1:], old.water[:, -1:])
+            balance = line.record["M_total"] * (V - V_old) / (t - old.t) + 0.5 * (balance + balance_old)
     elif old is not None and is_kept(line, t):
         moved = np.array(end_velocity(line.record, line.tables, t))[TO_PAPER]
         balance = force_and_velocity(line, Y)[1] - moved[:, None]

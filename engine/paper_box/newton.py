@@ -33,7 +33,7 @@ TINY = 1e-40  # of the complex step, in the scale of each unknown
 
 
 def solve(
-    line: Line, t: float, old: Level, most: int, tolerance: float = TOLERANCE, flat: float = 0.0
+    line: Line, t: float, old: Level, max_iterations: int, tolerance: float = TOLERANCE, flat: float = 0.0
 ) -> tuple[int, int, Level | None]:
     """The `Level` at time t that follows `old`.
 
@@ -41,18 +41,18 @@ def solve(
     Returns (code, iterations, Level or None).
     """
     Y = old.Y.copy()
-    for iteration in range(1, most + 1):
-        code, found, size = newton_update(line, Y, water_at(line, t, Y), t, old)
+    for iteration in range(1, max_iterations + 1):
+        code, updates, size = newton_update(line, Y, water_at(line, t, Y), t, old)
         if code != OK:
             return code, iteration, None
-        Y += found[0] if size <= 1.0 else found[0] / size
+        Y += updates[0] if size <= 1.0 else updates[0] / size
         if Y[EPS].min() <= -1.0:
             return STRAIN_BELOW_MINUS_ONE, iteration, None
         if line.tension(Y[EPS])[1].min() <= flat:
             return TENSION_FLAT, iteration, None
         if size < tolerance:
             return OK, iteration, level_of(line, t, Y)
-    return NEWTON_FAILED, most, None
+    return NEWTON_FAILED, max_iterations, None
 
 
 def newton_update(
@@ -89,10 +89,10 @@ def newton_update(
         scaled = solve_banded(shape, band.reshape(3 * m - 1, -1), right, overwrite_ab=True, check_finite=False)
     except LinAlgError:
         return NEWTON_FAILED, None, np.inf
-    found = np.zeros((1 + axes, 13, n))
-    found[:, active] = (scaled.T.reshape(-1, n, m) / scale).transpose(0, 2, 1)
+    updates = np.zeros((1 + axes, 13, n))
+    updates[:, active] = (scaled.T.reshape(-1, n, m) / scale).transpose(0, 2, 1)
     size = np.abs(scaled[:, 0]).max()
-    return (OK if np.isfinite(size) else NOT_FINITE), found, size
+    return (OK if np.isfinite(size) else NOT_FINITE), updates, size
 
 
 def residual(

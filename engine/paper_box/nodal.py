@@ -7,7 +7,7 @@ omega the angular velocity of the frame (`line.turning`), the columns of M that 
     rows 2-3  -m (omega x V)_2,3 + R (dC/dt U_c)_2,3
     rows 4-6  -(1 + eps) (omega x t)
 
-Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; misprints: docs/appendix_a.md); a product
+Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; misprints: THEORY.md); a product
 with M so costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term R C dU_c/dt that the print leaves out:
 without it waves act on the tether by drag alone.
 
@@ -43,9 +43,9 @@ def water_at(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> np.ndar
     X = np.ascontiguousarray(positions(line, Y)[TO_ENGINE][axes].T)
     F = np.zeros((len(X), 2 * len(axes)))
     water_of_engine(line.record, line.tables, t, 1.0 if waves else 0.0, X, F)
-    found = np.zeros((2, 3, len(X)))
-    found[:, axes] = F.T.reshape(2, len(axes), -1)
-    return found[:, TO_PAPER].reshape(6, -1)
+    fields = np.zeros((2, 3, len(X)))
+    fields[:, axes] = F.T.reshape(2, len(axes), -1)
+    return fields[:, TO_PAPER].reshape(6, -1)
 
 
 class Level(NamedTuple):

@@ -58,15 +58,15 @@ def settled(
     axes = 0 if target is None else 3 if line.spatial else 2
     for _ in range(MOST):
         water = share * water_at(line, 0.0, Y, waves=False)
-        code, found, size = newton_update(line, Y, water, 0.0, None, force, axes)
+        code, updates, size = newton_update(line, Y, water, 0.0, None, force, axes)
         if code != OK:
             break
-        update, pull = found[0], np.zeros(3)
+        update, pull = updates[0], np.zeros(3)
         if axes:
-            reach = [positions(line, Y + 1j * TINY * part)[:axes, -1].imag / TINY for part in found]
+            reach = [positions(line, Y + 1j * TINY * part)[:axes, -1].imag / TINY for part in updates]
             missing = (target - positions(line, Y)[:, -1])[:axes] - reach[0]
             pull[:axes] = np.linalg.lstsq(np.array(reach[1:]).T, missing)[0]
-            update = found[0] + np.tensordot(pull[:axes], found[1:], 1)
+            update = updates[0] + np.tensordot(pull[:axes], updates[1:], 1)
             size = np.abs(update * line.per[:, None]).max()
         factor = min(1.0, 1.0 / size)
         Y += factor * update
@@ -91,7 +91,7 @@ def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     }
     planar, tables = scene.model_copy(update=changes), []
     record = parameters.record_of(planar, tables)[0]
-    code, Y = statics.rest_of(record, planar, np.concatenate(tables), np.array([flat[0], flat[2]]))
+    code, Y = statics.static_equilibrium(record, planar, np.concatenate(tables), np.array([flat[0], flat[2]]))
     return code, lifted(Y, azimuth) if code == OK else None
 
 
@@ -100,10 +100,10 @@ def lifted(Y: np.ndarray, azimuth: float = 0.0) -> np.ndarray:
 
     The angle from the vertical is a = pi/2 - phi, so n and Omega_3 change their signs against the planar engine.
     """
-    found = np.zeros((13, len(Y)))
-    found[EPS], found[S_N], found[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
+    state = np.zeros((13, len(Y)))
+    state[EPS], state[S_N], state[O3] = Y[:, col.EPS], -Y[:, col.SHEAR], -Y[:, col.KAPPA]
     half = 0.5 * (math.pi / 2 - Y[:, col.PHI])
     up, side = np.cos(half), np.sin(half)
     cos, sin = math.cos(0.5 * azimuth), math.sin(0.5 * azimuth)
-    found[EULER] = cos * up, sin * up, -sin * side, cos * side  # the turn by a, then the azimuth about axis 1
-    return found
+    state[EULER] = cos * up, sin * up, -sin * side, cos * side  # the turn by a, then the azimuth about axis 1
+    return state

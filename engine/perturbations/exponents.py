@@ -14,7 +14,7 @@ from ..planar.extras import node_width
 from ..record import BEGIN, KIND, RESTART, STEP
 from ..simd.elementary import copy_into
 from ..time.steps import known_part, plan_stage, stage_rate
-from ..trajectory import TangentGrowth
+from ..trajectory.parts import TangentGrowth
 from .lateral import COEFFICIENTS, WIDTH, energy_weights, lateral_stage, normalise
 from .tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 
@@ -23,20 +23,20 @@ SEED = 20  # of the first perturbations: any will do, they turn to the fastest g
 
 
 @kernel
-def carry(p, tables, period, count, trail, along, across):
+def carry(p, tables, period, count, trail, tangent, across):
     """Carry perturbations through the first `count` steps of a Trail.
 
-    along: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, and growth (periods, k), nats;
+    tangent: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, and growth (periods, k), nats;
     across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these weights on entry and exit, and growth
     (periods,), nats; None where there are none. What each step adds to a growth goes to the period (s) in which it ends
-    (the last, beyond the end). Period 0: vectors along are carried as they are, of any length, and no growth is kept.
+    (the last, beyond the end). Period 0: tangent vectors are carried as they are, of any length, and no growth is kept.
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
-    if along is not None:
-        vectors, rates, growth = along
+    if tangent is not None:
+        vectors, rates, growth = tangent
         number = vectors.shape[0]
         work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
         water = Water(np.zeros((n, 8)), np.zeros((n, 4)))
@@ -48,16 +48,16 @@ def carry(p, tables, period, count, trail, along, across):
         dC_y, known, dK = np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((s, n, 2))
     for step in range(count):
         t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
-        if along is not None:
+        if tangent is not None:
             for v in range(number):
                 copy_into(dKs[v, 0], rates[v])
         if across is not None:
             copy_into(dK[0], vector_rates)
         for i in range(s - 1 if euler else 1, s):
-            rate, after = plan_stage(p, tables, i, euler, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
+            rate, delay = plan_stage(p, tables, i, euler, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
             so_far = 0 if euler else i
-            base = Base(t + after, rate, moving_water, trail.Y[step, i], trail.K[step, i])
-            if along is not None:
+            base = Base(t + delay, rate, moving_water, trail.Y[step, i], trail.K[step, i])
+            if tangent is not None:
                 linearise(p, tables, base, work, water)
                 for v in range(number):
                     known_part(a, so_far, vectors[v], dKs[v], dC_tilde)
@@ -72,7 +72,7 @@ def carry(p, tables, period, count, trail, along, across):
                 known_part(a, so_far, vector, dK, known)
                 lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)
                 stage_rate(rate, dC_y, known, dK[i])
-        if along is not None and period > 0.0:
+        if tangent is not None and period > 0.0:
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
             for v in range(number):
                 growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])
@@ -119,16 +119,16 @@ class Followed:
 
     def _go_on(self, start):
         """Take over the perturbations of a run that carried as many."""
-        own, sideways = start.vectors.size > 0, start.lateral.size > 0
-        if own and len(start.vectors[0]) == self.count:
-            for part, given in zip(self.along[:2], start.vectors, strict=True):
-                part[:] = given
+        has_vectors, sideways = start.vectors.size > 0, start.lateral.size > 0
+        if has_vectors and len(start.vectors[0]) == self.count:
+            for part, stored in zip(self.along[:2], start.vectors, strict=True):
+                part[:] = stored
             self.nats[self.first : self.first + 1] = start.growth[:, : self.count]
         if sideways and self.sideways:
-            for part, given in zip(self.across[1:3], start.lateral, strict=True):
-                part[:] = given
+            for part, stored in zip(self.across[1:3], start.lateral, strict=True):
+                part[:] = stored
             self.lateral_nats[self.first] = start.growth[0, -2]
-        if own or sideways:
+        if has_vectors or sideways:
             self.released[self.first] = start.growth[0, -1]
 
     def state(self, state):
@@ -137,8 +137,8 @@ class Followed:
             return np.empty(0), np.empty(0), np.empty(0)
         at = self.complete(state)
         growth = np.array([[*self.nats[at], self.lateral_nats[at], self.released[at]]])
-        along = np.array(self.along[:2]) if self.count else np.empty(0)
-        return along, np.array(self.across[1:3]) if self.sideways else np.empty(0), growth
+        tangent = np.array(self.along[:2]) if self.count else np.empty(0)
+        return tangent, np.array(self.across[1:3]) if self.sideways else np.empty(0), growth
 
     def follow(self, record, tables, state):
         """Carry the perturbations through the steps stored since the last call, and empty the trail.
@@ -162,9 +162,9 @@ class Followed:
         """Growth of the complete periods, or None."""
         if not self.followed:
             return None
-        found = slice(self.first, self.complete(state))
-        sideways = self.lateral_nats[found].copy() if self.sideways else None
-        return TangentGrowth(self.period_s, self.nats[found].copy(), self.released[found].copy(), sideways)
+        periods = slice(self.first, self.complete(state))
+        sideways = self.lateral_nats[periods].copy() if self.sideways else None
+        return TangentGrowth(self.period_s, self.nats[periods].copy(), self.released[periods].copy(), sideways)
 
     def complete(self, state):
         """How many periods have ended since t = 0."""

@@ -8,11 +8,11 @@ frame (t, n, b) gives dt = theta x t = -theta_n b, dn = theta_t b, and, with V_y
     V_y' = q_y,t         N_y' = G_y        EI dO2' - lam^3 dS_b = 0   (terms of EI - GIp are products with O1: none)
 
 Neither strain, speed along t, magnitude of a relative velocity nor position in the plane changes to first order, and
-the water does not depend on y. So, from G = m V_t + w0 z + c_t sqrt(lam) |v_t| v_t t + c_n sqrt(lam) |v_p| v_p
-+ (I - t t')(m_a V_t - R a_w), with v_p = v - v_t t and its y component V_y - v_t theta_n,
+the water does not depend on y. So, from G = m V_t + w0 z + C_t |v_t| v_t t + C_n |v_p| v_p
++ (I - t t')(m_a V_t - R a_w), with C_t, C_n of `engine.physics.drag`, v_p = v - v_t t and its y component
+V_y - v_t theta_n,
 
-    G_y = (m + m_a) V_y,t + c_n sqrt(lam) |v_n| V_y
-          + [c_t sqrt(lam) |v_t| v_t - c_n sqrt(lam) |v_n| v_t - t.(m_a V_t - R a_w)] theta_n
+    G_y = (m + m_a) V_y,t + C_n |v_n| V_y + [C_t |v_t| v_t - C_n |v_n| v_t - t.(m_a V_t - R a_w)] theta_n
     buoy  N_y + (M + M_a) V_y,t + C |v| V_y = 0;   held  V_y = 0;   free  N_y = 0;   all  dO2 = 0
     anchor  V_y = 0, dO2 = 0, theta_t = 0 (the roll gauge)
 
@@ -39,6 +39,7 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
+from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.ends import released
 from ..physics.submergence import across_cap
 from ..physics.tension.kernels import tension
@@ -90,9 +91,10 @@ def _coefficients(p, tables, base, Q, F, H):
             root = math.sqrt(larger(lam, 0.0))
             ur, wr = Y[k, col.VX] - F[k, col.UX], Y[k, col.VZ] - F[k, col.UZ]
             vt, vn = ur * c + wr * s, wr * c - ur * s
-            kn = p.cn * root * abs(vn)
+            C_along = drag_along(p, tables, root, abs(vt))[0]
+            kn = drag_across(p, tables, root, abs(vn))[0] * abs(vn)
             across += kn
-            tilt = (p.ct * root * abs(vt) - kn) * vt
+            tilt = (C_along * abs(vt) - kn) * vt
             tilt -= c * (p.ma * K[k, col.VX] - p.Rw * F[k, col.AX]) + s * (p.ma * K[k, col.VZ] - p.Rw * F[k, col.AZ])
         H[k, SIN_HALF], H[k, COS_HALF] = sd, cd
         H[k, Q_TAU], H[k, Q_RHO] = lam * cd, -lam * sd
@@ -179,8 +181,8 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:
-        more = across_cap(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
-        of_V, known = of_V + more[0], known + more[1]
+        cap = across_cap(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
+        of_V, known = of_V + cap[0], known + cap[1]
     A00 = of_N * (H[b, N_TAU] + H[b, N_RHO] * R20) + of_V * R00
     A01 = of_N * (H[b, N_RHO] * R21 - 1.0) + of_V * R01
     g0 = -known - of_N * H[b, N_RHO] * r2 - of_V * r0
@@ -212,10 +214,10 @@ def energy_weights(p: np.void, tables: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def normalise(weights, here, vector, rates):
-    """Bring vector (n, 2) to length one where `here` holds, rates along; returns its length."""
+def normalise(weights, mask, vector, rates):
+    """Bring vector (n, 2) to length one where `mask` holds, rates along; returns its length."""
     square = 0.0
     for k in range(vector.shape[0]):
         for m in range(2):
             square += weights[k, m] * (vector[k, m] * vector[k, m])
-    return to_length_one(here, math.sqrt(square), vector, rates)
+    return to_length_one(mask, math.sqrt(square), vector, rates)

@@ -18,7 +18,7 @@ for the matrix that `planar.elimination.eliminate` has eliminated, one pass up, 
 
 After every step the perturbations are made orthonormal (Gram-Schmidt) in the norm of THEORY.md, section 11, summed over
 the nodes; the logarithms of their lengths add up to the growth of each period. A loop release leaves dC unchanged; the
-periods in which one happens are marked, because another shape of the tether is not a derivative (docs/findings.md).
+periods in which one happens are marked, because another shape of the tether is not a derivative (docs/results.md).
 
 `march` stores the accepted steps in a Trail (`engine.arrays`); of the stages backward Euler uses the last.
 """
@@ -69,12 +69,12 @@ def _add_water(p, tables, base, work, water):
     Q, top, rate, over = work.Q, work.E[0], base.rate, 1.0 / base.rate
     for k in range(Q.shape[0]):
         c, s = Q[k, col.COS], Q[k, col.SIN]
-        share, own, place = beside_drag(p, Q[k])
+        share, by_velocity, place = beside_drag(p, Q[k])
         ma, drag = share * p.ma, water.drag[k]
-        drag[0] = Q[k, col.GXX] - rate * (p.m + ma * s * s) - (own[0] + place[0])
-        drag[1] = Q[k, col.GXZ] + rate * ma * c * s - (own[1] + place[1])
-        drag[2] = Q[k, col.GZX] + rate * ma * c * s - (own[2] + place[2])
-        drag[3] = Q[k, col.GZZ] - rate * (p.m + ma * c * c) - (own[3] + place[3])
+        drag[0] = Q[k, col.GXX] - rate * (p.m + ma * s * s) - (by_velocity[0] + place[0])
+        drag[1] = Q[k, col.GXZ] + rate * ma * c * s - (by_velocity[1] + place[1])
+        drag[2] = Q[k, col.GZX] + rate * ma * c * s - (by_velocity[2] + place[2])
+        drag[3] = Q[k, col.GZZ] - rate * (p.m + ma * c * c) - (by_velocity[3] + place[3])
     for m in range(4):
         top[col.TOP_DXX + m] = 0.0
     if base.moving_water == 0.0:
@@ -116,24 +116,29 @@ def _end_change(p, base, work, dV_tilde, dX_tilde, dF):
     if p.wet:
         u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
         speed = math.sqrt(u * u + w * w)
-        along = (u * dF[col.UX] + w * dF[col.UZ]) / where(speed > 0.0, speed, 1.0)
-        x -= p.C_buoy * (speed * dF[col.UX] + u * along)
-        z -= p.C_buoy * (speed * dF[col.UZ] + w * along)
+        slip_change = (u * dF[col.UX] + w * dF[col.UZ]) / where(speed > 0.0, speed, 1.0)
+        x -= p.C_buoy * (speed * dF[col.UX] + u * slip_change)
+        z -= p.C_buoy * (speed * dF[col.UZ] + w * slip_change)
         x -= p.M_wave * dF[col.AX]
         z -= p.M_wave * dF[col.AZ]
     buoy = 1.0 if p.end == BUOY else 0.0
     x, z = buoy * x, buoy * z
     if p.spherical_cap:
-        more = change_of_cap(p, base.t, base.rate, work.X[last], Y, base.K[last], F, dV_tilde, dX_tilde, dF)
-        x, z = x + more[0], z + more[1]
+        cap = change_of_cap(p, base.t, base.rate, work.X[last], Y, base.K[last], F, dV_tilde, dX_tilde, dF)
+        x, z = x + cap[0], z + cap[1]
     return x, z
 
 
 @kernel
 def _known_load(p, rate, row, drag, dC_tilde, x, z):
     """gamma (head of this file) of a node: its rows of Q, drag and dC~; x, z: c dX~."""
-    share, own, _ = beside_drag(p, row)
-    xx, xz, zx, zz = drag[0] + own[0], drag[1] + own[1], drag[2] + own[2], drag[3] + own[3]
+    share, by_velocity, _ = beside_drag(p, row)
+    xx, xz, zx, zz = (
+        drag[0] + by_velocity[0],
+        drag[1] + by_velocity[1],
+        drag[2] + by_velocity[2],
+        drag[3] + by_velocity[3],
+    )
     a, b = rate * (dC_tilde[col.VX] + x), rate * (dC_tilde[col.VZ] + z)
     c, s = row[col.COS], row[col.SIN]
     across = share * p.ma * (b * c - a * s)
@@ -224,9 +229,9 @@ def _inner(weight, a, b):
 
 
 @kernel
-def to_length_one(here, length, vector, rates):
-    """Divide vector (n, m) and its rates by its length where `here` holds and it has one; returns the length."""
-    scale = where(here & (length > 0.0), 1.0 / length, 1.0)
+def to_length_one(mask, length, vector, rates):
+    """Divide vector (n, m) and its rates by its length where `mask` holds and it has one; returns the length."""
+    scale = where(mask & (length > 0.0), 1.0 / length, 1.0)
     for k in range(vector.shape[0]):
         for m in range(vector.shape[1]):
             vector[k, m] *= scale
@@ -235,17 +240,17 @@ def to_length_one(here, length, vector, rates):
 
 
 @kernel
-def orthonormalise(weight, here, vectors, rates, lengths):
-    """Gram-Schmidt over vectors (k, n, 4) where `here` holds, rates taken along; the length of each before it."""
+def orthonormalise(weight, mask, vectors, rates, lengths):
+    """Gram-Schmidt over vectors (k, n, 4) where `mask` holds, rates taken along; the length of each before it."""
     count, n = vectors.shape[0], vectors.shape[1]
     for i in range(count):
         for j in range(i):
-            product = where(here, _inner(weight, vectors[i], vectors[j]), 0.0)
+            product = where(mask, _inner(weight, vectors[i], vectors[j]), 0.0)
             for k in range(n):
                 for m in range(4):
                     vectors[i, k, m] -= product * vectors[j, k, m]
                     rates[i, k, m] -= product * rates[j, k, m]
-        lengths[i] = to_length_one(here, math.sqrt(_inner(weight, vectors[i], vectors[i])), vectors[i], rates[i])
+        lengths[i] = to_length_one(mask, math.sqrt(_inner(weight, vectors[i], vectors[i])), vectors[i], rates[i])
 
 
 @kernel

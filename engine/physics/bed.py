@@ -110,23 +110,23 @@ def _on_the_bed(p, tables, stage, Y, work, factor, size):
     e^2: so it counts for no less than the root of what the bed does otherwise than the matrix foresaw, over the weight
     of the line. Speeds alone do not see that 1e-7 m may be this weight.
     """
-    axes, over, height, most = work.C_tilde.shape[1] // 2, 1.0 / stage.cq, p.anchor_z, 0.0
+    axes, over, height, largest = work.C_tilde.shape[1] // 2, 1.0 / stage.cq, p.anchor_z, 0.0
     weight = p.bed_stiffness * p.bed_onset * (p.nodes - 1)  # over the length of an element
     for k in range(1, Y.shape[0] if p.floored else 1):
         rise = work.C_tilde[k - 1, axes - 1] + work.C_tilde[k, axes - 1]
         height += 0.5 * tables[p.grid_at + k - 1] * rise
         V, dV = _velocity(axes, Y[k]), _velocity(axes, work.D[k])
-        before = mixed(1.0, V, -factor, dV)
-        low, high = height + over * before[2], height + over * V[2]
+        V_before = mixed(1.0, V, -factor, dV)
+        low, high = height + over * V_before[2], height + over * V[2]
         if min(low, high) <= -p.bed_onset and max(low, high) >= 0.0:
             Y[k, 2 * axes - 1] = -(height + WITHIN * p.bed_onset) * stage.cq
             size = max(size, 1.0)
-        load, rows, by_z = bed_load(p, stage.in_motion, low, before)
+        load, rows, by_z = bed_load(p, stage.in_motion, low, V_before)
         foreseen = mixed(1.0, affine(rows, mixed(factor, dV, 0.0, dV), load), high - low, by_z)
         missed = mixed(1.0, bed_load(p, stage.in_motion, high, V)[0], -1.0, foreseen)
-        most = max(most, dot(missed, missed))
+        largest = max(largest, dot(missed, missed))
     known = p.bed_stiffness * ROUNDING
-    return max(size, (most / (weight * weight)) ** 0.25) if most > known * known else size
+    return max(size, (largest / (weight * weight)) ** 0.25) if largest > known * known else size
 
 
 @kernel

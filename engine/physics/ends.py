@@ -9,7 +9,7 @@ e_N (eN) the factor of dN (1 or 0) and D = de/dV; V_t = cv (V - V~); this e is n
 
 In the record M_total = M + M_a, M_wave = rho V + M_a, lift = B - W, C_buoy = C (`engine.parameters`).
 The place of a held end follows from V by integration: it is off by what Newton's method leaves over, 1 mm after ten
-oscillations of 1 m at the default tolerances (`docs/held_lines.md`). In statics V is a displacement, and V_e the one
+oscillations of 1 m at the default tolerances (`docs/scenes.md`). In statics V is a displacement, and V_e the one
 that is left to go (`engine.time.statics` puts it into end_x ... end_z).
 
 Motion of a held end in `tables`, n numbers or knots: velocities, since the displacement follows from them:
@@ -54,11 +54,11 @@ def end_velocity(p, tables, t):
         angle = omega * t + tables[at + 4]
         gain, gain_rate = smooth_start(t, tables[at + 5])
         sine, cosine = math.sin(angle), math.cos(angle)
-        rate, other = gain_rate * sine + gain * omega * cosine, gain_rate * cosine - gain * omega * sine
+        rate, rate_of_cosine = gain_rate * sine + gain * omega * cosine, gain_rate * cosine - gain * omega * sine
         return (
-            tables[at] * rate + tables[at + 6] * other,
-            tables[at + 1] * rate + tables[at + 7] * other,
-            tables[at + 2] * rate + tables[at + 8] * other,
+            tables[at] * rate + tables[at + 6] * rate_of_cosine,
+            tables[at + 1] * rate + tables[at + 7] * rate_of_cosine,
+            tables[at + 2] * rate + tables[at + 8] * rate_of_cosine,
         )
     if p.end_motion == TABLE:
         piece, part, inverse = bracket(tables, at, p.end_n, t)
@@ -129,8 +129,8 @@ def upper_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
         vx, _, vz = end_velocity(p, tables, t)
         return U - vx, W - vz, 0.0, 1.0, 0.0, 1.0
     if p.end == FREE:
-        left = force_left(p, t)
-        return Nx - left * p.end_x, Nz - left * p.end_z, 1.0, 0.0, 0.0, 0.0
+        share = force_left(p, t)
+        return Nx - share * p.end_x, Nz - share * p.end_z, 1.0, 0.0, 0.0, 0.0
     return _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F)
 
 
@@ -149,10 +149,10 @@ def _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
         speed = math.sqrt(u * u + w * w)
         ex += p.C_buoy * speed * u - p.M_wave * F[2]
         ez += p.C_buoy * speed * w - p.M_wave * F[3]
-        along = in_motion * p.C_buoy / where(speed > 0.0, speed, 1.0)
-        Dxx += in_motion * p.C_buoy * speed + along * u * u
-        Dxz = along * u * w
-        Dzz += in_motion * p.C_buoy * speed + along * w * w
+        over_speed = in_motion * p.C_buoy / where(speed > 0.0, speed, 1.0)
+        Dxx += in_motion * p.C_buoy * speed + over_speed * u * u
+        Dxz = over_speed * u * w
+        Dzz += in_motion * p.C_buoy * speed + over_speed * w * w
     return ex, ez, 1.0, Dxx, Dxz, Dzz
 
 
@@ -175,8 +175,8 @@ def upper_end_3d(p, tables, t, cv, in_motion, N, V, V_tilde, F):
         vx, vy, vz = end_velocity(p, tables, t)
         return (V[0] - vx, V[1] - vy, V[2] - vz), 0.0, fixed
     if p.end == FREE:
-        left = force_left(p, t)
-        return (N[0] - left * p.end_x, N[1] - left * p.end_y, N[2] - left * p.end_z), 1.0, free
+        share = force_left(p, t)
+        return (N[0] - share * p.end_x, N[1] - share * p.end_y, N[2] - share * p.end_z), 1.0, free
     inertia = p.M_total * cv
     ex = N[0] + inertia * (V[0] - V_tilde[0])
     ey = N[1] + inertia * (V[1] - V_tilde[1])
@@ -191,9 +191,9 @@ def upper_end_3d(p, tables, t, cv, in_motion, N, V, V_tilde, F):
         ez += p.C_buoy * speed * w - p.M_wave * F[5]
         if speed > 0.0:
             factor = in_motion * p.C_buoy
-            along = factor / speed
-            Dxx += factor * speed + along * u * u
-            Dyy += factor * speed + along * v * v
-            Dzz += factor * speed + along * w * w
-            Dxy, Dxz, Dyz = along * u * v, along * u * w, along * v * w
+            over_speed = factor / speed
+            Dxx += factor * speed + over_speed * u * u
+            Dyy += factor * speed + over_speed * v * v
+            Dzz += factor * speed + over_speed * w * w
+            Dxy, Dxz, Dyz = over_speed * u * v, over_speed * u * w, over_speed * v * w
     return (ex, ey, ez), 1.0, (Dxx, Dxy, Dxz, Dyy, Dyz, Dzz)

@@ -46,7 +46,7 @@ def wetting(p, t, in_motion, ahead, x, V):
     """At the place x (m) with the velocity V: s, s' (1/m), s'' (1/m2), h_t (m/s), n, and slopes of h_t and n along
     `ahead`, the direction of the waves."""
     eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, dot(ahead, x))
-    inverse = 1.0 / p.width
+    inverse = 1.0 / p.diameter
     y = min(max((p.depth + eta - x[2]) * inverse + 0.5, 0.0), 1.0)
     bend = 6.0 * inverse * inverse * (1.0 - 2.0 * y) if 0.0 < y < 1.0 else 0.0
     n = (-ahead[0] * slope, -ahead[1] * slope, 1.0)

@@ -69,12 +69,14 @@ def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
     if not waves.irregular:
         k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
         amplitude = waves.amplitude_m if waves.steepness is None else waves.steepness / k
-        return tuple(np.array([one]) for one in (waves.period_s, amplitude, waves.phase_rad, waves.direction_rad))
+        return tuple(
+            np.array([component]) for component in (waves.period_s, amplitude, waves.phase_rad, waves.direction_rad)
+        )
     if waves.jonswap is not None:
         sea = waves.jonswap
         drawn = components(sea.significant_height_m, waves.period_s, sea.peak_enhancement, sea.components, sea.seed)
         return (*drawn, np.full(sea.components, waves.direction_rad))
-    listed = [(one.period_s, one.amplitude_m, one.phase_rad, one.direction_rad) for one in waves.components]
+    listed = [(wave.period_s, wave.amplitude_m, wave.phase_rad, wave.direction_rad) for wave in waves.components]
     return tuple(np.array(listed).T)
 
 
@@ -153,10 +155,10 @@ def _add_wave(row, depth, above, gain, gain_rate, t, X, Z, F):
         else:
             s, c = sincos(k * x - om * t + phase)
             up, down = math.exp(k * (z - depth)), math.exp(-k * (z + depth))
-        more, less = up + down, up - down
+        cosh_part, sinh_part = up + down, up - down
         if above == ZERO and X[j, size - 1] > depth:
-            more = less = 0.0
-        uc, us, wc, ws = more * c, more * s, less * c, less * s
+            cosh_part = sinh_part = 0.0
+        uc, us, wc, ws = cosh_part * c, cosh_part * s, sinh_part * c, sinh_part * s
         u, u_t = u0 * uc, u0 * om * us + u1 * uc
         F[j, 0] += cosine * u
         F[j, size] += cosine * u_t

@@ -17,7 +17,7 @@ next leaves noise of a thousandth of the jump (one neighbour: half of it stays; 
 The box rule with a step of one element per wave hardly disperses; with much shorter steps the same viscosity lets the
 strain ahead of a shock overshoot by a tenth of the jump. On a graded grid the step therefore follows the deformation:
 with `solver.courant` it is that number times the shortest element that deforms over the fastest wave
-(docs/breaking_line.md).
+(docs/results.md#the-breaking-line).
 """
 
 import math
@@ -54,10 +54,10 @@ def _mean(e_t, k):
 def _limiter(e_t, k):
     """a of node k alone."""
     n = e_t.shape[0]
-    here = _mean(e_t, k)
-    if here == 0.0:
+    rate = _mean(e_t, k)
+    if rate == 0.0:
         return 0.0
-    below, above = _mean(e_t, max(k - 1, 1)) / here, _mean(e_t, min(k + 1, n - 2)) / here
+    below, above = _mean(e_t, max(k - 1, 1)) / rate, _mean(e_t, min(k + 1, n - 2)) / rate
     return 1.0 - max(0.0, min(0.5 * (below + above), 2.0 * below, 2.0 * above, 1.0))
 
 

@@ -12,7 +12,7 @@ water, v = V - U_w, and of the pressure gradient,
 
     e = ... + s M_a (V_t - dU_w/dt) + M_a s' (h_t v + |v|^2 n/2),    h_t = eta_t + eta_x U - W,    n = (-eta_x, 1)
 
-so that in still water no energy is lost or made (docs/out_of_the_water.md). On the way straight down the last term is
+so that in still water no energy is lost or made (docs/results.md). On the way straight down the last term is
 M_a s' W^2/2, half the impact force of von Karman (1929); the other half takes energy away into spray, of which
 buoy.impact_loss asks for a share: - loss M_a s' h_t^2 n/2 in e while the cap grows, h_t > 0.
 
@@ -30,13 +30,13 @@ from ..spatial.vectors import dot, mixed
 
 
 @kernel
-def surface(p, t, in_motion, along):
-    """Linear wave at `along` (m) in its direction of travel: eta, eta', eta'', eta_t, eta_t'; zeros in statics."""
+def surface(p, t, in_motion, distance):
+    """Linear wave at `distance` (m) in its direction of travel: eta, eta', eta'', eta_t, eta_t'; zeros in statics."""
     eta = slope = curve = rate = rate_slope = 0.0
     if p.waves and in_motion > 0.0:
         gain, gain_rate = smooth_start(t, p.ramp)
         high, rising = p.amplitude * gain, p.amplitude * gain_rate
-        s, c = sincos(p.k * along - p.omega * t + p.phase)
+        s, c = sincos(p.k * distance - p.omega * t + p.phase)
         eta = high * c
         slope = -p.k * high * s
         curve = -p.k * p.k * high * c
@@ -92,19 +92,20 @@ def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
     drag = p.C_buoy * bare
     ex = slam * impact_x + p.M_wave * dry * F[2] - p.M_added * dry * ax - drag * speed * u
     ez = slam * impact_z + p.M_wave * dry * F[3] - p.M_added * dry * az - drag * speed * w + p.B_whole * dry
-    along = in_motion * drag / where(speed > 0.0, speed, 1.0)
+    over_speed = in_motion * drag / where(speed > 0.0, speed, 1.0)
     Dxx = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
     turning = in_motion * slam * (nx * w - u)
     lost = in_motion * slam * entering
-    across = along * u * w - lost * nx
+    across = over_speed * u * w - lost * nx
     # by the place: through h, whose gradient is -n, and through the slope and the rate of the surface
-    more = p.M_added * bend
-    gx = more * impact_x + ds * (p.M_added * ax - p.M_wave * F[2]) + p.C_buoy * da * speed * u
-    gz = more * impact_z + ds * (p.M_added * az - p.M_wave * F[3] - p.B_whole) + p.C_buoy * da * speed * w
+    added_bend = p.M_added * bend
+    gx = added_bend * impact_x + ds * (p.M_added * ax - p.M_wave * F[2]) + p.C_buoy * da * speed * u
+    gz = added_bend * impact_z + ds * (p.M_added * az - p.M_wave * F[3] - p.B_whole) + p.C_buoy * da * speed * w
     faster = in_motion * slam * (p.direction * rate_slope + curve * U)
     Gxx = faster * (u - entering * nx) - slam * push * curve - gx * nx
     return (
-        ex, ez, Dxx - along * u * u + lost * nx * nx, turning - across, -turning - across, Dxx - along * w * w + lost,
+        ex, ez, Dxx - over_speed * u * u + lost * nx * nx, turning - across,
+        -turning - across, Dxx - over_speed * w * w + lost,
         Gxx, -gx, faster * (w - entering) - gz * nx, -gz,
     )  # fmt: skip
 
@@ -124,13 +125,13 @@ def cap_change(p, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
     u, w = U - F[0], W - F[1]
     speed = math.sqrt(u * u + w * w)
     product = u * dF[0] + w * dF[1]
-    along = product / where(speed > 0.0, speed, 1.0)
+    slip_change = product / where(speed > 0.0, speed, 1.0)
     sinking = rate - nx * U - W
     slam, drag, inertia = p.M_added * ds, p.C_buoy * bare, p.M_added * dry * cv
     known_x = G[6] * dX_tilde[0] + G[7] * dX_tilde[1] + inertia * dV_tilde[0] + p.M_wave * dry * dF[2]
     known_z = G[8] * dX_tilde[0] + G[9] * dX_tilde[1] + inertia * dV_tilde[1] + p.M_wave * dry * dF[3]
-    known_x += drag * (speed * dF[0] + u * along) - slam * (sinking * dF[0] + nx * product)
-    known_z += drag * (speed * dF[1] + w * along) - slam * (sinking * dF[1] + product)
+    known_x += drag * (speed * dF[0] + u * slip_change) - slam * (sinking * dF[0] + nx * product)
+    known_z += drag * (speed * dF[1] + w * slip_change) - slam * (sinking * dF[1] + product)
     return known_x, known_z
 
 
@@ -169,13 +170,13 @@ def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
     g = (g[0], g[1], g[2] - p.B_whole * ds)
     faster = in_motion * slam * (rate_slope + curve * dot(ahead, V))
     moved = mixed(1.0, mixed(faster, v, -faster * entering, n), -slam * push * curve, ahead)
-    along = in_motion * drag / speed if speed > 0.0 else 0.0
+    over_speed = in_motion * drag / speed if speed > 0.0 else 0.0
     diagonal = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
     turning, over = in_motion * slam, 1.0 / cq
     back = mixed(-turning, v, turning * entering, n)
-    x = _row(turning * n[0] - along * v[0], v, back[0] - over * g[0], n, over * moved[0], ahead)
-    y = _row(turning * n[1] - along * v[1], v, back[1] - over * g[1], n, over * moved[1], ahead)
-    z = _row(turning * n[2] - along * v[2], v, back[2] - over * g[2], n, over * moved[2], ahead)
+    x = _row(turning * n[0] - over_speed * v[0], v, back[0] - over * g[0], n, over * moved[0], ahead)
+    y = _row(turning * n[1] - over_speed * v[1], v, back[1] - over * g[1], n, over * moved[1], ahead)
+    z = _row(turning * n[2] - over_speed * v[2], v, back[2] - over * g[2], n, over * moved[2], ahead)
     return (
         (e[0], e[1], e[2] + p.B_whole * dry),
         ((x[0] + diagonal, x[1], x[2]), (y[0], y[1] + diagonal, y[2]), (z[0], z[1], z[2] + diagonal)),

@@ -66,14 +66,14 @@ def wave_field(p, tables, t, X, F):
             if j > 0 and p.above != WHEELER:
                 up, down = where(near, near_up, up), where(near, near_down, down)
                 s, c = where(near, near_s, s), where(near, near_c, c)
-        more, less = up + down, up - down  # of cosh and of sinh
+        cosh_part, sinh_part = up + down, up - down  # of cosh and of sinh
         if p.above == ZERO:
             dry = X[j, 1] > p.depth
-            more, less = where(dry, 0.0, more), where(dry, 0.0, less)
-        uc = p.direction * more * c
-        us = p.direction * more * s
-        ws = less * s
-        wc = less * c
+            cosh_part, sinh_part = where(dry, 0.0, cosh_part), where(dry, 0.0, sinh_part)
+        uc = p.direction * cosh_part * c
+        us = p.direction * cosh_part * s
+        ws = sinh_part * s
+        wc = sinh_part * c
         F[j, 0] += u0 * uc
         F[j, 1] += u0 * ws
         F[j, 2] += u0 * om * us + u1 * uc
@@ -97,9 +97,9 @@ def wave_slopes(p, tables, t, X, F, J):
     for j in range(X.shape[0]):
         U, W = F[j, 0] - u, F[j, 1] - w
         # gain (more sin, less cos)
-        across, along = per_rate * (F[j, 2] - rising * U), per_rate * (rising * W - F[j, 3])
-        U_x, W_x = -kx * across, kx * along
-        A_x, B_x = kx * (om * U - rising * across), kx * (om * W + rising * along)
+        across, lengthwise = per_rate * (F[j, 2] - rising * U), per_rate * (rising * W - F[j, 3])
+        U_x, W_x = -kx * across, kx * lengthwise
+        A_x, B_x = kx * (om * U - rising * across), kx * (om * W + rising * lengthwise)
         # the height at which the field is taken, by x and by z
         by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
         if p.above == WHEELER:

@@ -7,12 +7,17 @@ Box between nodes a = k - 1 (lower) and b = k (upper), half element length e; re
     N_b - N_a - e (G_a + G_b) = 0                momentum               |  h = 2 e
     EI (kappa_b - kappa_a) + e (M_a + M_b) = 0   moment                 o a   y_a, v_a
 
-J is 0 but while a loop is released: column TURN of Q. Split the updates into y, of (eps, S, phi), and v, of (U, W,
-kappa). Below node a everything is one affine relation v_a = R_a y_a + r_a (at the anchor v = 0: R = 0). Compatibility
-and curvature give v_b from (v_a, y_a, y_b); momentum and moment then give y_a = P y_b + p through one 3 x 3 inverse,
-and R_b, r_b follow. At the upper end one 3 x 3 solve, then back substitution. In the code c, s, f are cos phi, sin phi,
-dT/deps of a node; cx, cz and e turn the residuals of compatibility and curvature; R and r belong to node a until the
-end of the box, where they become those of b.
+J is 0, except while a loop is released (column TURN of Q). The updates of a node are split into y, of (eps, S, phi),
+and v, of (U, W, kappa). The elimination goes up the line, box by box:
+
+1. All that lies below node a is one affine relation v_a = R_a y_a + r_a. At the anchor v = 0, so R = 0.
+2. Compatibility and curvature of the box give v_b from v_a, y_a and y_b.
+3. Momentum and moment then give y_a = P y_b + p, through one 3 x 3 inverse.
+4. Put into 2, this is the relation of node b, v_b = R_b y_b + r_b.
+
+At the upper end one 3 x 3 solve gives y there, and back substitution goes down the line. In the code c, s, f are
+cos phi, sin phi, dT/deps of a node; cx, cz and turn are the residuals of compatibility and curvature; R and r belong to
+node a until the end of the box, where they become those of b.
 
 Without bending the moment equation is S_a + S_b = 0 (`engine.planar.node`) and the condition of moment at the upper end
 S = 0, so that S is zero everywhere, and kappa, which nothing else needs, is put to zero. Well posed while the tether is
@@ -121,9 +126,9 @@ def eliminate(p, tables, stage, Y, work):
     Dzx = Dxz
     if p.spherical_cap:
         x, z = work.X[b, 0], work.X[b, 1]
-        more = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
-        ex, ez, Dxx = ex + more[0], ez + more[1], Dxx + more[2]
-        Dxz, Dzx, Dzz = Dxz + more[3], Dzx + more[4], Dzz + more[5]
+        cap = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        ex, ez, Dxx = ex + cap[0], ez + cap[1], Dxx + cap[2]
+        Dxz, Dzx, Dzz = Dxz + cap[3], Dzx + cap[4], Dzz + cap[5]
     if wide:
         Dxx, Dxz = Dxx + E[0, col.TOP_DXX], Dxz + E[0, col.TOP_DXZ]
         Dzx, Dzz = Dzx + E[0, col.TOP_DZX], Dzz + E[0, col.TOP_DZZ]

@@ -38,7 +38,7 @@ def _added(p, tables, stage, Y, work):
             half, below = 0.5 * tables[p.grid_at + k - 1], work.C_tilde[k - 1]
             known = mixed(1.0, known, half, (below[col.CX] + C_tilde[col.CX], 0.0, below[col.CZ] + C_tilde[col.CZ]))
         x = mixed(1.0, known, over, V)
-        load, own, place, row[col.SHARE] = ZERO, (ZERO, ZERO, ZERO), (ZERO, ZERO, ZERO), 1.0
+        load, by_velocity, place, row[col.SHARE] = ZERO, (ZERO, ZERO, ZERO), (ZERO, ZERO, ZERO), 1.0
         row[col.GX] -= p.pushed * F[col.AX]
         row[col.GZ] -= p.pushed * F[col.AZ]
         if p.surfaced:
@@ -48,7 +48,7 @@ def _added(p, tables, stage, Y, work):
             v = (in_motion * V[0] - F[col.UX], 0.0, in_motion * V[2] - F[col.UZ])
             wet = wetting(p, t, in_motion, ahead, x, V)
             share = row[col.SHARE] = wet[0]
-            load, by_v, own, place = surface_load(p, in_motion, ahead, wet, v, tangent, fluid)
+            load, by_v, by_velocity, place = surface_load(p, in_motion, ahead, wet, v, tangent, fluid)
             turn = surface_turn(p, wet, v, tangent, (-s, 0.0, c))
             row[col.GX_EPS] *= share
             row[col.GZ_EPS] *= share
@@ -61,14 +61,14 @@ def _added(p, tables, stage, Y, work):
         if p.floored:
             of_bed, by_V, by_z = bed_load(p, in_motion, x[2], V)
             load = (load[0] + of_bed[0], 0.0, load[2] + of_bed[2])
-            own = sum_of(own, by_V)
+            by_velocity = sum_of(by_velocity, by_V)
             place = sum_of(place, ((0.0, 0.0, by_z[0]), ZERO, (0.0, 0.0, by_z[2])))
         row[col.GX] += load[0]
         row[col.GZ] += load[2]
         for i in range(2):
             for j in range(2):
                 at = 2 * i + j
-                row[col.OWN + at], row[col.BY_PLACE + at] = own[2 * i][2 * j], over * place[2 * i][2 * j]
+                row[col.OWN + at], row[col.BY_PLACE + at] = by_velocity[2 * i][2 * j], over * place[2 * i][2 * j]
                 row[col.GXX + at] += row[col.OWN + at] + row[col.BY_PLACE + at]
 
 

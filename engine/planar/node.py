@@ -7,7 +7,7 @@ equations of THEORY.md, section 3, are:
     N_s = G        G = m V_t + w0 z + a t + b n          (F_e of (23)-(24) moved to the left side)
     V_s = q_t      phi_s = kappa      EI kappa_s + (1 + eps)^3 S = 0
 
-    a = c_t sqrt(1+eps) |v_t| v_t,   b = c_n sqrt(1+eps) |v_n| v_n + m_a n.V_t - R n.dU_w/dt,   v = V - U_w
+    a = C_t |v_t| v_t,   b = C_n |v_n| v_n + m_a n.V_t - R n.dU_w/dt,   v = V - U_w   (C: `engine.physics.drag`)
 
 Rates come from the integrator as q_t = cq (q - q~), V_t = cv (V - V~). Statics uses the same code with V a
 displacement: `in_motion` = 0 keeps it out of the drag, and leaves the waves out. Derivatives are complete but for the
@@ -25,6 +25,7 @@ compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's fo
 import math
 
 from ..compiled import by_kind, kernel
+from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from ..simd.elementary import sincos
@@ -77,8 +78,8 @@ def node_quantities(p, tables, stage, Y, work):
         T, slope = tension(eps, p, tables)
         if p.viscous:
             qx, qz = C_tilde[k, col.CX], C_tilde[k, col.CZ]
-            before = math.sqrt(qx * qx + qz * qz)
-            extra, stiffer = shock_tension(in_motion * cq, lam - before, Q[k, col.SHOCK_B], Q[k, col.SHOCK_L])
+            length_before = math.sqrt(qx * qx + qz * qz)
+            extra, stiffer = shock_tension(in_motion * cq, lam - length_before, Q[k, col.SHOCK_B], Q[k, col.SHOCK_L])
             T += extra
             slope += stiffer
         Q[k, col.SLOPE] = slope
@@ -100,10 +101,10 @@ def node_quantities(p, tables, stage, Y, work):
             wr = in_motion * Y[k, col.VZ] - F[k, col.UZ]
             vt = ur * c + wr * s
             vn = wr * c - ur * s
-            kt = 2.0 * p.ct * root * abs(vt)
-            kn = 2.0 * p.cn * root * abs(vn)
-            a = 0.5 * kt * vt
-            b = 0.5 * kn * vn
+            C_along, slope_along = drag_along(p, tables, root, abs(vt))
+            C_across, slope_across = drag_across(p, tables, root, abs(vn))
+            a, kt = C_along * abs(vt) * vt, slope_along * abs(vt)
+            b, kn = C_across * abs(vn) * vn, slope_across * abs(vn)
             half_inverse = 0.5 / lam
             Gex = (a * c - b * s) * half_inverse
             Gez = (a * s + b * c) * half_inverse
@@ -113,10 +114,10 @@ def node_quantities(p, tables, stage, Y, work):
             b += p.ma * (az * c - ax * s) - p.Rw * (Ww_t * c - Uw_t * s)
             Gx += a * c - b * s
             Gz += a * s + b * c
-            along = kt * vn - b
-            across = a + b_phi
-            Gpx = along * c - across * s
-            Gpz = along * s + across * c
+            turned_t = kt * vn - b
+            turned_n = a + b_phi
+            Gpx = turned_t * c - turned_n * s
+            Gpz = turned_t * s + turned_n * c
             # dG/dV: a tensor with the axes t and n, where it is dt_ (no time) and dn
             dt_ = in_motion * kt
             dn = in_motion * kn + p.ma * cv

@@ -6,7 +6,7 @@ Names are imported on first use: `engine.physics.tension` declares keys too, wit
 import lazy_loader
 
 _NAMES = [
-    "Scene", "SceneError", "build_scene", "known_scenes", "list_scenes", "load_scene", "parse_assignment",
+    "Scene", "SceneError", "build_scene", "list_scenes", "load_scene", "parse_assignment",
     "scene_from_toml",
 ]  # fmt: skip
 __getattr__, __dir__, __all__ = lazy_loader.attach(__name__, submod_attrs={"load": _NAMES})

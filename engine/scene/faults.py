@@ -7,7 +7,7 @@ Faults of a single value are found by pydantic and put into words here; faults b
 import difflib
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Literal, get_args, get_origin
@@ -28,6 +28,9 @@ _INSTEAD = dict.fromkeys(("waves.height_m", "height_m"), "'waves.amplitude_m', h
 DEEPEST = 32  # levels of lists and tables; scenes have six
 TOO_DEEP = f"given lists or tables within each other; allowed: at most {DEEPEST} levels"
 FLAT, SOLID = "nested to depth 3", "nested to depth 4"  # kinds of a block of numbers, as pydantic names them
+LONGEST_VALUE, SHORT_VALUE = 60, 20  # letters of a value in a fault line
+
+Location = tuple[str | int, ...]  # of a value: names of tables and keys, places in lists
 
 
 class SceneError(ValueError):
@@ -51,44 +54,47 @@ class Allowed:
     text: str
 
 
-def shown(value: object, most: int = 60) -> str:
+def shown(value: object, longest: int = LONGEST_VALUE) -> str:
     """A value in a fault line: as TOML would show it, and short."""
     text = {"True": "true", "False": "false", "None": "nothing"}.get(repr(value), repr(value))
-    return text if len(text) <= most else text[: most - 3] + "..."
+    return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
-def fault(key: str, given: object, allowed: str) -> str:
+def fault(key: str, value: object, allowed: str) -> str:
     """One fault line."""
-    return f"{key}: given {shown(given)}; allowed: {allowed}"
+    return f"{key}: given {shown(value)}; allowed: {allowed}"
 
 
-def _meant(given: object, key: str) -> str:
+def _number_hint(value: object, key: str) -> str:
     """A hint for text in the place of a number: "21.6", "21,6", "21.6 m", and "20 cm" for a key in metres."""
-    number = _NUMBER_TEXT.match(given) if isinstance(given, str) else None
+    number = _NUMBER_TEXT.match(value) if isinstance(value, str) else None
     if number is None:
         return ""
-    whole, part, power, unit = number.groups()
-    text = whole + (f".{part}" if part else "") + (f"e{power}" if power else "")
-    own = re.sub(r"\[\d+\]$", "", key).rpartition("_")[2]
-    if unit and unit != own and (wanted := _sized(own)):
-        found = _sized(unit)
-        if found is None or found[0] != wanted[0]:
-            return f" (a number in {own}, without its unit)"
-        text = f"{float(text) * found[1] / wanted[1]:.12g}"
-    why = "no unit" if unit else "with a dot" if "," in given else "without quotes"
-    return f" ({why}: {text})"
+    integer, decimals, power, unit = number.groups()
+    text = integer + (f".{decimals}" if decimals else "") + (f"e{power}" if power else "")
+    key_unit = re.sub(r"\[\d+\]$", "", key).rpartition("_")[2]
+    wanted = _measure_of(key_unit)
+    if unit and unit != key_unit and wanted:
+        measure = _measure_of(unit)
+        if measure is None or measure[0] != wanted[0]:
+            return f" (a number in {key_unit}, without its unit)"
+        text = f"{float(text) * measure[1] / wanted[1]:.12g}"
+    if unit:
+        return f" (no unit: {text})"
+    return f" (with a dot: {text})" if "," in value else f" (without quotes: {text})"
 
 
-def _sized(unit: str) -> tuple[str, float] | None:
+def _measure_of(unit: str) -> tuple[str, float] | None:
     """What a unit measures, and its size; None for a unit that is not of `_UNITS`.
 
-    >>> _sized("cm"), _sized("mm2"), _sized("kg"), _sized("ft")
+    >>> _measure_of("cm"), _measure_of("mm2"), _measure_of("kg"), _measure_of("ft")
     (('m', 0.01), ('m2', 1e-06), ('kg', 1.0), None)
     """
     name, power = (unit[:-1], int(unit[-1])) if unit[-1:].isdigit() else (unit, 1)
     for prefix, times in _PREFIXES.items():
-        if name.startswith(prefix) and (known := _UNITS.get(name.removeprefix(prefix))):
-            return known[0] + (str(power) if power > 1 else ""), (times * known[1]) ** power
+        base = _UNITS.get(name.removeprefix(prefix)) if name.startswith(prefix) else None
+        if base:
+            return base[0] + (str(power) if power > 1 else ""), (times * base[1]) ** power
     return None
 
 
@@ -96,21 +102,25 @@ def too_deep(value: object) -> bool:
     """Whether lists and tables lie within each other at more than DEEPEST levels: nothing could take them apart."""
     level = [value]
     for _ in range(DEEPEST):
-        level = [
-            inner
-            for one in level
-            if isinstance(one, (Mapping, list, tuple))
-            for inner in (one.values() if isinstance(one, Mapping) else one)
-        ]
+        below = []
+        for item in level:
+            if isinstance(item, Mapping):
+                below += item.values()
+            elif isinstance(item, (list, tuple)):
+                below += item
+        level = below
     return bool(level)
 
 
-def dotted(location: tuple[str | int, ...]) -> str:
+def dotted(location: Location) -> str:
     """("current", "height_m", 2) -> "current.height_m[2]"; a name that is no bare key of TOML in quotes."""
     text = ""
     for part in location:
-        name = part if isinstance(part, int) or _BARE_KEY.match(part) else shown(part)
-        text += f"[{name}]" if isinstance(part, int) else f".{name}" if text else str(name)
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            name = part if _BARE_KEY.match(part) else shown(part)
+            text += f".{name}" if text else name
     return text
 
 
@@ -124,13 +134,18 @@ def section_models(annotation: object) -> list[type[BaseModel]]:
 @cache
 def known_fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
     """Every dotted key a scene may have, sections included, with its declaration: of several the one with a meaning."""
-    found: dict[str, FieldInfo] = {}
+    fields: dict[str, FieldInfo] = {}
+
+    def add(key, field):
+        if key not in fields or not fields[key].description:
+            fields[key] = field
+
     for name, field in model.model_fields.items():
-        below = [known_fields(inner).items() for inner in section_models(field.annotation)]
-        for key, declared in [(name, field), *((f"{name}.{key}", inner) for part in below for key, inner in part)]:
-            if key not in found or not found[key].description:
-                found[key] = declared
-    return found
+        add(name, field)
+        for section in section_models(field.annotation):
+            for key, inner in known_fields(section).items():
+                add(f"{name}.{key}", inner)
+    return fields
 
 
 def suggestion(key: str, keys: list[str]) -> str:
@@ -148,17 +163,19 @@ def ending_in(word: str, model: type[BaseModel]) -> list[str]:
     return [word] if word in known else [key for key in known if key.rpartition(".")[2] == word]
 
 
-def unknown_key(key: str, given: object, scene_model: type[BaseModel]) -> str:
+def unknown_key(key: str, value: object, scene_model: type[BaseModel]) -> str:
     """The fault line of a key that no scene has."""
+    ends = ending_in(key, scene_model)
+    if len(ends) > 1:
+        return f"{key}: the end of {len(ends)} keys, given {shown(value)}; allowed: one of {', '.join(ends)}"
     keys = list(known_fields(scene_model))
-    if len(ends := ending_in(key, scene_model)) > 1:
-        return f"{key}: the end of {len(ends)} keys, given {shown(given)}; allowed: one of {', '.join(ends)}"
+    hint = f"; did you mean {_INSTEAD[key]}?" if key in _INSTEAD else suggestion(key, keys)
     section = key.rpartition(".")[0]
-    beside = [known.rpartition(".")[2] for known in keys if known.rpartition(".")[0] == section]
-    where = f"allowed in {section}" if section else "allowed"
-    allowed = f"; {where}: {', '.join(beside)}" if beside else ""
-    meant = f"; did you mean {_INSTEAD[key]}?" if key in _INSTEAD else suggestion(key, keys)
-    return f"{key}: unknown key, given {shown(given, 20)}{meant}{allowed}"
+    names = [known.rpartition(".")[2] for known in keys if known.rpartition(".")[0] == section]
+    if names:
+        hint += f"; allowed in {section}: " if section else "; allowed: "
+        hint += ", ".join(names)
+    return f"{key}: unknown key, given {shown(value, SHORT_VALUE)}{hint}"
 
 
 def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...] = ()) -> str | None:
@@ -167,17 +184,18 @@ def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...]
         if isinstance(item, Allowed):
             return item.text
     if get_origin(annotation) is Literal:
-        return "one of " + ", ".join(repr(value) for value in get_args(annotation))
+        return _one_of(get_args(annotation))
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return "a table with the keys " + ", ".join(annotation.model_fields)
     if get_origin(annotation) is Annotated:
-        inner, *more = get_args(annotation)
-        return allowed_text(inner, more)
-    for part in get_args(annotation):
-        text = allowed_text(part)
-        if text is not None:
-            return text
-    return None
+        inner, *metadata = get_args(annotation)
+        return allowed_text(inner, metadata)
+    texts = map(allowed_text, get_args(annotation))
+    return next((text for text in texts if text is not None), None)
+
+
+def _one_of(names: list[str] | tuple[str, ...]) -> str:
+    return "one of " + ", ".join(map(repr, names))
 
 
 def law_names(models: list[type[BaseModel]]) -> list[str]:
@@ -185,53 +203,73 @@ def law_names(models: list[type[BaseModel]]) -> list[str]:
     return [get_args(model.model_fields["law"].annotation)[0] for model in models]
 
 
-def _placed(location: tuple[str | int, ...], model: type[BaseModel]) -> tuple:
-    """Where a fault is: the user's location, the models of that table, the law that they are of, what is allowed there.
+@dataclass(frozen=True)
+class _Place:
+    """Where a fault is.
 
-    location: pydantic's, into which it puts the law of a table, and how deep a block is nested.
+    location: the user's; models: of the table there; law: that it is of, or None; allowed: there, or None.
     """
-    models, place, law, text = [model], [], None, None
+
+    location: Location
+    models: list[type[BaseModel]]
+    law: str | None
+    allowed: str | None
+
+
+def _place_of(location: Location, model: type[BaseModel]) -> _Place:
+    """location: pydantic's, into which it puts the law of a table, and how deep a block is nested."""
+    models, parts, law, allowed = [model], [], None, None
     for part in location:
         if len(models) > 1:
-            law, models = part, [found for found in models if law_names([found]) == [part]]
+            law, models = part, [choice for choice in models if law_names([choice]) == [part]]
         elif part not in (FLAT, SOLID):
-            place.append(part)
+            parts.append(part)
             if models and part in models[0].model_fields:  # a number in a list is described with the whole list
                 field = models[0].model_fields[part]
-                text, models = allowed_text(field.annotation, field.metadata), section_models(field.annotation)
-    return tuple(place), models, law, text
+                allowed, models = allowed_text(field.annotation, field.metadata), section_models(field.annotation)
+    return _Place(tuple(parts), models, law, allowed)
 
 
-def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[list[str], set[tuple[str | int, ...]]]:
+def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[list[str], set[Location]]:
     """Fault lines of single values, and the locations of the values that are at fault.
 
     error: pydantic's, from validating `scene_model`. Faults between values are left to `cross_faults`.
     """
     lines: list[str] = []
-    bad: set[tuple[str | int, ...]] = set()
+    locations: set[Location] = set()
+    for item in _items_of(error):
+        place = _place_of(item["loc"], scene_model)
+        locations.add(place.location)
+        lines.append(_line_of(item, place, scene_model))
+    return list(dict.fromkeys(lines)), locations
+
+
+def _items_of(error: ValidationError) -> Iterator[dict]:
+    """The faults that pydantic has found, without those that only follow from others."""
     items = error.errors(include_url=False)
     for item in items:
-        kind, given = item["type"], item["input"]
-        if kind in ("scene_consistency", "default_factory_not_called"):
+        location = item["loc"]
+        if item["type"] in ("scene_consistency", "default_factory_not_called"):
             continue  # the first is found again by cross_faults; the second only follows from another fault
-        size = len(item["loc"])
-        if kind == "too_short" and any(other["loc"][:size] == item["loc"] != other["loc"] for other in items):
+        elements = [other["loc"] for other in items if other["loc"][: len(location)] == location != other["loc"]]
+        if item["type"] == "too_short" and elements:
             continue  # pydantic counts sound elements only: the faulty ones are reported themselves
-        place, models, law, text = _placed(item["loc"], scene_model)
-        bad.add(place)
-        allowed = text or item["msg"]
-        if kind in ("union_tag_invalid", "union_tag_not_found"):
-            place = (*place, "law")
-            allowed = "one of " + ", ".join(repr(name) for name in law_names(models))
-            given = given.get("law") if isinstance(given, dict) else given
-        short = kind == "missing" and isinstance(place[-1], int)  # a list of too few: shown as a whole, once
-        key = dotted(place[:-1] if short else place)
-        if kind == "extra_forbidden" and law is not None:
-            lines.append(f"{key}: given {shown(given)}, which law = {law!r} does not have")
-        elif kind == "extra_forbidden":
-            lines.append(unknown_key(key, given, scene_model))
-        elif kind in ("missing", "union_tag_not_found") and not short:
-            lines.append(f"{key}: missing; allowed: {allowed}")
-        else:
-            lines.append(fault(key, given, allowed) + (_meant(given, key) if "number" in allowed else ""))
-    return list(dict.fromkeys(lines)), bad
+        yield item
+
+
+def _line_of(item: dict, place: _Place, scene_model: type[BaseModel]) -> str:
+    """The fault line of one of pydantic's faults."""
+    kind, value, location = item["type"], item["input"], place.location
+    allowed = place.allowed or item["msg"]
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        location, allowed = (*location, "law"), _one_of(law_names(place.models))
+        value = value.get("law") if isinstance(value, dict) else value
+    too_few = kind == "missing" and isinstance(location[-1], int)  # a list of too few: shown as a whole, once
+    key = dotted(location[:-1] if too_few else location)
+    if kind == "extra_forbidden" and place.law is not None:
+        return f"{key}: given {shown(value)}, which law = {place.law!r} does not have"
+    if kind == "extra_forbidden":
+        return unknown_key(key, value, scene_model)
+    if kind in ("missing", "union_tag_not_found") and not too_few:
+        return f"{key}: missing; allowed: {allowed}"
+    return fault(key, value, allowed) + (_number_hint(value, key) if "number" in allowed else "")

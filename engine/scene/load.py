@@ -27,9 +27,6 @@ def list_scenes() -> list[str]:
     return sorted(path.stem for path in _SHIPPED.glob("*.toml"))
 
 
-known_scenes = list_scenes  # its first name
-
-
 def shipped_text(name: str) -> str:
     """The TOML text of a shipped scene, with its comments: where each value comes from."""
     return (_SHIPPED / f"{name}.toml").read_text(encoding="utf-8")
@@ -44,16 +41,15 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     key ends in it, as steepness=0.13.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
-    text, given = _text_of(name_or_path), dict(overrides or {})
+    text, changes = _text_of(name_or_path), dict(overrides or {})
     for word, value in keywords.items():
         ends = ending_in(word, Scene)
         key = ends[0] if len(ends) == 1 else word
-        if key in given:
-            raise SceneError(
-                f"{word}: given {shown(value)} beside {key} = {shown(given[key])}; allowed: one of the two"
-            )
-        given[key] = value
-    return scene_from_toml(text, given, source=str(name_or_path))
+        if key in changes:
+            rest = f"beside {key} = {shown(changes[key])}; allowed: one of the two"
+            raise SceneError(f"{word}: given {shown(value)} {rest}")
+        changes[key] = value
+    return scene_from_toml(text, changes, source=str(name_or_path))
 
 
 def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:
@@ -77,11 +73,11 @@ def _parsed(text: str, source: str) -> dict[str, object]:
 
 def _faulty_line(text: str, message: str) -> str:
     """The line that the parser's message names, quoted; empty where it names none."""
-    found = re.search(r"at line (\d+)", message)
+    number = re.search(r"at line (\d+)", message)
     lines = text.splitlines()
-    if found is None or int(found[1]) > len(lines):
+    if number is None or int(number[1]) > len(lines):
         return ""
-    line = lines[int(found[1]) - 1].strip()
+    line = lines[int(number[1]) - 1].strip()
     comma = "; numbers have a dot, not a comma" if re.search(r"= *-?\d+,\d+\s*(#|$)", line) else ""
     return f": {shown(line)}{comma}"
 
@@ -109,20 +105,20 @@ def parse_assignment(text: str) -> tuple[str, object]:
 
 
 def _text_of(name_or_path: str | Path) -> str:
-    names, given = list_scenes(), str(name_or_path)
-    path = _SHIPPED / f"{given}.toml" if given in names else Path(given)
+    names, name = list_scenes(), str(name_or_path)
+    path = _SHIPPED / f"{name}.toml" if name in names else Path(name)
     allowed = f"allowed: a scene file, or one of {', '.join(names)}"
     try:
         return path.read_text(encoding="utf-8-sig")
     except IsADirectoryError:
-        fault = f"{given!r} is a folder; {allowed}"
+        fault = f"{name!r} is a folder; {allowed}"
     except UnicodeDecodeError:
-        fault = f"{given!r} is not text in UTF-8; allowed: a TOML file, saved as UTF-8"
+        fault = f"{name!r} is not text in UTF-8; allowed: a TOML file, saved as UTF-8"
     except FileNotFoundError:
-        close = difflib.get_close_matches(given, names, n=1)
-        fault = f"there is no scene and no file {given!r}{f'; did you mean {close[0]!r}?' if close else ''}; {allowed}"
+        close = difflib.get_close_matches(name, names, n=1)
+        fault = f"there is no scene and no file {name!r}{f'; did you mean {close[0]!r}?' if close else ''}; {allowed}"
     except (OSError, ValueError) as error:
-        fault = f"{given!r} cannot be read: {error}"
+        fault = f"{name!r} cannot be read: {error}"
     raise SceneError(fault)
 
 
@@ -138,12 +134,8 @@ def _plain(value: object) -> object:
 def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tuple[dict[str, object], tuple[str, ...]]:
     """A copy of the raw scene with the overrides, and the faults of their keys; values are checked later."""
     raw, faults = copy.deepcopy(raw), []
-    # a new height of the waves, of whatever kind (HEIGHTS), takes the place of the one that the file gives
-    named = {height: [key for key in overrides if f"{key}.".startswith(f"waves.{height}.")] for height in HEIGHTS}
-    if isinstance(raw.get("waves"), dict) and any(
-        overrides[key] is not None for keys in named.values() for key in keys
-    ):
-        raw["waves"] = {name: value for name, value in raw["waves"].items() if named.get(name, True)}
+    if isinstance(raw.get("waves"), dict):
+        _drop_inherited_heights(raw, overrides)
     for key, value in overrides.items():
         *above, last = key.split(".") if isinstance(key, str) else [""]
         if not all((*above, last)):
@@ -168,3 +160,12 @@ def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tupl
         elif value is not None:  # the fault is without the value: a sweep gives many, and the fault is one
             faults.append(f"{key}: cannot be set, because {'.'.join(above)} is not a table")
     return raw, tuple(faults)
+
+
+def _drop_inherited_heights(raw: dict[str, object], overrides: Mapping[str, object]) -> None:
+    """A new height of the waves, of whatever kind (HEIGHTS), takes the place of the one that the file gives."""
+    names = {key: key.split(".")[1] for key in overrides if str(key).startswith("waves.")}
+    heights = {key: name for key, name in names.items() if name in HEIGHTS}
+    if any(overrides[key] is not None for key in heights):
+        inherited = set(HEIGHTS) - set(heights.values())
+        raw["waves"] = {name: value for name, value in raw["waves"].items() if name not in inherited}

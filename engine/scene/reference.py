@@ -54,8 +54,8 @@ SECTIONS = {
     "output": "Output",
 }
 UNITS = {
-    "mps2": "m/s2", "kgpm3": "kg/m3", "Nm2": "N m2", "m2": "m2", "mps": "m/s", "Npm3": "N/m3", "Nspm3": "N s/m3",
-    "Ns": "N s", "m": "m", "kg": "kg", "s": "s", "rad": "rad", "N": "N",
+    "mps2": "m/s2", "kgpm3": "kg/m3", "Nm2": "N m2", "m2": "m2", "m2ps": "m2/s", "mps": "m/s", "Npm3": "N/m3",
+    "Nspm3": "N s/m3", "Ns": "N s", "m": "m", "kg": "kg", "s": "s", "rad": "rad", "N": "N",
 }  # fmt: skip
 KINDS = {str: "text", bool: "flag", int: "whole number", float: "number", tuple: "list"}
 
@@ -84,15 +84,15 @@ def keys() -> dict[str, Key]:
 @cache
 def sources(scene: str) -> dict[str, str]:
     """Where each value of a shipped scene comes from: the comments beside the values in its file, by dotted key."""
-    found, table = {}, ""
+    origins, table = {}, ""
     for line in shipped_text(scene).splitlines():
         if header := re.match(r"\[([\w.]+)\]", line):
             table = f"{header[1]}."
         elif (value := re.match(r"(\w+) *= *(.*?) +# *(.+)", line)) is not None:
             parsed = tomllib.loads(f"value = {value[2]}")["value"]
             inner = [f".{part}" for part in parsed] if isinstance(parsed, dict) else [""]
-            found |= {f"{table}{value[1]}{part}": value[3] for part in inner}
-    return found
+            origins |= {f"{table}{value[1]}{part}": value[3] for part in inner}
+    return origins
 
 
 def page() -> str:
@@ -131,8 +131,8 @@ def _key(name: str, field: FieldInfo, fields: dict[str, FieldInfo]) -> Key:
 def _bare(annotation):
     """The annotation without Annotated and without None."""
     parts = [part for part in get_args(annotation) if part is not type(None)]
-    alone = get_origin(annotation) is Annotated or (type(None) in get_args(annotation) and len(parts) == 1)
-    return _bare(parts[0]) if alone else annotation
+    optional = type(None) in get_args(annotation) and len(parts) == 1
+    return _bare(parts[0]) if optional or get_origin(annotation) is Annotated else annotation
 
 
 def _default(field: FieldInfo) -> str:

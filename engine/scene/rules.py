@@ -1,19 +1,17 @@
 """Rules between the values of a scene: what one value allows another to be.
 
-Rules read plain data and leave out the values that are faulty in themselves: a model validator would be skipped as soon
-as one field fails, and the user would see the faults one after the other.
+The rules of water, waves and what comes out of the water are in `water_rules`.
 """
 
 import math
 from collections.abc import Iterator
-from itertools import pairwise
 
 from pydantic import BaseModel
-from pydantic_core import PydanticUndefined
 
-from engine.physics.tension import LAWS, NAMES
-from engine.scene.faults import fault, known_fields, shown
-from engine.scene.water_rules import PLANE, Facts, cap, current, heights, held_under, sea, water
+from engine.physics import drag, tension
+from engine.scene.faults import Location, fault
+from engine.scene.sound import FAULTY, Facts, Sound
+from engine.scene.water_rules import PLANE, cap, current, heights, held_under, sea, water
 
 _PUSHED = ("start.buoy_velocity_mps", "start.buoy_displacement_m")
 _VECTORS = (
@@ -29,72 +27,22 @@ _OWNERS = {"position_m": "held", "motion": "held", "release_s": "held", "force_N
 _BENDING = "tether.bending_stiffness_Nm2"
 
 
-class _Faulty:
-    """A value with a fault of its own: false, and equal to nothing, so that no rule holds of it."""
-
-    def __bool__(self) -> bool:
-        return False
-
-
-FAULTY = _Faulty()
-
-
-class Sound:
-    """The values of a scene by dotted key; an absent one is its default, or None, a faulty one FAULTY."""
-
-    def __init__(self, raw: dict[str, object], bad: set[tuple[str | int, ...]], model: type[BaseModel]) -> None:
-        self.raw, self.bad, self.fields = raw, bad, known_fields(model)
-
-    def __getitem__(self, key: str) -> object:
-        path = tuple(key.split("."))
-        faulty = any(location[: len(path)] == path[: len(location)] for location in self.bad)
-        return FAULTY if faulty else self._given(path)
-
-    def _given(self, path: tuple[str, ...]) -> object:
-        above = self._given(path[:-1]) if path[1:] else self.raw
-        value = above.get(path[-1]) if isinstance(above, dict) else getattr(above, path[-1], None)
-        if value is None and isinstance(above, dict):
-            value = self.fields[".".join(path)].default
-        return None if value is PydanticUndefined else value
-
-    def fault(self, key: str, allowed: str) -> str:
-        """The fault line of a key that breaks a rule."""
-        value = self._given(tuple(key.split(".")))
-        return f"{key}: missing; allowed: {allowed}" if value is None else fault(key, value, allowed)
-
-    def increasing(self, key: str, allowed: str = "increasing values", may_stay: bool = False) -> Iterator[str]:
-        """The first place, if any, where a series does not increase, as a fault line."""
-        for index, (before, after) in enumerate(pairwise(self[key] or ()), 1):
-            if after < before or (after == before and not may_stay):
-                yield f"{key}[{index}]: given {shown(after)} after {shown(before)}; allowed: {allowed}"
-                return
-
-    def paired(self, key: str, other: str) -> Iterator[str]:
-        """The fault line of a list that is not as long as another."""
-        values, others = self[key], self[other]
-        if values and others and len(values) != len(others):
-            yield f"{key}: given {len(values)} values; allowed: one for each of {other}, {len(others)}"
-
-
-def cross_faults(raw: dict[str, object], bad: set[tuple[str | int, ...]], model: type[BaseModel]) -> list[str]:
-    """Every fault between values, one line each.
-
-    raw: the scene as nested dicts (TOML or model_dump). bad: locations of values that are faulty in themselves; a rule
-    that needs one of them is not applied. model: of a scene, for the defaults.
-    """
+def cross_faults(raw: dict[str, object], bad: set[Location], model: type[BaseModel]) -> list[str]:
+    """Every fault between values, a line each; arguments as of `Sound`. A rule that needs a bad value is left out."""
     if not isinstance(raw, dict):
         return []
     sound = Sound(raw, bad, model)
     rules = (water, sea, _ends, _clamps, _solver, cap, _output)
     lines = [sound.fault(key, allowed) for rule in rules for broken, key, allowed in rule(sound) if broken]
-    return lines + [
-        line for rule in (_tension, heights, held_under, current, _moved_end, _plane) for line in rule(sound)
-    ]
+    for rule in (_laws, heights, held_under, current, _moved_end, _plane):
+        lines += rule(sound)
+    return lines
 
 
-def _tension(sound: Sound) -> Iterator[str]:
-    law = sound["tether.tension.law"]
-    return LAWS[NAMES.index(law)].faults(sound) if law in NAMES else iter(())
+def _laws(sound: Sound) -> Iterator[str]:
+    for family, key in ((tension, "tether.tension.law"), (drag, "tether.drag.law")):
+        if sound[key] in family.NAMES:
+            yield from family.LAWS[family.NAMES.index(sound[key])].faults(sound)
 
 
 def _ends(sound: Sound) -> Facts:
@@ -150,8 +98,8 @@ def _clamps(sound: Sound) -> Facts:
         yield direction and clamped and not any(direction), f"{section}.direction", "a vector that is not zero"
     clamped = rotations["end"] == "clamped"
     yield clamped and kind in ("buoy", "free"), "end.rotation", f"'pinned', because end.kind is {kind!r}"
-    both, torsion = clamped and rotations["anchor"] == "clamped", "tether.torsion_stiffness_Nm2"
-    yield both and sound[torsion] == 0, torsion, "above 0, because both ends are clamped"
+    twistable, torsion = clamped and rotations["anchor"] == "clamped", "tether.torsion_stiffness_Nm2"
+    yield twistable and sound[torsion] == 0, torsion, "above 0, because both ends are clamped"
     yield plane and twist, "end.twist_rad", f"0 {PLANE}"
     yield plane and ramp, "end.twist_ramp_s", f"0 {PLANE}"
     allowed = "0, or anchor.rotation and end.rotation = 'clamped'"
@@ -193,6 +141,8 @@ def _solver(sound: Sound) -> Facts:
     yield box and line, "tether.submergence", f"'full', {because}"
     yield box and sound["tether.froude_krylov"] == "whole", "tether.froude_krylov", f"'normal', {because}"
     yield box and sound["floor"] is not None, "floor", f"none, {because}"
+    law = sound["tether.drag.law"]
+    yield box and law in drag.NAMES and law != "quadratic", "tether.drag.law", f"'quadratic', {because}"
     share, damping = "tether.damping_critical", "tether.damping_Ns"
     yield sound[share] and sound[damping], share, f"only without {damping}, which says the same"
     for key in (share, damping):
@@ -218,8 +168,8 @@ def _output(sound: Sound) -> Facts:
         plane = f"{none}, because motion.dimensions is 3: perturbations are carried along planar motions only"
         yield carried and sound["motion.dimensions"] == 3, key, plane
         yield carried and box, key, f"{none}, {scheme}: use 'conservation'"
-        other = f"{none}, {because}: use esdirk43, trbdf2 or backward-euler"
-        yield carried and integrator in ("midpoint", "generalized-alpha"), key, other
-    most = 4 * (sound["tether.nodes"] or math.inf)
-    too_many = (sound["output.tangent_vectors"] or 0) > most
-    yield too_many, "output.tangent_vectors", f"at most four a node, {most}"
+        method = f"{none}, {because}: use esdirk43, trbdf2 or backward-euler"
+        yield carried and integrator in ("midpoint", "generalized-alpha"), key, method
+    limit = 4 * (sound["tether.nodes"] or math.inf)
+    too_many = (sound["output.tangent_vectors"] or 0) > limit
+    yield too_many, "output.tangent_vectors", f"at most four a node, {limit}"

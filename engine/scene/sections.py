@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from engine.physics.drag import DragLaw
 from engine.physics.tension import TensionLaw
 from engine.scene.faults import Allowed
 from engine.scene.values import (
@@ -58,6 +59,11 @@ class Tether(Section):
     drag_normal: NonNegative = described("normal drag coefficient, on the diameter", 1.0, symbol="C_dp", paper="(24)")
     drag_tangential: NonNegative = described(
         "tangential drag coefficient, on pi times the diameter", 0.1, symbol="C_dt", paper="(24)"
+    )
+    drag: DragLaw | None = described(
+        "drag law: how both coefficients, the largest, fall with the speed; by default they do not",
+        None,
+        paper="(24)",
     )
     added_mass: NonNegative = described("normal added mass over rho_w pi d^2/4", 1.0, paper="(24)")
     tension: TensionLaw = described("tension law", symbol="T = f(eps)", paper="(20)")

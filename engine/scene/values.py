@@ -77,13 +77,13 @@ Block = Annotated[
 ]
 
 
-def described(meaning: str, *default: object, symbol: str = "", paper: str = "", **more: object) -> Any:
+def described(meaning: str, *default: object, symbol: str = "", paper: str = "", **options: object) -> Any:
     """The declaration of one scene key.
 
     meaning: a noun phrase for a person; default: left out where the key is required; symbol: the paper's letter, with
     an underscore before a subscript; paper: equation, table or section that has it. The unit is the suffix of the key.
     """
-    return Field(*default, description=meaning, json_schema_extra={"symbol": symbol, "paper": paper}, **more)
+    return Field(*default, description=meaning, json_schema_extra={"symbol": symbol, "paper": paper}, **options)
 
 
 class Section(BaseModel):

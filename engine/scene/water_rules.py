@@ -2,23 +2,19 @@
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from engine.physics.strains import strain_at
 from engine.physics.tension import LAWS, NAMES
 from engine.scene.faults import fault, shown
+from engine.scene.sound import Facts, Sound
 
-if TYPE_CHECKING:
-    from engine.scene.rules import Sound
-
-Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
 _DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
 HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"
 
 
-def water(sound: "Sound") -> Facts:
+def water(sound: Sound) -> Facts:
     dry, waves = sound["water"] is None, sound["waves"] is not None
     yield dry and waves, "water", "a table, because waves are given"
     yield dry and sound["current"] is not None, "water", "a table, because a current is given"
@@ -37,36 +33,38 @@ def _aslant(angle: float) -> bool:
     return bool(angle) and min(abs(angle), abs(abs(angle) - math.pi)) > 1e-9
 
 
-def sea(sound: "Sound") -> Facts:
+def sea(sound: Sound) -> Facts:
     """What an irregular sea takes the place of."""
     listed, drawn = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap"))
-    own = "each component has its own" if listed else "waves.jonswap draws those of its components"
-    yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {own}"
-    yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {own}"
+    because = "each component has its own" if listed else "waves.jonswap draws those of its components"
+    yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
+    yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {because}"
     for key in ("buoy.submergence", "tether.submergence"):
         cut = sound[key] in ("spherical-cap", "free-surface")
         yield (listed or drawn) and cut, key, "'full' in irregular waves"
 
 
-def heights(sound: "Sound") -> Iterator[str]:
+def heights(sound: Sound) -> Iterator[str]:
     waves = sound.raw.get("waves")
     if not isinstance(waves, dict):
         return
-    given = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
-    if not given:
+    values = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
+    if not values:
         yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in HEIGHTS)
-    if len(given) > 1:
-        several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in given.items())
+    if len(values) > 1:
+        several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in values.items())
         yield f"waves: given {several}; allowed: exactly one of them"
-    listed, depth = sound["waves.components"] or (), sound["water.depth_m"] or math.inf
-    if (total := sum(one["amplitude_m"] for one in listed)) >= depth:
-        yield f"waves.components: given amplitudes of {total:.6g} m in all; allowed: less than water.depth_m, {depth}"
-    for index, one in enumerate(listed if sound["motion.dimensions"] == 2 else ()):
-        if _aslant(one.get("direction_rad")):
-            yield fault(f"waves.components[{index}].direction_rad", one["direction_rad"], _ALONG)
+    components, depth = sound["waves.components"] or (), sound["water.depth_m"] or math.inf
+    total_m = sum(component["amplitude_m"] for component in components)
+    if total_m >= depth:
+        yield f"waves.components: given amplitudes of {total_m:.6g} m in all; allowed: less than water.depth_m, {depth}"
+    if sound["motion.dimensions"] == 2:
+        for index, component in enumerate(components):
+            if _aslant(component.get("direction_rad")):
+                yield fault(f"waves.components[{index}].direction_rad", component["direction_rad"], _ALONG)
 
 
-def current(sound: "Sound") -> Iterator[str]:
+def current(sound: Sound) -> Iterator[str]:
     for axis in ("time_s", "height_m", "y_m", "x_m"):
         yield from sound.increasing(f"current.{axis}")
     if sound["current.law"] == "profile":
@@ -79,8 +77,10 @@ def current(sound: "Sound") -> Iterator[str]:
     sizes = {word: len(sound[f"current.{axis}"] or ()) for word, axis in axes.items()}
     allowed = "allowed: " + " x ".join(f"{size} {word}" for word, size in sizes.items())
     for key in (f"current.velocity_{component}_mps" for component in "xyz"):
-        if all(sizes.values()) and sound[key] and (wrong := _wrong_size(sound[key], list(sizes.items()))):
-            yield f"{key}{wrong}; {allowed}"
+        if all(sizes.values()) and sound[key]:
+            wrong = _wrong_size(sound[key], list(sizes.items()))
+            if wrong:
+                yield f"{key}{wrong}; {allowed}"
 
 
 def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
@@ -92,11 +92,13 @@ def _wrong_size(block: object, sizes: list[tuple[str, int]]) -> str:
     word, size = sizes[0]
     if len(block) != size:
         return f": given {len(block)} {word}"
-    wrong = ((index, _wrong_size(part, sizes[1:])) for index, part in enumerate(block))
-    return next((f"[{index}]{text}" for index, text in wrong if text), "")
+    for index, part in enumerate(block):
+        if wrong := _wrong_size(part, sizes[1:]):
+            return f"[{index}]{wrong}"
+    return ""
 
 
-def held_under(sound: "Sound") -> Iterator[str]:
+def held_under(sound: Sound) -> Iterator[str]:
     """A line so long that its buoy, the whole sphere loaded as in water, would stand in the air above the sea.
 
     A uniform current leaves it no lower than its drag on the sphere and on the whole line would, all of it across and
@@ -120,9 +122,9 @@ def held_under(sound: "Sound") -> Iterator[str]:
     if pull <= 0:  # not taut from end to end
         return
     d = sound["tether.diameter_m"] or math.sqrt(4 * area / math.pi)
-    across, along, of_sphere = (sound[key] or 0 for key in _DRAGS)
+    C_dp, C_dt, C_d = (sound[key] or 0 for key in _DRAGS)
     stretched = length * (1 + strain_at(max(lift, lift - weight), law))
-    dragged = of_sphere * math.pi * D**2 / 4 + (across + math.pi * along) * d * stretched
+    dragged = C_d * math.pi * D**2 / 4 + (C_dp + math.pi * C_dt) * d * stretched
     drag = 0.5 * rho * dragged * math.hypot(*sound["current.velocity_mps"] or ()) ** 2
     strain = strain_at(max(lift - weight / 2 - drag, 0), law)
     upright = max(pull - drag, 0) / math.hypot(pull - drag, drag)
@@ -134,7 +136,7 @@ def held_under(sound: "Sound") -> Iterator[str]:
         yield fault("water.depth_m", depth, rule + "'spherical-cap', with which it floats")
 
 
-def cap(sound: "Sound") -> Facts:
+def cap(sound: Sound) -> Facts:
     """What a buoy that is partly in the water needs."""
     key, cap = "buoy.submergence", sound["buoy.submergence"] == "spherical-cap"
     rule = "'full', because solver.scheme is 'paper-box': eq. (30) as printed has the whole sphere in the water"

@@ -91,16 +91,16 @@ def strain_within(weights, C0, C1, K0, K1):
     node that turned by 0.5 rad in 0.1 s was given -0.6 kN (Table 1); all stages were within 12 N of zero.
     """
     w0, w1, g0, g1, theta = weights
-    square0 = square1 = rate0 = rate1 = along = 0.0
+    square0 = square1 = rate0 = rate1 = product = 0.0
     for i in range(C0.shape[0] // 2):
         square0 += C0[i] * C0[i]
         square1 += C1[i] * C1[i]
-        along += C0[i] * C1[i]
+        product += C0[i] * C1[i]
         rate0 += C0[i] * K0[i]
         rate1 += C1[i] * K1[i]
     length0, length1 = math.sqrt(square0), math.sqrt(square1)
     linear = (1.0 - theta) * length0 + theta * length1
-    smooth = max(0.0, 1.0 - 50.0 * (1.0 - along / (length0 * length1)))  # 1 - (a/0.2)^2
+    smooth = max(0.0, 1.0 - 50.0 * (1.0 - product / (length0 * length1)))  # 1 - (a/0.2)^2
     cubic = w0 * length0 + w1 * length1 + g0 * rate0 / length0 + g1 * rate1 / length1
     return linear + smooth * (cubic - linear) - 1.0
 

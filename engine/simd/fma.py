@@ -27,9 +27,9 @@ NAME = "_fused"
 @intrinsic
 def fused(context, a, b, c):
     """a * b + c with one rounding; of integers, exactly."""
-    given = types.unliteral(a), types.unliteral(b), types.unliteral(c)
-    whole = all(isinstance(kind, (types.Integer, types.Boolean)) for kind in given)
-    kind = types.intp if whole else widest(*given)  # vectors of numbers win over numbers
+    argument_kinds = types.unliteral(a), types.unliteral(b), types.unliteral(c)
+    all_integers = all(isinstance(kind, (types.Integer, types.Boolean)) for kind in argument_kinds)
+    kind = types.intp if all_integers else widest(*argument_kinds)  # vectors of numbers win over numbers
 
     def generate(context, builder, signature, arguments):
         x, y, z = arguments
@@ -49,8 +49,8 @@ class _Fuse(ast.NodeTransformer):
         if not (minus or isinstance(node.op, ast.Add)):
             return node
         if _is_product(node.left):
-            other = ast.UnaryOp(ast.USub(), node.right) if minus else node.right
-            return _call(node, node.left.left, node.left.right, other)
+            addend = ast.UnaryOp(ast.USub(), node.right) if minus else node.right
+            return _call(node, node.left.left, node.left.right, addend)
         if _is_product(node.right):
             factor = ast.UnaryOp(ast.USub(), node.right.left) if minus else node.right.left
             return _call(node, factor, node.right.right, node.left)

@@ -39,12 +39,12 @@ class _PerLane(types.Type):
         self.count = count
         super().__init__(f"{self.word}({count})")
 
-    def unify(self, context, other):
+    def unify(self, context, kind):
         """A variable that is a number in one place and a vector in another is a vector."""
-        return self if isinstance(other, self.plain) else None
+        return self if isinstance(kind, self.plain) else None
 
-    def can_convert_from(self, context, other):
-        return Conversion.safe if isinstance(other, self.plain) else None
+    def can_convert_from(self, context, kind):
+        return Conversion.safe if isinstance(kind, self.plain) else None
 
 
 class Lanes(_PerLane):
@@ -87,15 +87,15 @@ def _define(function, kinds, result, build):
 
     @infer_global(function)
     class Template(AbstractTemplate):
-        def generic(self, given, keywords):
-            if keywords or len(given) != arguments:
+        def generic(self, operands, keywords):
+            if keywords or len(operands) != arguments:
                 return None
-            wide = [a for a in given if isinstance(a, _PerLane)]
+            wide = [a for a in operands if isinstance(a, _PerLane)]
             if not wide:
                 return None
             counts = {a.count for a in wide}
             wanted = [kind(wide[0].count) for kind in kinds]
-            fits = all(a == b or isinstance(a, b.plain) for a, b in zip(given, wanted, strict=True))
+            fits = all(a == b or isinstance(a, b.plain) for a, b in zip(operands, wanted, strict=True))
             return signature(result(wide[0].count), *wanted) if len(counts) == 1 and fits else None
 
     @lower_builtin(function, *kinds)
@@ -103,9 +103,9 @@ def _define(function, kinds, result, build):
         return build(builder, *values)
 
 
-def _instruction(name, *before):
-    """An instruction of LLVM's builder; before: what its operands follow."""
-    return lambda builder, *values: getattr(builder, name)(*before, *values)
+def _instruction(name, *leading):
+    """An instruction of LLVM's builder; leading: what its operands follow."""
+    return lambda builder, *values: getattr(builder, name)(*leading, *values)
 
 
 def external(builder, name, kind, count):
@@ -213,15 +213,15 @@ def transposed(context, rows):
     """Columns of the matrix of which these COUNT vectors (a tuple) are the rows."""
 
     def generate(context, builder, signature, values):
-        found, width = cgutils.unpack_tuple(builder, values[0], COUNT), 1
+        vectors, width = cgutils.unpack_tuple(builder, values[0], COUNT), 1
         while width < COUNT:  # blocks of this width change places across the diagonal, then wider ones
             low = [COUNT + j - width if j & width else j for j in range(COUNT)]
             masks = [ir.Constant(ir.VectorType(ir.IntType(32), COUNT), [j + d for j in low]) for d in (0, width)]
             for i in (i for i in range(COUNT) if not i & width):
-                pair = found[i], found[i + width]
-                found[i], found[i + width] = (builder.shuffle_vector(*pair, mask) for mask in masks)
+                pair = vectors[i], vectors[i + width]
+                vectors[i], vectors[i + width] = (builder.shuffle_vector(*pair, mask) for mask in masks)
             width *= 2
-        return context.make_tuple(builder, rows, found)
+        return context.make_tuple(builder, rows, vectors)
 
     return rows(rows), generate
 
@@ -255,15 +255,15 @@ class _LaneRecordAttributes(AttributeTemplate):
 
     def generic_resolve(self, record, name):
         """Whole numbers are common to the lanes, floats are vectors."""
-        found = record.fields.get(name)
-        return None if found is None else types.int64 if found[0] else Lanes(record.count)
+        field = record.fields.get(name)
+        return None if field is None else types.int64 if field[0] else Lanes(record.count)
 
 
 @lower_getattr_generic(LaneRecord)
 def _get_field(context, builder, record, value, name):
-    whole, row = record.fields[name]
+    is_integer, row = record.fields[name]
     pointers = cgutils.create_struct_proxy(record)(context, builder, value=value)
-    address = builder.gep(pointers.counts if whole else pointers.values, [context.get_constant(types.intp, row)])
+    address = builder.gep(pointers.counts if is_integer else pointers.values, [context.get_constant(types.intp, row)])
     return builder.load(address)
 
 

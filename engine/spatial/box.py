@@ -68,18 +68,18 @@ def across_box(Y, Q, k, e, cq, J, psi, R, r):
     _, _, _, r2, r3, r1 = r
     # rotation: its first component has no curvature in it and gives theta1; the others then give O2 and O3
     over, inverse = 1.0 / e, 1.0 / J11
-    left = psi[0], psi[1] - e * (Y[a, col.O2] + Y[k, col.O2]), psi[2] - e * (Y[a, col.O3] + Y[k, col.O3])
+    missing = psi[0], psi[1] - e * (Y[a, col.O2] + Y[k, col.O2]), psi[2] - e * (Y[a, col.O3] + Y[k, col.O3])
     A1 = added(R.theta1, (0.0, 0.0, 0.0, J21 * inverse, J31 * inverse))
     B1 = (0.0, 0.0, 0.0, -J12 * inverse, -J13 * inverse)
-    z1 = r1 - left[0] * inverse
+    z1 = r1 - missing[0] * inverse
     A2 = combined3(J21 * over, A1, -J12 * over, R.theta1, -1.0, R.O2)
     A2 = added(A2, (0.0, 0.0, 0.0, -J22 * over, -J32 * over))
     B2 = added(scaled(J21 * over, B1), (0.0, 0.0, 0.0, J22 * over, J23 * over))
-    z2 = over * (J21 * z1 - J12 * r1 + left[1]) - r2
+    z2 = over * (J21 * z1 - J12 * r1 + missing[1]) - r2
     A3 = combined3(J31 * over, A1, -J13 * over, R.theta1, -1.0, R.O3)
     A3 = added(A3, (0.0, 0.0, 0.0, -J23 * over, -J33 * over))
     B3 = added(scaled(J31 * over, B1), (0.0, 0.0, 0.0, J32 * over, J33 * over))
-    z3 = over * (J31 * z1 - J13 * r1 + left[2]) - r3
+    z3 = over * (J31 * z1 - J13 * r1 + missing[2]) - r3
     # compatibility: V
     Ax, Ay, Az = _of_stretch(Qa, e * cq)
     Ax, Ay, Az = added(R.x, Ax), added(R.y, Ay), added(R.z, Az)
@@ -106,14 +106,14 @@ def momentum_row(i, e, Qa, Qb, at_a, at_b, R, r, A, B, z):
     row = added(combined3(-ax, R.x, -ay, R.y, -az, R.z), combined3(-bx, A.x, -by, A.y, -bz, A.z))
     row = combined3(1.0, row, roll_b, A.theta1, -roll_a, R.theta1)
     N, G = at_a.N, at_a.G
-    own = (N[0][i] + G[0][i], N[1][i], N[2][i], N[3][i] + G[1][i], N[4][i] + G[2][i])
+    direct = (N[0][i] + G[0][i], N[1][i], N[2][i], N[3][i] + G[1][i], N[4][i] + G[2][i])
     known = Qa[col.N + i] - Qb[col.N + i] + e * (Qa[col.G + i] + Qb[col.G + i]) - roll_b * z[5] + roll_a * r[5]
     known += ax * r[0] + ay * r[1] + az * r[2] + bx * z[0] + by * z[1] + bz * z[2]
     # by y_b
     N, G = at_b.N, at_b.G
     above = (N[0][i] - G[0][i], N[1][i], N[2][i], N[3][i] - G[1][i], N[4][i] - G[2][i])
     above = combined3(1.0, above, roll_b, B.theta1, -bx, B.x)
-    return combined(1.0, row, -1.0, own), known, combined3(1.0, above, -by, B.y, -bz, B.z)
+    return combined(1.0, row, -1.0, direct), known, combined3(1.0, above, -by, B.y, -bz, B.z)
 
 
 @kernel

@@ -9,9 +9,9 @@ residuals that Newton drives to zero:
     EI (O2_b - O2_a) - e (M2_a + M2_b) = 0            moments            |
     EI (O3_b - O3_a) + e (M3_a + M3_b) = 0                               o a   y_a, v_a
 
-A torque that nothing distributes is the same everywhere: O1 is one number for the whole line, zero but where both ends
-are clamped, and one more right-hand side there instead of one more unknown: what the frame, which does not roll,
-turns between the clamps, and O1 times the length, are the twist given.
+Nothing distributes a torque along the line, so it is the same everywhere: O1 is one number for the whole line. It is
+zero unless both ends are clamped. Then it is one more right-hand side rather than one more unknown: the twist given is
+what the frame, which does not roll, turns between the clamps, plus O1 times the length.
 
 Split the updates into y = (eps, Sn, Sb, theta2, theta3) and v = (V, O2, O3, theta1). Below node a everything is one
 affine relation v_a = R y_a + r + r' dO1; at the anchor V = 0, theta1 = 0 (the roll of the frame is free there: this

@@ -38,19 +38,19 @@ def _added(p, tables, stage, Y, work):
             gx, gy, gz = mixed(1.0, G, -inertia, mixed(1.0, V, -1.0, vector(work.C_tilde[k], col.V)))
             v = mixed(in_motion, V, -1.0, vector(F, 0))
             wet = wetting(p, t, in_motion, ahead, x, V)
-            load, by_v, own, place = surface_load(p, in_motion, ahead, wet, v, tangent, (gx, gy, gz - p.w0))
+            load, by_v, by_velocity, place = surface_load(p, in_motion, ahead, wet, v, tangent, (gx, gy, gz - p.w0))
             share = wet[0]
             put(row, col.G_EPS, mixed(share, vector(row, col.G_EPS), 0.0, x))
             for at, dt in ((col.G_THETA2, mixed(-1.0, b, 0.0, b)), (col.G_THETA3, n)):
                 put(row, at, mixed(share, vector(row, at), 1.0, surface_turn(p, wet, v, tangent, dt)))
             G = mixed(1.0, G, 1.0, load)
-            more = sum_of(sum_of(by_v, own), _scaled(over, place))
-            more = sum_of(more, _scaled(share, by_V))
+            matrix = sum_of(sum_of(by_v, by_velocity), _scaled(over, place))
+            matrix = sum_of(matrix, _scaled(share, by_V))
             dry = inertia - share * inertia
             by_V = (
-                (more[0][0] + dry, more[0][1], more[0][2]),
-                (more[1][0], more[1][1] + dry, more[1][2]),
-                (more[2][0], more[2][1], more[2][2] + dry),
+                (matrix[0][0] + dry, matrix[0][1], matrix[0][2]),
+                (matrix[1][0], matrix[1][1] + dry, matrix[1][2]),
+                (matrix[2][0], matrix[2][1], matrix[2][2] + dry),
             )
         if p.floored:
             load, of_V, by_z = bed_load(p, in_motion, x[2], V)

@@ -11,8 +11,8 @@ upwards and o the quaternion product, the equations of THEORY.md, section 3, are
     GIp O1_s = 0,   EI O2_s - M2 = 0,   EI O3_s + M3 = 0
     M2 = (1+eps)^3 Sb - GIp O1 O3,   M3 = (1+eps)^3 Sn - GIp O1 O2
 
-    P = I - t t',  v = V - U_w,  v_p = P v,   a = c_t sqrt(1+eps) |v_t| v_t,
-    d = c_n sqrt(1+eps) |v_p| v_p,  w = m_a V_t - R dU_w/dt
+    P = I - t t',  v = V - U_w,  v_p = P v,   a = C_t |v_t| v_t,  d = C_n |v_p| v_p  (C: `engine.physics.drag`),
+    w = m_a V_t - R dU_w/dt
 
 Newton's increments turn the frame by a rotation vector theta in its own axes: dt = theta3 n - theta2 b. Rates come from
 the integrator as q_t = cq (q - q~), V_t = cv (V - V~); `in_motion` as in the plane. Derivatives are complete but for
@@ -29,6 +29,7 @@ momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (2
 import math
 
 from ..compiled import by_kind, kernel
+from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from . import columns as col
@@ -88,8 +89,8 @@ def node_quantities(p, tables, stage, Y, work):
         # force in the line, with the viscosity of shocks
         T, slope = tension(eps, p, tables)
         if p.viscous:
-            before = vector(known, 0)
-            stretched = lam - math.sqrt(dot(before, before))
+            q_before = vector(known, 0)
+            stretched = lam - math.sqrt(dot(q_before, q_before))
             extra, stiffer = shock_tension(in_motion * cq, stretched, row[col.SHOCK_B], row[col.SHOCK_L])
             T += extra
             slope += stiffer
@@ -112,10 +113,11 @@ def node_quantities(p, tables, stage, Y, work):
             a_w = vector(water, col.ACCELERATION)
             w = (p.ma * A[0] - p.Rw * a_w[0], p.ma * A[1] - p.Rw * a_w[1], p.ma * A[2] - p.Rw * a_w[2])
             wt, wn, wb = dot(w, t), dot(w, n), dot(w, b)
-            ct, cn = p.ct * root, p.cn * root
-            along = ct * abs(vt)
-            across = cn * speed
-            a, dn, db = along * vt, across * vn, across * vb
+            C_along, slope_along = drag_along(p, tables, root, abs(vt))
+            C_across, slope_across = drag_across(p, tables, root, speed)
+            secant_t, steeper = C_along * abs(vt), slope_along * abs(vt)
+            secant_n = C_across * speed
+            a, dn, db = secant_t * vt, secant_n * vn, secant_n * vb
             # G in the frame: a t + (dn + wn) n + (db + wb) b
             force = mixed(1.0, mixed(a, t, dn + wn, n), db + wb, b)
             Gx += force[0]
@@ -124,17 +126,17 @@ def node_quantities(p, tables, stage, Y, work):
             half = 0.5 / lam
             put(row, col.G_EPS, mixed(1.0, mixed(half * a, t, half * dn, n), half * db, b))
             # t turns towards d = -b (theta2) and d = n (theta3): v_p loses (v.d) t + v_t d
-            inverse = cn / speed if speed > 0.0 else 0.0
-            lead = 2.0 * along - across
+            inverse = (slope_across - C_across) / speed if speed > 0.0 else 0.0
+            lead = steeper - secant_n
             turn2 = -vt * vb * inverse
             turn3 = -vt * vn * inverse
-            by2 = mixed(1.0, mixed(-lead * vb + wb, t, -turn2 * vn, n), -a + across * vt - turn2 * vb + wt, b)
-            by3 = mixed(1.0, mixed(lead * vn - wn, t, a - across * vt + turn3 * vn - wt, n), turn3 * vb, b)
+            by2 = mixed(1.0, mixed(-lead * vb + wb, t, -turn2 * vn, n), -a + secant_n * vt - turn2 * vb + wt, b)
+            by3 = mixed(1.0, mixed(lead * vn - wn, t, a - secant_n * vt + turn3 * vn - wt, n), turn3 * vb, b)
             put(row, col.G_THETA2, by2)
             put(row, col.G_THETA3, by3)
             # dG/dV = Dt tt' + (Dp + m_a cv) P + Ds v_p v_p'
-            Dt = 2.0 * in_motion * along
-            Dp = in_motion * across + p.ma * cv
+            Dt = in_motion * steeper
+            Dp = in_motion * secant_n + p.ma * cv
             Ds = in_motion * inverse
             Dt -= Dp
             vp = mixed(vn, n, vb, b)

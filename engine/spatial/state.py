@@ -124,14 +124,14 @@ def error_square(p, k, ec, Q):
 @kernel
 def largest_turn(p, Y):
     """Largest turn (rad) of the frame between neighbours and the upper node of its element."""
-    turn, where = 0.0, 0
+    turn, element = 0.0, 0
     if p.bent == 0:  # the frame then rolls without meaning
-        return turn, where
+        return turn, element
     for k in range(1, Y.shape[0]):
         angle = box_rotation(Y, k - 1, k)[1]
         if angle > turn:
-            turn, where = angle, k
-    return turn, where
+            turn, element = angle, k
+    return turn, element
 
 
 @kernel

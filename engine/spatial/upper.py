@@ -29,8 +29,8 @@ def _roll_to_go(p, t, length, Y):
     last = Y.shape[0] - 1
     carried = quaternion_product((p.carry0, p.carry1, p.carry2, p.carry3), quaternion(Y[0], col.BETA))
     # twist of the frame: what O1 leaves over; as exp(twist/2) it is exact for any number of turns
-    given = p.twist * smooth_start(t, p.twist_ramp)[0]
-    twist = 0.5 * (given - Y[last, col.O1] * length)
+    imposed = p.twist * smooth_start(t, p.twist_ramp)[0]
+    twist = 0.5 * (imposed - Y[last, col.O1] * length)
     target = quaternion_product(carried, (math.cos(twist), math.sin(twist), 0.0, 0.0))
     r = relative(target, quaternion(Y[last], col.BETA))
     return 2.0 * math.atan2(r[1], r[0])
@@ -48,8 +48,8 @@ def end_condition(p, tables, stage, Y, work):
     e, eN, S = upper_end_3d(p, tables, t, cv, in_motion, vector(work.Q[last], col.N), V, V_tilde, F)
     rows = ((S[0], S[1], S[2]), (S[1], S[3], S[4]), (S[2], S[4], S[5]))
     if p.spherical_cap:
-        more, D = cap_end_3d(p, t, cq, cv, in_motion, vector(work.X[last], 0), V, V_tilde, F)
-        e = mixed(1.0, e, 1.0, more)
+        cap, D = cap_end_3d(p, t, cq, cv, in_motion, vector(work.X[last], 0), V, V_tilde, F)
+        e = mixed(1.0, e, 1.0, cap)
         rows = (
             mixed(1.0, rows[0], 1.0, D[0]),
             mixed(1.0, rows[1], 1.0, D[1]),

@@ -1,13 +1,14 @@
-"""Folds of a slack line that its elements do not resolve: watched in every step, told of lines whose end is held.
+"""Folds of a slack line that its elements do not resolve: every step watches them, and the message of a run says so if
+its end is held.
 
 Over an element that turns by theta, the box takes the mean of the tangents at its two ends: cos(theta/2). That of a
 bend is sin(theta/2)/(theta/2). The chord of the bend is too short by the share 1 - (theta/2)/tan(theta/2).
 
 Of 132 slack lines moved at one end, the largest tension of 38 was more than 5 % off on 41 and 81 nodes (refinement);
 it came after the first fold beyond FOLD in all but 6 of them, two of which said that they ring. It was off by up to
-TIMES the share, but for lines that ring. A line that a snap has straightened bears what its stretch does: no folds are
-told where, straight between its ends, it would bear TAUT of its largest tension. A buoy on its line has no such
-message: snaps decide its largest tension.
+TIMES the share, but for lines that ring. A line that a snap has straightened bears what its stretch does. So there is
+no message where the line, straight between its ends, would bear TAUT of its largest tension; and none for a buoy on its
+line, because snaps decide its largest tension.
 """
 
 import math
@@ -39,12 +40,12 @@ def watch_turn(state, turn):
 def words_of_folds(scene: Scene, state: np.void, columns: dict[str, np.ndarray]) -> str:
     """Says how far the largest tension of a held line may be off because of folds before it, or nothing."""
     high_N, line = columns["tension_top_high_N"], scene.tether
-    most = int(high_N.argmax()) if len(high_N) else 0
-    if not len(high_N) or high_N[most] <= AT_REST * high_N[0] or columns["time_s"][most] < state["folded"]:
+    peak = int(high_N.argmax()) if len(high_N) else 0
+    if not len(high_N) or high_N[peak] <= AT_REST * high_N[0] or columns["time_s"][peak] < state["folded"]:
         return ""
-    around = slice(max(most - 1, 0), most + 1)  # samples between which it is
+    around = slice(max(peak - 1, 0), peak + 1)  # samples between which it is
     chord_m = np.linalg.norm([columns[name][around] for name in ("x_m", "y_m", "z_m")], axis=0).max()
-    if tension_at(chord_m / line.length_m - 1.0, line.tension) > TAUT * high_N[most]:
+    if tension_at(chord_m / line.length_m - 1.0, line.tension) > TAUT * high_N[peak]:
         return ""
     half = 0.5 * float(state["max_turn"])
     short = 1.0 - half / math.tan(half) if half < 0.5 * math.pi else 1.0

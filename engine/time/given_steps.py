@@ -37,8 +37,8 @@ def march_over(p, tables, state, steps, motion, output, trail):
         if code != OK:
             return code, at
         state.t = step.t
-        before, after = (C, K), (trial.C, trial.K[p.stages - 1])
-        sample(p, tables, state, step.dt, True, before, after, trial.Y, output.samples, output.profiles)
+        begin, end = (C, K), (trial.C, trial.K[p.stages - 1])
+        sample(p, tables, state, step.dt, True, begin, end, trial.Y, output.samples, output.profiles)
         trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, CONTROLLED
         for i in range(p.stages):
             copy_into(trail.Y[at, i], trial.Y[i])

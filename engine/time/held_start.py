@@ -8,7 +8,7 @@ from .. import parameters
 from ..scene.models import Scene
 from ..scene.sections import End
 from ..spatial import lift
-from .statics import MOST_STRAIN, rest_of
+from .statics import MOST_STRAIN, static_equilibrium
 from .status import STATICS_FAILED
 
 
@@ -24,9 +24,8 @@ def held_away(scene: Scene, rest: np.ndarray, s: np.ndarray) -> tuple[int, np.nd
     if math.hypot(*place) > (1.0 + MOST_STRAIN) * s[-1]:
         return STATICS_FAILED, rest
     held = scene.model_copy(update={"end": End(kind="held", position_m=tuple(place)), "buoy": None})
-    tables: list[np.ndarray] = []
-    record = parameters.record_of(held, tables)[0]
-    return rest_of(record, held, np.concatenate(tables), place[axes])
+    record, tables = parameters.numbers_of(held)
+    return static_equilibrium(record, held, tables, place[axes])
 
 
 def why_not_held(record: np.void, scene: Scene) -> str:

@@ -20,24 +20,24 @@ GOING_ON = -1
 
 
 @kernel
-def newton(p, tables, stage, tolerance, most, Y, work):
+def newton(p, tables, stage, tolerance, max_iterations, Y, work):
     """Solve one stage for Y (n, unknowns), in place.
 
     p, tables: parameters (`engine.record`); stage: Stage; tolerance: of an update in the scales of the scene;
-    most: iterations allowed; work: Work, whose C_tilde is given; on success its Q and X hold q and places of the final
-    Y. Returns (code of `engine.time.status`, iterations).
+    max_iterations: those allowed; work: Work, whose C_tilde is given; on success its Q and X hold q and places of the
+    final Y. Returns (code of `engine.time.status`, iterations).
     """
     best = np.inf
     tidy(p, Y)
-    for iteration in range(most):
+    for iteration in range(max_iterations):
         sound, size, least = iterate(p, tables, stage, Y, work)
-        code = judge(p, iteration, most, tolerance, sound, size, least, best)
+        code = judge(p, iteration, max_iterations, tolerance, sound, size, least, best)
         if code == OK:
             shape(p, tables, Y, work.Q, work.X)
         if code != GOING_ON:
             return code, iteration + 1
         best = min(best, size)
-    return NEWTON_FAILED, most
+    return NEWTON_FAILED, max_iterations
 
 
 @kernel
@@ -63,7 +63,7 @@ def iterate(p, tables, stage, Y, work):
 
 
 @kernel
-def judge(p, iteration, most, tolerance, sound, size, least, best):
+def judge(p, iteration, max_iterations, tolerance, sound, size, least, best):
     """GOING_ON, OK or why a solve failed, after iteration 0, 1 ... with an update of this size; best: least before."""
     if not sound:
         return NEWTON_FAILED
@@ -73,6 +73,6 @@ def judge(p, iteration, most, tolerance, sound, size, least, best):
         return STRAIN_BELOW_MINUS_ONE
     if size < tolerance or QUADRATIC * size * size < tolerance:
         return OK
-    if iteration >= PATIENCE and size > 0.5 * best and most <= p.max_newton:
+    if iteration >= PATIENCE and size > 0.5 * best and max_iterations <= p.max_newton:
         return NEWTON_FAILED
-    return GOING_ON if iteration + 1 < most else NEWTON_FAILED
+    return GOING_ON if iteration + 1 < max_iterations else NEWTON_FAILED

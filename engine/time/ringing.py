@@ -9,10 +9,10 @@ import math
 
 from ..compiled import kernel
 from ..dimensions import size_of
-from ..physics.damping import left_after
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import STRAIN, TENSION
+from .damping import left_after
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 LEFT_BEHIND = 0.1  # phase (rad) in one passage along the line beyond which a wave is the grid's: it may be damped

@@ -12,10 +12,11 @@ from itertools import product
 import numpy as np
 
 from ..arrays import Stage
+from ..parameters.scales import buckling_load
+from ..physics.strains import strain_at, tension_at
 from ..planar import columns as col
 from ..planar import state as planar
 from ..record import BUOY, FREE, HELD, has_extras, is_spatial, lengths_of
-from ..scales import buckling_load, strain_at, tension_at
 from ..scene.models import Scene
 from ..spatial import columns as spatial_col
 from ..spatial import lift
@@ -37,7 +38,9 @@ PRESSED = 10.0  # of weight and buckling load together: more compression than th
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
-def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndarray) -> tuple[int, np.ndarray]:
+def static_equilibrium(
+    record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndarray
+) -> tuple[int, np.ndarray]:
     """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
 
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
@@ -47,7 +50,7 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     line may be such a rest: there other beds to begin with are tried. A sphere that would stand in the air at rest with
     the buoyancy of one in the water has no rest.
     """
-    code, Y = _rest_of(record, scene, tables, target_m)
+    code, Y = _least_pressed(record, scene, tables, target_m)
     if code == OK and record["end"] == BUOY and record["wet"] and not record["spherical_cap"]:
         s = np.append(0.0, np.cumsum(lengths_of(record, tables)))
         top_m = scene.anchor.position_m[2] + np.trapezoid(lift.stretch_vectors(Y)[:, -1], s)
@@ -55,7 +58,8 @@ def rest_of(record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndar
     return code, Y
 
 
-def _rest_of(record, scene, tables, target_m):
+def _least_pressed(record, scene, tables, target_m):
+    """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least."""
     h, best = lengths_of(record, tables), None
     weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
     capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])
@@ -211,15 +215,15 @@ def afloat(record, scene, s):
     """
     from scipy.optimize import brentq
 
-    whole, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
-    if not record["spherical_cap"] or whole <= 0:
-        return whole, None
+    full_lift, D, law = float(record["lift"]), float(record["D_buoy"]), scene.tether.tension
+    if not record["spherical_cap"] or full_lift <= 0:
+        return full_lift, None
 
     surface = float(record["depth"]) - scene.anchor.position_m[2]  # above the anchor
 
     def lift(z):
         x = min(max((surface - z) / D + 0.5, 0.0), 1.0)
-        return whole - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
+        return full_lift - float(record["B_whole"]) * (1.0 - x * x * (3.0 - 2.0 * x))
 
     def left(load):
         """Lift that is not carried where the line is stretched by this load."""
@@ -231,10 +235,10 @@ def afloat(record, scene, s):
         """Where it is 0, or nearly so: a guess need not have converged, and extreme scenes do not."""
         return brentq(function, low, high, full_output=True, disp=False)[0]
 
-    if left(whole) >= 0:
-        return whole, None
+    if left(full_lift) >= 0:
+        return full_lift, None
     if left(0.0) > 0:
-        return zero(left, 0.0, whole), None
+        return zero(left, 0.0, full_lift), None
     return 0.0, zero(lift, surface - D / 2, surface + D / 2)
 
 

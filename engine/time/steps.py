@@ -99,24 +99,24 @@ def stage_rates(p, rate, Y, Q, C_tilde, C_new, K):
 
 
 @kernel
-def runge_kutta_step(p, tables, step, before, trial, work):
+def runge_kutta_step(p, tables, step, motion, trial, work):
     """A trial step of a stiffly accurate ESDIRK method, or (step.small) of backward Euler in its place.
 
-    step: Step; before: Motion, not changed; trial: Trial, filled; work: Work.
+    step: Step; motion: Motion, not changed; trial: Trial, filled; work: Work.
     Returns (code, Newton iterations, embedded error in units of the tolerance; 0 for fixed and for small steps).
     """
     t, dt, dt_before, small = step
-    Y, Y_before, C, K = before
+    Y, Y_before, C, K = motion
     Ys, Ks, C_new = trial
     C_tilde = work.C_tilde
     s, unknowns = Ys.shape[0], Ys.shape[2]
     a, w = np.empty(s), np.empty(3)
-    most = SMALL_STEP_NEWTON if small else p.max_newton
+    max_iterations = SMALL_STEP_NEWTON if small else p.max_newton
     iterations = 0
     copy_into(Ys[0], Y)
     copy_into(Ks[0], K)
     for i in range(s - 1 if small else 1, s):
-        rate, after = plan_stage(p, tables, i, small, dt, dt_before, a, w)
+        rate, delay = plan_stage(p, tables, i, small, dt, dt_before, a, w)
         known_part(a, 0 if small else i, C, Ks, C_tilde)
         # first guess: through the latest three of state before, state, stages; oldest has weight 0 at i = 1
         first = small or i == 1
@@ -126,8 +126,8 @@ def runge_kutta_step(p, tables, step, before, trial, work):
         for k in range(Y.shape[0]):
             for j in range(unknowns):
                 Ys[i, k, j] = guess(w, oldest[k, j], middle[k, j], latest[k, j])
-        stage = Stage(t + after, 1.0, rate, rate)
-        code, used = newton(p, tables, stage, p.newton_tolerance, most, Ys[i], work)
+        stage = Stage(t + delay, 1.0, rate, rate)
+        code, used = newton(p, tables, stage, p.newton_tolerance, max_iterations, Ys[i], work)
         iterations += used
         if code != OK:
             return code, iterations, np.inf
@@ -197,18 +197,18 @@ def embedded_error(p, tables, dt, Ks, Q, d, errors):
 
 
 @kernel
-def one_stage_step(p, tables, step, alphas, most, before, trial, work):
+def one_stage_step(p, tables, step, alphas, max_iterations, motion, trial, work):
     """A trial step of the generalized-alpha family (backward Euler and implicit midpoint included).
 
     With C_s the state and K_s the rates at the stage, t_n + alpha_f dt:
     K_s = c0 (C_s - C~), c0 = alpha_m/(alpha_f gamma dt), C~ = C_n + alpha_f dt (1 - gamma/alpha_m) K_n;
     C_(n+1) = C_n + (C_s - C_n)/alpha_f,  K_(n+1) = (K_s - (1 - alpha_m) K_n)/alpha_m.
-    alphas: (alpha_m, alpha_f, gamma); most: Newton iterations allowed; step, before, trial, work: as for
+    alphas: (alpha_m, alpha_f, gamma); max_iterations: of Newton's method; step, motion, trial, work: as for
     `runge_kutta_step`. Returns (code, Newton iterations).
     """
     t, dt, dt_before, _ = step
     alpha_m, alpha_f, gamma = alphas
-    Y, Y_before, C, K = before
+    Y, Y_before, C, K = motion
     last = trial.Y.shape[0] - 1
     Y_new, K_new, C_new = trial.Y[last], trial.K[last], trial.C
     Q, C_tilde = work.Q, work.C_tilde
@@ -225,7 +225,7 @@ def one_stage_step(p, tables, step, alphas, most, before, trial, work):
             Y_new[k, i] = Y[k, i] + ratio * (Y[k, i] - Y_before[k, i])
     rate = alpha_m / (alpha_f * gamma * dt)
     stage = Stage(t + alpha_f * dt, 1.0, rate, rate)
-    code, used = newton(p, tables, stage, p.newton_tolerance, most, Y_new, work)
+    code, used = newton(p, tables, stage, p.newton_tolerance, max_iterations, Y_new, work)
     if code != OK:
         return code, used
     for k in range(n):

@@ -1,7 +1,7 @@
 """From one output sample to the next: step control, guards, loop release, even output.
 
 `march` advances one run. In each step `begin_trial` chooses the length, `engine.time.steps` solves the stages by
-Newton's method, `refused` judges the trial, and `next_step` chooses the next length. Lanes (`engine.simd.ticks`) call
+Newton's method, `refused` judges the trial, and `next_step` chooses the next length. Lanes (`engine.lanes.ticks`) call
 the same functions.
 
 Loop release (THEORY.md, section 9): where the turn in one element passes pi, `guard_turns` takes 2 pi out of its phi.
@@ -25,13 +25,13 @@ from .. import record as col
 from ..arrays import Step, Trial
 from ..compiled import kernel
 from ..dimensions import configuration, conserved, largest_turn, release_loop, size_of, work_arrays
-from ..physics.damping import add_damping, stage_tensions, top_tension
 from ..physics.ends import corner_after
-from ..physics.energy import add_powers, store_energies
 from ..physics.shocks import deforming_element, renew_viscosity
 from ..planar.columns import EPS, TURN  # EPS: in space the same column
 from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
+from .damping import add_damping, stage_tensions, top_tension
+from .energy import add_powers, store_energies
 from .folds import watch_turn
 from .ringing import jumps_of_rates, near_stages, watch_ringing
 from .status import OK, STEP_LIMIT, STEP_UNDERFLOW, TURN_UNRESOLVED
@@ -49,7 +49,7 @@ def guard_turns(p, tables, state, Y):
     """Watch the turn of every element after a step; release loops. Returns (code, whether a loop was released)."""
     released = False
     for _ in range(Y.shape[0]):
-        turn, where = largest_turn(p, Y)
+        turn, element = largest_turn(p, Y)
         watch_turn(state, turn)
         if turn <= math.pi:
             return OK, released
@@ -57,7 +57,7 @@ def guard_turns(p, tables, state, Y):
             return OK, released
         if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
-        state.turned = release_loop(p, tables, Y, int(where))
+        state.turned = release_loop(p, tables, Y, int(element))
         state.releases += 1
         released = True
     return TURN_UNRESOLVED, released
@@ -67,8 +67,8 @@ def guard_turns(p, tables, state, Y):
 def hold_turn(state, Q):
     """Put into Q what the trial keeps of a released turn: 2 pi, less from step to step, 0 in the last one."""
     if state.turned != 0:
-        left = math.pi * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
-        Q[abs(state.turned), TURN] = left if state.turned > 0 else -left
+        remaining = math.pi * (1.0 - math.cos(math.pi * (state.small_steps - 1) / RELEASE_STEPS))
+        Q[abs(state.turned), TURN] = remaining if state.turned > 0 else -remaining
 
 
 @kernel
@@ -222,7 +222,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
 
     None where the scene does not need them, so that their kernels are not compiled for it: one_stage, the alphas of a
     one-stage method; e_t (n,), work of the shock viscosity; budget, the energies and sums of Output (columns in
-    `engine.physics.energy`), a row of which is stored at the first step past each output time.
+    `engine.time.energy`), a row of which is stored at the first step past each output time.
     """
     Y, Y_before, C, K = motion
     s = max(p.stages, 2)  # a one-stage method (p.stages = 0) fills the last of two

@@ -4,10 +4,11 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+from tables import EMPTY, count, decimals, number
+
 from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
 from ..parts.provenance import report_page, timing_items
 from ..parts.sections import section_items
-from ..parts.wording import EMPTY, count, decimals, number
 from . import sections
 from .sections import Study, read_study
 

@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
+from tables import Column, count, number
+
 from ..figures.work_precision import work_precision
-from ..parts.columns import Quantity, table_of
+from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
-from ..parts.wording import count, number
 
 OURS, PEER = "point", "peer"
 _WORDS = {
@@ -58,7 +59,7 @@ class Study:
     rows: tuple[dict, ...]
     settings: tuple[Setting, ...]
     orders: tuple[dict, ...]
-    order_columns: dict[str, Quantity]
+    order_columns: dict[str, Column]
 
     def unit(self, work: str) -> str:
         """Unit of the errors of a work."""

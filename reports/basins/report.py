@@ -6,18 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
+from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
+
 from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
-from ..parts.columns import table_of
+from ..parts.columns import LONGEST, shown_on, table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
 from ..parts.selecting import having
 from ..parts.style import BLUE, INK
-from ..parts.wording import count, listed, number, of_kicks
-from ..sweep.quantities import colours_of, filled_table, further
+from ..sweep.quantities import batched, colours_of, filled_table
 
 _AXES = {
     "vx": ("kick_x_mps", "velocity along the waves (m/s)"),
@@ -26,16 +27,12 @@ _AXES = {
     "z": ("displacement_z_m", "place upwards, from rest (m)"),
     "phase": ("phase_rad", "time from the start to a crest, share of T"),
 }
-_MOTIONS = (
-    "motion", "regime", "share", "share_low", "share_high", "radius_min_m", "radius_max_m", "tension_top_max_N",
-    ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "found_by",
-)  # fmt: skip
 _JUDGED = (
     "One judged run a motion. Share: of the starts of the grid. They are no independent draws: the interval is "
     "too wide where the basins are wider than the steps of the grid."
 )
+_MOST = 14  # columns of one table
 _PERIODS = 8  # of a motion without a period, drawn
-_FAILED = "failed"
 
 
 def report(directory: str | Path) -> Report:
@@ -95,7 +92,7 @@ def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> It
 def _outcome(row) -> str:
     """What is said of a start that belongs to no motion."""
     if row["status"] != "ok":
-        return _FAILED
+        return FAILED
     return row["outcome"]
 
 
@@ -112,8 +109,9 @@ def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] |
 
 def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
     yield Heading("Motions")
-    shown = (*_MOTIONS, *further(part.columns))
-    yield table_of(part.columns, shown, motions, _JUDGED, {"share": of_kicks})
+    shown = shown_on(part.columns, motions, RUNS, REGIMES, longest=LONGEST)
+    for names in batched([name for name in shown if name not in ("steepness", "motion")], _MOST):
+        yield table_of(part.columns, ["motion", *names], motions, _JUDGED, {"share": of_kicks})
     for row in motions:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")

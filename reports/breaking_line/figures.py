@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tables import listed, number, percent
+
 from ..figures.animations import line_animation, line_strip
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, named, seen
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure
-from ..parts.wording import listed, number, percent
 from .runs import FAST, SLOW, Line, of_kind
 
 if TYPE_CHECKING:

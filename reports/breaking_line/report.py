@@ -3,13 +3,14 @@
 from functools import partial
 from pathlib import Path
 
+from tables import count, decimals, listed, number, percent
+
 from ..figures.line_panels import named
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.provenance import report_page, scene_items, timing_items
 from ..parts.sections import section_items
-from ..parts.wording import count, decimals, listed, number, percent
 from . import figures
 from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, series_table, table_of_runs
 

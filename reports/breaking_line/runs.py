@@ -10,15 +10,17 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from tables import Column
+
 from ..figures.line_panels import named
-from ..parts.columns import Quantity, table_of
+from ..parts.columns import table_of
 from ..parts.content import Table
 from ..parts.folder import Folder, FolderError, Row, read_files
 
 if TYPE_CHECKING:
     import xarray
 
-Columns = dict[str, Quantity]
+Columns = dict[str, Column]
 KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}
 CASES = (
     "case", "force_N", "status", "end_speed_mps", "recoil_m", "x_min_m", "left_of_fixed_end_m", "vertical_m",
@@ -163,5 +165,5 @@ def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
         if coarser["case"] == line["case"]:
             ratio = (line["nodes"] - 1) / (coarser["nodes"] - 1)
             row["order"] = math.log(coarser["strain_error"] / line["strain_error"]) / math.log(ratio)
-    quantities = columns | {"order": Quantity("order", "", "order", "order of the mean of |ε − exact|", 2)}
+    quantities = columns | {"order": Column("order", "", "order", "order of the mean of |ε − exact|", 2)}
     return table_of(quantities, SERIES, rows, "Convergence on even grids, without gravity.")

@@ -9,29 +9,41 @@ from typing import NamedTuple
 import numpy as np
 
 from analysis import read_evidence
+from tables import (
+    CAPPED,
+    OPEN,
+    PAPER_STEEPNESS,
+    PEAK,
+    PERIODIC,
+    REGIMES,
+    TANGENT_ERROR,
+    TANGENT_EXPONENT,
+    WOLF_ERROR,
+    WOLF_EXPONENT,
+    count,
+    decimals,
+    number,
+    printed,
+)
 
 from ..figures.animations import Snap, tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
-from ..figures.orbit_diagram import Column, OrbitDiagram, Range
+from ..figures.orbit_diagram import OrbitDiagram, Range, Strobes
+from ..parts.columns import shown_on
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import part_of
 from ..parts.selecting import entries
 from ..parts.style import BLUE, INK, REGIME_COLOURS
-from ..parts.wording import T_I, T_S, count, decimals, number, printed
+from ..parts.symbols import T_I, T_S
 from ..sweep.quantities import in_order, series
-from .motions import MARKS, PEAK, lines, shares_panel, tension_panel
-from .runs import PAPER_STEEPNESS, Run, Sweep, rows_of
+from .motions import MARKS, lines, shares_panel, tension_panel
+from .runs import Run, Sweep, rows_of
 from .tables import sweep_table
 
-# the largest exponents in the table, each with its standard error
-TANGENT = ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error")
-WOLF = ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error")
-_PERIOD = "period-"
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
-_CAP = "wetted cap"  # role in companions/table.csv
 _DEFINED = (
     "A run is looked at after 90, 135, 205, ... wave periods, each time without its first third. A word counts when "
-    "two looks in a row find it, or a clear one from 465 periods on (docs/verdicts.md). Periodic: the strobed orbit "
+    "two looks in a row find it, or a clear one from 465 periods on (docs/motions.md). Periodic: the strobed orbit "
     "repeats, and perturbations do not grow in the later half. "
     "Chaotic: the exponent of the tangent dynamics is positive by 3.5 errors, by two in the later half, and again at a "
     "tenth of the tolerance (`regime_tighter`). Quasi-periodic: the exponent is zero within a stated bound, neighbours "
@@ -43,7 +55,7 @@ _DEFINED = (
 def exponents(sweep: Sweep) -> list[tuple[str, str]]:
     """The pairs of columns, value and error, in which some run has an exponent."""
     pairs = []
-    for value, error in (TANGENT, WOLF):
+    for value, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
         if np.isfinite(_of(sweep.judged, value)).any():
             pairs.append((value, error))
     return pairs
@@ -55,7 +67,7 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     if not drawn:
         return None
     drawn.sort(key=lambda run: (run.steepness, run.motion))
-    columns = [Column(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
+    columns = [Strobes(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
     missing = [run.steepness for run in sweep.runs if run not in drawn]
     first, last = drawn[0].steepness, drawn[-1].steepness
     marks = [(kA, "paper") for kA in PAPER_STEEPNESS if first <= kA <= last]
@@ -166,7 +178,7 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
         yield f"(hatched: not settled); {exponent}."
     else:
         yield f"Below: time with less than 5 % of the static tension; {exponent}; {tension}."
-    undecided = sweep.runs_with(lambda run: run["regime"] in ("undecided", "transient"))
+    undecided = sweep.runs_with(lambda run: run["regime"] in OPEN)
     if undecided:
         yield f"Not decided: {sweep.at(undecided)}."
     elif sweep.judged:
@@ -189,12 +201,12 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
     """
     y, bars, words = [], [], []
     for run in sweep.judged:
-        word = _PERIOD if run["regime"].startswith(_PERIOD) else run["regime"]
+        word = PERIODIC if run["regime"].startswith(PERIODIC) else run["regime"]
         exponent, error = math.nan, math.nan
-        if run.known(TANGENT[0]):
-            exponent, error = run[TANGENT[0]], run[TANGENT[1]]
-        elif word != _PERIOD:
-            exponent, error = run[WOLF[0]], run[WOLF[1]]
+        if run.known(TANGENT_EXPONENT):
+            exponent, error = run[TANGENT_EXPONENT], run[TANGENT_ERROR]
+        elif word != PERIODIC:
+            exponent, error = run[WOLF_EXPONENT], run[WOLF_ERROR]
         y.append(exponent)
         bars.append(2.0 * error)
         words.append(word)
@@ -222,11 +234,11 @@ def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Pan
     if not sweep.colours:
         curves = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
         if capped:
-            curves.append(Curve(cap_x, cap_y, _CAP, colour=BLUE))
+            curves.append(Curve(cap_x, cap_y, CAPPED, colour=BLUE))
         return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
     curves = lines(sweep, drawn, PEAK, scale)
     if capped:
-        curves.append(Curve(cap_x, cap_y, _CAP, line="", mark="_", colour=INK))  # of one motion or another
+        curves.append(Curve(cap_x, cap_y, CAPPED, line="", mark="_", colour=INK))  # of one motion or another
     return tension_panel(sweep, drawn, curves, scale, label)
 
 
@@ -242,7 +254,7 @@ def _capped(sweep: Sweep) -> list[Run]:
         return []
     runs = []
     for row in in_order(part.completed, ["steepness"]):
-        if row["role"] == _CAP:
+        if row["role"] == CAPPED:
             runs.append(_run(sweep, row))
     return runs
 
@@ -302,7 +314,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
     if not sweep.judged:
         return []
     caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
-    names = ("regime", "periods", "transient_periods", TANGENT, WOLF)
+    names = shown_on(sweep.folder.columns, rows_of(sweep.judged), REGIMES)
     return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, names, sweep.judged, caption)]
 
 

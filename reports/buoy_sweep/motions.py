@@ -6,18 +6,17 @@ from itertools import pairwise
 
 import numpy as np
 
+from tables import EMPTY, PEAK, PERIODIC, decimals, listed, number, of_kicks, ranges
+
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
 from ..parts.content import Item, Table, heads
 from ..parts.style import SOFT
-from ..parts.wording import EMPTY, decimals, listed, number, of_kicks, ranges
 from ..sweep.motions import ends_of
 from ..sweep.quantities import series
 from .runs import Run, Sweep, rows_of
 
-PEAK = "tension_top_max_N"
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
-_PERIOD = "period-"
 
 
 def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list[Curve]:
@@ -135,8 +134,8 @@ def _regimes(runs: Sequence[Run]) -> str:
     periods, words = set(), set()
     for run in runs:
         regime = run["regime"]
-        if regime.startswith(_PERIOD):
-            periods.add(int(regime.removeprefix(_PERIOD)))
+        if regime.startswith(PERIODIC):
+            periods.add(int(regime.removeprefix(PERIODIC)))
         elif regime:
             words.add(regime)
     parts = sorted(words)

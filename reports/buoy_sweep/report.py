@@ -4,10 +4,12 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from tables import COARSE, OTHER_MOTION, decimals, number, percent
+
 from ..parts.content import Heading, Item, Notice, Report, Text
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
-from ..parts.wording import T_I, TAU_0, decimals, number, percent
+from ..parts.symbols import T_I, TAU_0
 from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes, series
 from .figures import close_up_items, orbit_figure, regime_items
@@ -20,7 +22,6 @@ _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
     "buoy_lateral_max_m",
 )  # fmt: skip
-_COARSE = 0.05  # of the largest tension, as in `campaigns.explore.answer`
 _OF_THESE = "Least and greatest value in the runs that ended as asked."
 _RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
 Limit = tuple[str, Sequence[Run]]  # what limits runs, and these runs
@@ -104,8 +105,8 @@ def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
         sweep.runs_with(lambda run: "not resolved" in (run["message"] or "")),
     )
     yield (
-        f"largest tensions hold to no better than {percent(_COARSE)} (column ± T_max)",
-        sweep.runs_with(lambda run: run["tension_top_max_error_N"] > _COARSE * run["tension_top_max_N"]),
+        f"largest tensions hold to no better than {percent(COARSE)} (column ± T_max)",
+        sweep.runs_with(lambda run: run["tension_top_max_error_N"] > COARSE * run["tension_top_max_N"]),
     )
     yield (
         "nothing is known of the error of the largest tension (column ± T_max)",
@@ -113,7 +114,7 @@ def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
     )
     yield (
         "with smaller elements and steps the motion becomes another one (column message)",
-        sweep.runs_with(lambda run: "becomes another motion" in (run["message"] or "")),
+        sweep.runs_with(lambda run: OTHER_MOTION in (run["message"] or "")),
     )
     yield (
         "in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",

@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from engine.natural_frequencies import Modes, natural_frequencies
+from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
 from ..figures.run_sheet import run_sheet
 from ..parts.folder import Folder, Row, part_of, read_folder
-from ..parts.wording import OMEGA_I, OMEGA_R, decimals, listed, number, ranges
+from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..sweep.quantities import colours_of, in_order, series
 
 if TYPE_CHECKING:
     from analysis import Spectrum
     from engine import Trajectory
 
-PAPER_STEEPNESS = (0.016, 0.13)  # as in `campaigns.buoy_sweep`, which reports must not import
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
 END_PERIODS = 6.0  # of a record that its sheet shows larger

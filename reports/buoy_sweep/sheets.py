@@ -3,10 +3,11 @@
 import math
 from collections.abc import Sequence
 
-from ..parts.columns import plus_minus
+from tables import EMPTY, count, number
+
+from ..parts.columns import printed_cells, shown_on
 from ..parts.content import Explorer, ExplorerColumn, Heading, Item, Sheet, Text, link
-from ..parts.wording import EMPTY, count, number
-from ..sweep.quantities import errors_of, series
+from ..sweep.quantities import series
 from .figures import evidence_table, exponents
 from .runs import END_PERIODS, Run, Sweep, rows_of
 
@@ -88,9 +89,8 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
         period = count(run.period, "wave period")
     facts = [("status", status), ("repeats after", period)]
     columns = sweep.folder.columns
-    errors = errors_of(columns)
-    for name, column in columns.items():
-        cell = plus_minus(columns, run.row, name, errors.get(name, ""))
-        if name not in _ELSEWHERE and name not in errors.values() and cell != EMPTY:
-            facts.append((column.head, f"{cell} {column.unit}".strip()))
+    cells = printed_cells(columns)
+    for name in shown_on(columns, [run.row]):
+        if name not in _ELSEWHERE:
+            facts.append((columns[name].head, f"{cells[name](run.row)} {columns[name].unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))

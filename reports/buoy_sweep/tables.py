@@ -4,36 +4,16 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..parts.columns import Name, plus_minus, table_of, value_and_error
+from tables import EMPTY, PLANE, RUNS, decimals, listed, number, of_kicks, percent, ranges
+
+from ..parts.columns import LONGEST, shown_on, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
-from ..parts.wording import (
-    EMPTY,
-    OMEGA_I,
-    OMEGA_R,
-    OMEGA_THETA,
-    T_S,
-    decimals,
-    listed,
-    number,
-    of_kicks,
-    percent,
-    ranges,
-)
-from ..sweep.quantities import further, over_key, series
+from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
+from ..sweep.quantities import batched, over_key, series
 from .runs import Run, Sweep, rows_of
 
-_RUNS = (
-    "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N", "tension_top_max_N",
-    "tension_top_max_error_N", "slack_fraction", ("multiplier_modulus", "multiplier_error"), "max_turn_rad",
-    "loop_releases",
-)  # fmt: skip
-_ACROSS = ("offplane_growth_bits_per_period", "offplane_growth_error")
-_PLANE = (
-    "dimensions", "planar_loop_releases", "loop_releases", "rope_lateral_max_m", "buoy_lateral_max_m",
-    "max_turn_rad", "radius_min_m", "radius_max_m", "planar_radius_min_m", "planar_radius_max_m", "regime",
-    "planar_regime",
-)  # fmt: skip
+_MOST = 18  # columns of one table
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
     "`campaigns.out_of_plane` compares planar runs that release loops with runs in three dimensions, at kA = 0.13 and "
@@ -42,20 +22,14 @@ COMPARED = (
 )
 
 
-def sweep_table(sweep: Sweep, names: Sequence[Name], runs: tuple[Run, ...], caption: str):
+def sweep_table(sweep: Sweep, names: Sequence[str], runs: Sequence[Run], caption: str) -> Table:
     """A table of runs: their steepness, a link to the sheet of the run, their motion and the columns of these names.
 
     A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns, shown = sweep.folder.columns, []
-    for name in ("steepness", "motion", *names):
-        value, error = value_and_error(name)
-        if value not in columns:
-            continue
-        cells = {plus_minus(columns, run.row, value, error) for run in runs}
-        if cells - {EMPTY}:
-            shown.append(name)
-    rows = [{**run.row, "run": run} for run in runs]
+    columns, rows = sweep.folder.columns, [{**run.row, "run": run} for run in runs]
+    filled = shown_on(columns, rows)
+    shown = [name for name in dict.fromkeys(("steepness", "motion", *names)) if name in filled]
     own_cells = {"steepness": _linked_steepness, "share": of_kicks, "strobed_period": _period}
     return table_of(columns, shown, rows, caption, own_cells)
 
@@ -73,7 +47,9 @@ def _period(row: Mapping[str, object]) -> str:
 
 def runs_items(sweep: Sweep) -> list[Item]:
     """All rows of table.csv in the columns a reader asks for first."""
-    names = ["share", "found_by", "status", "strobed_period", *_RUNS, *further(sweep.folder.columns)]
+    columns = sweep.folder.columns
+    names = shown_on(columns, rows_of(sweep.runs), RUNS, longest=LONGEST)
+    names = [name for name in names if name not in ("steepness", "motion")]
     if sweep.runs_with(lambda run: run.in_space):
         names.insert(0, "dimensions")
     caption = (
@@ -81,12 +57,16 @@ def runs_items(sweep: Sweep) -> list[Item]:
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
         "leads to the sheet of the run."
     )
-    return [Heading("Table of runs"), sweep_table(sweep, names, sweep.runs, caption)]
+    return [
+        Heading("Table of runs"),
+        *(sweep_table(sweep, part, sweep.runs, caption) for part in batched(names, _MOST)),
+    ]
 
 
 def plane_items(sweep: Sweep) -> list[Item]:
     """What is known of motion across the plane of the waves, or nothing."""
-    growth_name, error_name = _ACROSS
+    growth_name, error_name = "offplane_growth_bits_per_period", "offplane_growth_error"
+    columns = sweep.folder.columns
     shown = sweep.runs_with(lambda run: run.in_space or run.planar_releases > 0)
     across = rows_of(sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name)))
     if not shown and not across:
@@ -102,7 +82,6 @@ def plane_items(sweep: Sweep) -> list[Item]:
         words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
     items: list[Item] = [Heading("Out of the plane"), Text(words)]
     if across:
-        columns = sweep.folder.columns
         growth, error = columns[growth_name], columns[error_name]
         picture = over_key(across, columns["steepness"], [((growth, error),)], sweep.colours)
         caption = (
@@ -115,7 +94,11 @@ def plane_items(sweep: Sweep) -> list[Item]:
             "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). Columns called planar are of "
             "the planar run that a run in three dimensions replaces; the regime of D = 3 is that of the samples alone."
         )
-        items += [Text(COMPARED), sweep_table(sweep, _PLANE, shown, caption)]
+        names = []
+        for name, column in columns.items():
+            if column.page == PLANE:  # a column of the planar run stands behind the same one of the run in space
+                names += [name.removeprefix("planar_"), name]
+        items += [Text(COMPARED), sweep_table(sweep, names, shown, caption)]
     return items
 
 

@@ -4,9 +4,10 @@ from itertools import chain
 
 import numpy as np
 
+from tables import number
+
 from ..parts.content import Picture
 from ..parts.style import INK
-from ..parts.wording import number
 from .curves import COLOURS, Curve, Panel, curves
 
 BESIDE = 0.14  # of the space between two values

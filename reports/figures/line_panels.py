@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tables import number
+
 from ..parts.content import Picture
 from ..parts.style import SOFT, VERMILION, picture_of, sheet
-from ..parts.wording import number
 from .curves import Curve, Panel, cells, curves
 
 QUANTITIES = {  # what is drawn -> the same in words, label of its axis, unit

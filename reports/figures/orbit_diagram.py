@@ -30,7 +30,7 @@ Span = tuple[str, float, float]  # a word, and where on the axis it begins and e
 
 
 @dataclass(frozen=True, eq=False)
-class Column:
+class Strobes:
     """The points (n,) of one run over its parameter, and the word for its motion, "" for one that nobody judged.
 
     motion: its letter, where one value may have several motions.
@@ -66,7 +66,7 @@ class OrbitDiagram:
     orbits    lines and marks over the points, in place of that; their names have a row of the legend
     """
 
-    columns: Sequence[Column]
+    columns: Sequence[Strobes]
     labels: tuple[str, str]
     below: Sequence[Panel]
     ranges: Sequence[Range] = ()
@@ -129,7 +129,7 @@ class OrbitDiagram:
             return picture_of(figure)
 
     @property
-    def _judged(self) -> list[Column]:
+    def _judged(self) -> list[Strobes]:
         return [column for column in self.columns if column.word]
 
     def _words(self) -> dict[str, list[Span]]:
@@ -283,11 +283,11 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     axes.text(place, 0.45, text, ha=side, **look)
 
 
-def _points(axes, columns: Sequence[Column], inch: float, motions: Motions) -> None:
+def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> None:
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
-    groups: dict[tuple[str, str], list[Column]] = {}
+    groups: dict[tuple[str, str], list[Strobes]] = {}
     for column in columns:
         groups.setdefault((column.word, column.motion), []).append(column)
     for (word, motion), members in sorted(groups.items()):
@@ -312,7 +312,7 @@ def _points(axes, columns: Sequence[Column], inch: float, motions: Motions) -> N
         axes.plot(np.concatenate(x), np.concatenate(y), "_", color=colour, alpha=alpha, **look)
 
 
-def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tuple[float, float], float] | None:
+def _small(columns: Sequence[Strobes], several: bool) -> tuple[list[Strobes], tuple[float, float], float] | None:
     """The columns from the left on whose points together take a small part of the range, the ends of their points,
     and where in the panel there is more room for them, 0 below and 1 above; None where there are not many.
     """
@@ -333,7 +333,7 @@ def _small(columns: Sequence[Column], several: bool) -> tuple[list[Column], tupl
     return members, ends, above
 
 
-def _enlarged(axes, columns: list[Column], ends: tuple[float, float], above: float, inch: float, motions) -> None:
+def _enlarged(axes, columns: list[Strobes], ends: tuple[float, float], above: float, inch: float, motions) -> None:
     """The columns again, over the same parameter, in what is blank below or above them."""
     (bottom, top), (x_min, x_max) = axes.get_ylim(), axes.get_xlim()
     edges, room = cell_edges(np.unique([column.at for column in columns])), 0.12 * (top - bottom)

@@ -5,7 +5,7 @@ import numpy as np
 from ..parts.content import Picture
 from ..parts.style import BLUE, GREEN, INK, SOFT, VERMILION
 from .curves import Curve, Panel, curves
-from .orbit_diagram import Column, OrbitDiagram
+from .orbit_diagram import OrbitDiagram, Strobes
 
 STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
 
@@ -99,5 +99,5 @@ def oscillator_diagram(values, strobed, exponents, errors, slack, label: str, ma
     inside = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
     columns = []
     for at, points in zip(values, strobed, strict=True):
-        columns.append(Column(at, points[np.isfinite(points)]))
+        columns.append(Strobes(at, points[np.isfinite(points)]))
     return OrbitDiagram(columns, (label, r"strobed $\gamma$ (–)"), below, marks=inside).drawn()

@@ -11,8 +11,10 @@ from html import escape
 
 import numpy as np
 
-from ..parts.content import spans, sub
-from ..parts.wording import T_I, number
+from tables import number, sub
+
+from ..parts.content import spans
+from ..parts.symbols import T_I
 from .curves import Curve, Panel, wide_limits
 
 _FINE = 5  # units of a path to a pixel

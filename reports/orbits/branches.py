@@ -7,16 +7,17 @@ from operator import itemgetter
 
 import numpy as np
 
+from tables import PEAK, any_rows, number_of
+
 from ..figures.curves import COLOURS, Curve
-from ..parts.columns import value
-from ..parts.folder import Folder, part_of, read_rows
+from ..parts.folder import Folder, part_of
 from ..parts.selecting import having
 from ..parts.style import INK
 from ..sweep.quantities import colours_of, series
 
 EVENTS = {"fold": "D", "flip": "s", "torus": "^"}  # kinds, with their marks
 DASHED = (0, (3.5, 1.5))
-PEAK, MODULUS = "tension_top_max_N", "multiplier_modulus"
+MODULUS = "multiplier_modulus"
 Row = Mapping[str, object]
 
 
@@ -84,7 +85,7 @@ def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Bran
     for row in events:
         parents[row["leads_to"]] = row["branch"]
     parents.pop("", None)
-    for row in read_rows(folder.directory / "strobes.csv"):
+    for row in any_rows(folder.directory / "strobes.csv"):
         strobes.setdefault((row["branch"], int(row["place"])), []).append(float(row["radius_m"]))
     orbits_of_branches: dict[str, list[Row]] = {}
     for row in folder.table:
@@ -112,7 +113,7 @@ def _with_events(orbits: Sequence[Row], events: Sequence[Row], key: str, strobes
     if len(table) < 2:
         events = ()
     for event in events:
-        point = np.array([value(event, key), value(event, PEAK)])
+        point = np.array([number_of(event, key), number_of(event, PEAK)])
         place, share = _changing_chord(steady, *_nearest(table[:, :2], point))
         row = (1.0 - share) * table[place] + share * table[place + 1]
         row[:2] = np.where(np.isfinite(point), point, row[:2])

@@ -8,18 +8,18 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from tables import EMPTY, Column, any_rows, count, decimals, listed, number, number_of
+
 from ..buoy_sweep.motions import MARKS
 from ..buoy_sweep.runs import strobed
 from ..figures.curves import Curve, Panel, curves
-from ..figures.orbit_diagram import Column, OrbitDiagram
-from ..parts.columns import Quantity, value
+from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
-from ..parts.folder import Folder, FolderError, part_of, read_folder, read_rows
+from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
 from ..parts.selecting import entries, having
 from ..parts.style import INK, SOFT
-from ..parts.wording import EMPTY, count, decimals, listed, number
 from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
 
@@ -55,7 +55,7 @@ def report(directory: str | Path) -> Report:
     return report_page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
 
 
-def _varied(folder: Folder) -> Quantity:
+def _varied(folder: Folder) -> Column:
     """The column of the key along which the orbits were followed, by its whole name or the last part of that."""
     for name in list(folder.provenance.get("vary") or ())[:1]:
         for column in (str(name), str(name).rpartition(".")[2]):
@@ -64,7 +64,7 @@ def _varied(folder: Folder) -> Quantity:
     raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
 
 
-def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
+def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
     """Branches over the strobed points of the motions, with tension and multiplier below."""
     colours = colours_of(motions)
     simulated, named = _simulated(key, motions, colours)
@@ -118,7 +118,7 @@ def _largest(branches: Sequence[Branch], quantity: str) -> float:
     return float(max(np.nanmax(branch.seen[quantity]) for branch in branches))
 
 
-def _points_of_motions(folder: Folder, key: Quantity, motions: Sequence[Row], colours: dict[str, str]) -> list[Column]:
+def _points_of_motions(folder: Folder, key: Column, motions: Sequence[Row], colours: dict[str, str]) -> list[Strobes]:
     """The strobed points of the motions that runs have found."""
     part, columns = part_of(folder, "motions"), []
     for row in in_order(motions, [key.name]):
@@ -126,11 +126,11 @@ def _points_of_motions(folder: Folder, key: Quantity, motions: Sequence[Row], co
         points = np.empty(0)
         if run is not None:
             points = strobed(run, int(row.get("transient_periods") or 0))[:, 0]
-        columns.append(Column(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
+        columns.append(Strobes(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
     return columns
 
 
-def _simulated(key: Quantity, motions: Sequence[Row], colours: dict[str, str]) -> tuple[list[Curve], dict]:
+def _simulated(key: Column, motions: Sequence[Row], colours: dict[str, str]) -> tuple[list[Curve], dict]:
     """The largest tension of each motion over the key, and what the legend says of the motions."""
     drawn, named = [], {}
     for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
@@ -150,7 +150,7 @@ def _legend(kinds: Sequence[str]) -> list[Curve]:
     return [Curve(_NOWHERE, _NOWHERE, *look, INK, size=3.4) for look in looks]
 
 
-def _scatter(branch: Branch, key: Quantity) -> Curve:
+def _scatter(branch: Branch, key: Strobes) -> Curve:
     """The errors of the modulus along a branch, as bars."""
     at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
     return Curve(at, modulus, line="", colour=branch.colour, error=series(branch.orbits, "multiplier_1_error"))
@@ -173,15 +173,15 @@ def _texts(branches: Sequence[Branch], offset: float) -> Iterator[tuple[float, f
 
 def _located(row: Row, key: str) -> str:
     """ "0.12371 ± 0.00003", with the marks of its caveats."""
-    flags = "‡" * _coarse(row, key) + "†" * (not np.isfinite(value(row, "finer")))
-    return f"{decimals(value(row, key), 5)}\u00a0±\u00a0{number(value(row, 'error'), 1)}{flags}"
+    flags = "‡" * _coarse(row, key) + "†" * (not np.isfinite(number_of(row, "finer")))
+    return f"{decimals(number_of(row, key), 5)}\u00a0±\u00a0{number(number_of(row, 'error'), 1)}{flags}"
 
 
 def _coarse(row: Row, key: str) -> bool:
-    return not value(row, "error") <= _ACCURATE * max(1.0, abs(value(row, key)))
+    return not number_of(row, "error") <= _ACCURATE * max(1.0, abs(number_of(row, key)))
 
 
-def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
+def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Iterator[Item]:
     """The orbits themselves at the value that has most of them, and the multipliers of all that were chosen."""
     rows, plane, pull = rows_of(folder, "orbits"), [], []
     if not rows:
@@ -193,7 +193,7 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
     for row in rows:
         if row[key.name] != at:
             continue
-        history = read_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
+        history = any_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
         name = f"branch {row['branch']}" if row["branch"] else f"motion {row['motion']}"  # no branch could be followed
         line, stability = (DASHED, "unstable") if row["unstable"] else ("-", "stable")
         look = {"line": line, "colour": colours.get(row["branch"] or row["motion"], INK), "width": 1.2}
@@ -222,7 +222,7 @@ def _chosen(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Iterat
 
 def _multiplier(row: Row, k: int) -> str:
     """ "−0.732 (0.007)", "0.155 + 0.446i (0.02)"."""
-    mu, error = _complex(row, k), value(row, f"multiplier_{k}_error")
+    mu, error = _complex(row, k), number_of(row, f"multiplier_{k}_error")
     if not np.isfinite(mu.real):
         return EMPTY
     text = decimals(mu.real, 3)
@@ -233,10 +233,10 @@ def _multiplier(row: Row, k: int) -> str:
 
 def _complex(row: Row, k: int) -> complex:
     """A multiplier of a row; its real part is nan where it has none."""
-    return complex(value(row, f"multiplier_{k}_real"), value(row, f"multiplier_{k}_imag"))
+    return complex(number_of(row, f"multiplier_{k}_real"), number_of(row, f"multiplier_{k}_imag"))
 
 
-def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
+def _multipliers(key: Column, branches: Sequence[Branch]) -> Iterator[Item]:
     every_value = np.concatenate([branch.at for branch in branches])
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))
@@ -252,7 +252,7 @@ def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
             look = {"colour": matplotlib.colormaps["viridis"](share), "size": 1.5 + 2.0 * share}
             dots.append(Curve(multipliers.real, multipliers.imag, line="", mark="o", **look))
         for row in branch.events:
-            turned = np.exp(1j * value(row, "angle_rad") * np.array([1.0, -1.0]))
+            turned = np.exp(1j * number_of(row, "angle_rad") * np.array([1.0, -1.0]))
             dots.append(Curve(turned.real, turned.imag, "", "", EVENTS[row["kind"]], INK, size=5.5, filled=False))
         span = f"{number(branch.at.min())} to {number(branch.at.max())}"
         title = f"branch {branch.name}, {plain(key.head)} {span}"
@@ -267,7 +267,7 @@ def _multipliers(key: Quantity, branches: Sequence[Branch]) -> Iterator[Item]:
     yield Figure(curves(rows, 2.6 * len(rows), share="xy"), caption, alt)
 
 
-def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Notice:
+def _warnings(folder: Folder, key: Column, branches: Sequence[Branch]) -> Notice:
     followed, events = rows_of(folder, "branches"), rows_of(folder, "events")
     lines = []
     for branch in branches:
@@ -281,7 +281,7 @@ def _warnings(folder: Folder, key: Quantity, branches: Sequence[Branch]) -> Noti
     coarse = []
     for row in events:
         if _coarse(row, key.name):
-            coarse.append(f"{row['kind']} of branch {row['branch']} at {decimals(value(row, key.name), 4)}")
+            coarse.append(f"{row['kind']} of branch {row['branch']} at {decimals(number_of(row, key.name), 4)}")
     if coarse:
         lines.append(f"Known to no better than {number(_ACCURATE)}: {listed(coarse)}.")
     unsure = []
@@ -307,6 +307,6 @@ def _named(row: Row) -> str:
 def _unsure(row: Row) -> bool:
     """Whether a multiplier is no farther from the unit circle than its error."""
     for k in _SHOWN:
-        if abs(abs(_complex(row, k)) - 1.0) <= value(row, f"multiplier_{k}_error"):
+        if abs(abs(_complex(row, k)) - 1.0) <= number_of(row, f"multiplier_{k}_error"):
             return True
     return False

@@ -7,13 +7,12 @@ from pathlib import Path
 import numpy as np
 
 from analysis.oscillator import SnapOscillator
+from tables import Column, decimals, number, number_of
 
-from ..parts.columns import Quantity, value
 from ..parts.content import Item, Table, Text, heads
 from ..parts.folder import PARTS as FILES
 from ..parts.folder import FolderError, read_files
 from ..parts.sections import section_items
-from ..parts.wording import decimals, number
 
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
 NUMBERS = {  # symbol, what it is, source of the usual value
@@ -35,7 +34,7 @@ class Study:
 
     directory: Path
     provenance: dict
-    columns: dict[str, Quantity]
+    columns: dict[str, Column]
     rows: dict[str, dict[str, str]]
     arrays: dict[str, dict[str, np.ndarray]]
     oscillator: dict[str, float]
@@ -59,7 +58,7 @@ class Study:
 
     def number(self, part: str, column: str) -> float:
         """A cell of table.csv as a number; NaN where it is empty."""
-        return value(self.rows.get(part, {}), column)
+        return number_of(self.rows.get(part, {}), column)
 
 
 def read_study(directory: str | Path) -> Study:

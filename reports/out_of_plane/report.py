@@ -4,26 +4,18 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
+from tables import COST, RUNS, count, listed, number
+
+from ..parts.columns import LONGEST, shown_on
 from ..parts.content import Heading, Item, Notice, Report
 from ..parts.provenance import report_page, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.selecting import entries
-from ..parts.wording import count, listed, number
-from ..sweep.quantities import further
+from ..sweep.quantities import batched
 from . import sections
 from .runs import VARIED, Run, Study, of_bodies, read_study
 
-_RUNS = (
-    *VARIED[:-1], "periods", "status", "buoy_motion", "rope_motion", "max_turn_rad", "loop_releases",
-    "newton_iterations", "wall_s",
-)  # fmt: skip
-_MEASURED = (
-    "rate_bits_per_period rate_error rate_nats_per_period fit_from_period fit_to_period fit_span_nats bursts "
-    "burst_median_m burst_max_m first_burst_period first_burst_m rise_nats rise_periods lateral_late_m "
-    "share_of_inplane early_gain_s"
-).split()
-# columns for which this report has chosen a place, or none: those stand in table.csv alone
-_PLACED = {*of_bodies(*_MEASURED), *VARIED, "inplane_m", "bow_inplane_m", "bow_lateral_m"}
+_MOST = 18  # columns of one table
 _RESOLVED_RAD = 0.5 * math.pi  # in one element
 
 
@@ -39,9 +31,17 @@ def report(directory: str | Path) -> Report:
         Heading("Warnings"),
         *_warnings(study),
         Heading("Table of runs"),
-        study.table((*_RUNS, *further(study.folder.columns, _PLACED)), study.runs, "Every run."),
+        *_runs_tables(study),
     ]
     return report_page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
+
+
+def _runs_tables(study: Study) -> Iterator[Item]:
+    columns = study.folder.columns
+    named = [*VARIED[:-1], "periods", "status", *of_bodies("motion")]
+    others = shown_on(columns, [run.row for run in study.runs], RUNS, COST, longest=LONGEST)
+    for names in batched(list(dict.fromkeys([*named, *others])), _MOST):
+        yield study.table(names, study.runs, "Every run.")
 
 
 def _warnings(study: Study) -> Iterator[Item]:

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..parts.columns import Name, table_of
+from tables import BODIES, number
+
+from ..parts.columns import table_of
 from ..parts.content import Table
 from ..parts.folder import Folder, FolderError, Row, read_folder
 from ..parts.selecting import having
-from ..parts.wording import number
 
 VARIED = (
     "steepness", "depth_m", "bending_stiffness_Nm2", "nodes", "dimensions", "seed_mps", "seed_direction", "profiles",
@@ -20,8 +21,6 @@ NEEDED = (
     *VARIED, "periods", "status", "buoy_motion", "rope_motion", "inplane_m", "regime", "max_turn_rad", "loop_releases",
     "run_key", "message",
 )  # fmt: skip
-BODIES = ("buoy", "rope")
-DISPLACEMENT = {"buoy": "y_m", "rope": "offplane_m"}  # column of a trajectory
 
 
 class Run(Row):
@@ -67,7 +66,7 @@ class Study:
                 loaded.append((run, trajectory))
         return loaded
 
-    def table(self, names: Sequence[Name], runs: Sequence[Run], caption: str) -> Table:
+    def table(self, names: Sequence[str], runs: Sequence[Run], caption: str) -> Table:
         """A table of runs in the words of the dictionary."""
         varied = {name: (lambda row, name=name: number(row[name])) for name in VARIED if name != "seed_direction"}
         return table_of(self.folder.columns, names, list(map(attrgetter("row"), runs)), caption, varied)
@@ -82,16 +81,9 @@ def read_study(directory: str | Path) -> Study:
     return Study(folder, tuple(map(Run, folder.table)), dict(base), int(folder.provenance["transient"]))
 
 
-def of_bodies(*names: Name, bodies: Sequence[str] = BODIES) -> list[Name]:
+def of_bodies(*names: str) -> list[str]:
     """Columns of the buoy, then of the rope."""
-    columns: list[Name] = []
-    for body in bodies:
-        for name in names:
-            if isinstance(name, str):
-                columns.append(f"{body}_{name}")
-            else:
-                columns.append(tuple(f"{body}_{part}" for part in name))
-    return columns
+    return [f"{body}_{name}" for body in BODIES for name in names]
 
 
 def envelope(trajectory, body: str) -> tuple[np.ndarray, np.ndarray]:
@@ -99,6 +91,6 @@ def envelope(trajectory, body: str) -> tuple[np.ndarray, np.ndarray]:
     from analysis import envelope_of
 
     period_s = trajectory.scene.waves.period_s
-    values = np.abs(trajectory.columns[DISPLACEMENT[body]])
+    values = np.abs(trajectory.columns[BODIES[body]])
     time, size = envelope_of(values[np.isfinite(values)], trajectory.scene.sample_step_s(), period_s)
     return time / period_s, size

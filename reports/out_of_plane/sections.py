@@ -2,34 +2,37 @@
 
 from collections.abc import Iterator
 from itertools import chain
+from operator import attrgetter
 
 import numpy as np
+
+from tables import BODIES, PAIRS, PLANE, any_rows, errors_of, number, number_of
 
 from ..buoy_sweep.runs import strobed
 from ..figures.motion import section_pairs
 from ..figures.offplane_history import History, dependence, lateral_histories
-from ..parts.columns import table_of, value
+from ..parts.columns import shown_on, table_of
 from ..parts.content import Bullets, Figure, Heading, Item, Text
-from ..parts.folder import read_columns, read_rows
+from ..parts.folder import read_columns
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.selecting import entries, having
-from ..parts.wording import number
-from .runs import BODIES, DISPLACEMENT, Study, envelope, of_bodies
+from .runs import Study, envelope, of_bodies
 
-PAIRS = "pairs.csv"
-_RATE = ("rate_bits_per_period", "rate_error")
+_PAIRS = "pairs.csv"
 
 
 def statement_items(study: Study) -> Iterator[Item]:
     """The verdicts on the paper's statements and on planar runs; buoy and rope in the two runs of figure 20."""
-    judged, pairs = read_statements(study.folder.directory), read_rows(study.folder.directory / PAIRS)
+    judged, pairs = read_statements(study.folder.directory), any_rows(study.folder.directory / _PAIRS)
     sentences = [f"The paper's statements on figure 20: {counted(judged)}."]
     if pairs:
         sentences.append(_agreement(pairs))
     yield Heading("The paper's statements on figure 20")
     yield Bullets(tuple(sentences))
     yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
-    names = of_bodies("motion", _RATE, "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m")
+    names = of_bodies(
+        "motion", "rate_bits_per_period", "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m"
+    )
     yield study.table(["steepness", "depth_m", "seed_mps", *names], study.over(), "The two runs of figure 20.")
 
 
@@ -74,7 +77,7 @@ def figure_20(study: Study) -> Iterator[Item]:
 
 def _history(run, trajectory, body: str) -> History:
     periods = trajectory.columns["time_s"] / trajectory.scene.waves.period_s
-    size = np.abs(trajectory.columns[DISPLACEMENT[body]])
+    size = np.abs(trajectory.columns[BODIES[body]])
     return History(f"kA = {number(run['steepness'])}", periods, size, *envelope(trajectory, body), run["inplane_m"])
 
 
@@ -89,19 +92,19 @@ def growth_items(study: Study) -> Iterator[Item]:
         "quarters. Otherwise maxima of single periods that stand three nats above the dips on both sides are bursts; "
         "no rate is given for the rise of a burst."
     )
-    sentences = (
-        "motion", _RATE, "rate_nats_per_period", "fit_from_period", "fit_to_period", "fit_span_nats", "bursts",
-        "burst_median_m", "burst_max_m", "first_burst_period", "lateral_max_m", "share_of_inplane",
-    )  # fmt: skip
+    columns = study.folder.columns
+    across = [
+        name for name, column in columns.items() if column.page == PLANE and name not in errors_of(columns).values()
+    ]
     for body in BODIES:
-        names = ["steepness", "depth_m", *of_bodies(*sentences, bodies=[body])]
+        names = ["steepness", "depth_m", *(name for name in across if name.startswith(body))]
         caption = f"Lateral motion of the {body}, with the stiffness, grid and push of figure 20."
         yield study.table(names, study.over(depth_m=None), caption)
     planar = study.over(depth_m=None, dimensions=2, seed_mps=0.0, seed_direction="")
-    across = ("offplane_growth_bits_per_period", "offplane_growth_error")
     caption = "Infinitesimal perturbation across the plane of planar runs, beside the fitted rate of the buoy above."
     if planar:
-        yield study.table(["steepness", "depth_m", across, "loop_releases"], planar, caption)
+        names = ["steepness", "depth_m", "offplane_growth_bits_per_period", "loop_releases"]
+        yield study.table(names, planar, caption)
 
 
 def dependence_items(study: Study) -> Iterator[Item]:
@@ -121,10 +124,10 @@ def dependence_items(study: Study) -> Iterator[Item]:
     picture = dependence(panels, "max $|y|$, second half (m)")
     yield Heading("Depth and bending stiffness")
     yield Figure(picture, caption, "Lateral motion of buoy and rope over the depth.")
-    names = [
-        "steepness", "depth_m", "bending_stiffness_Nm2", *of_bodies("motion", _RATE, "lateral_max_m"), "rope_bursts",
-        "rope_burst_median_m", "rope_share_of_inplane", "slack_fraction", "loop_releases", "max_turn_rad",
-    ]  # fmt: skip
+    bodies = of_bodies("motion", "rate_bits_per_period", "lateral_max_m")
+    bursts = ("rope_bursts", "rope_burst_median_m", "rope_share_of_inplane")
+    limits = ("slack_fraction", "loop_releases", "max_turn_rad")
+    names = ["steepness", "depth_m", "bending_stiffness_Nm2", *bodies, *bursts, *limits]
     caption = "Every depth and stiffness of the large wave, every stiffness of the small one."
     yield study.table(names, [*large, *small], caption)
 
@@ -140,7 +143,7 @@ def _curve(runs, body: str, stiffness: float) -> tuple:
 def comparison_items(study: Study) -> Iterator[Item]:
     """Planar runs with loop release and runs in three dimensions: what they are, and in what they agree."""
     yield Heading("Planar with loop release, or three dimensions?")
-    pair_rows = read_rows(study.folder.directory / PAIRS)
+    pair_rows = any_rows(study.folder.directory / _PAIRS)
     if not pair_rows:
         yield Text("No planar run released loops and ended as asked, as its counterpart did.")
         return
@@ -152,20 +155,18 @@ def comparison_items(study: Study) -> Iterator[Item]:
     )
     by_key = {run["run_key"]: run for run in study.runs}
     pairs = [(by_key[row["planar_key"]], by_key[row["spatial_key"]]) for row in pair_rows]
-    names = [
-        "depth_m", "dimensions", "loop_releases", "max_turn_rad", "radius_min_m", "radius_max_m", "tension_top_max_N",
-        "slack_fraction", ("lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"),
-        ("lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"), "regime", "wall_s",
-    ]  # fmt: skip
-    yield study.table(names, list(chain.from_iterable(pairs)), "Planar runs (D = 2) and their counterparts (D = 3).")
-    columns = read_columns(study.folder.directory, PAIRS)
+    runs_of_pairs = list(chain.from_iterable(pairs))
+    compared = shown_on(study.folder.columns, list(map(attrgetter("row"), runs_of_pairs)), PAIRS)
+    names = ["depth_m", "dimensions", "loop_releases", "max_turn_rad", *compared, "wall_s"]
+    yield study.table(names, runs_of_pairs, "Planar runs (D = 2) and their counterparts (D = 3).")
+    columns = read_columns(study.folder.directory / "pairs_columns.csv")
     shown = [name for name in columns if not name.endswith("_key")]
     yield table_of(columns, shown, pair_rows, "What the runs of a pair differ in. From `pairs.csv`.")
     sections = []
     for row, pair in zip(pair_rows, pairs, strict=True):
         points = [strobed(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
         if len(points) == 2:
-            sections.append((f"H = {number(value(row, 'depth_m'))} m", *points))
+            sections.append((f"H = {number(number_of(row, 'depth_m'))} m", *points))
     if sections:
         caption = (
             f"Poincaré sections of planar runs with loop release and of runs in three dimensions, after "

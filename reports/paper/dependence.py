@@ -7,14 +7,15 @@ import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
+
 from ..figures.depth_exponents import Exponents, depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import Quantity, plus_minus, table_of, value
+from ..parts.columns import plus_minus, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, FolderError, provenance_of, read_files
 from ..parts.selecting import entries
-from ..parts.wording import EMPTY, number, percent
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -26,7 +27,6 @@ TREATMENTS = {
     "full": "buoyancy and wave load of the whole sphere always",
     "spherical-cap": "of the wetted part",
 }
-VALUE, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 ABOVE, DROWNED, EI, DEPTH = "above_still_water", "submergence", "bending_stiffness_Nm2", "depth_m"
 SHORT = (
     "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the shipped "
@@ -77,16 +77,9 @@ def written(name: str, **taken: object) -> Table:
     return Table(heads(*texts["heads"]), tuple(rows), texts["caption"], small=True)
 
 
-def _table(part: Path) -> tuple[list[dict], dict[str, Quantity]]:
+def _table(part: Path) -> tuple[list[dict], dict[str, Column]]:
     files = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
-    columns = files["columns.csv"]
-    rows = []
-    for row in files["table.csv"]:
-        rows.append(dict(row))
-        for name, column in columns.items():
-            if column.digits is not None:
-                rows[-1][name] = value(row, name)
-    return rows, columns
+    return list(by_columns(files["table.csv"], files["columns.csv"])), files["columns.csv"]
 
 
 def _values(rows: list[dict], key: str) -> list:
@@ -106,7 +99,7 @@ def curve(name: str, rows: list[dict], over: str) -> Exponents:
     points = []
     for row in rows:
         if row["status"] == "ok":
-            points.append((row[over], row[VALUE], row[ERROR], row["regime"]))
+            points.append((row[over], row[TANGENT_EXPONENT], row[TANGENT_ERROR], row["regime"]))
     return name, points
 
 
@@ -136,7 +129,7 @@ def _treatments(rows: list[dict], key: str) -> list[str]:
     return list(dict.fromkeys(entries(rows, key)))
 
 
-def _regimes(rows: list[dict], quantities: dict[str, Quantity], steepness: float) -> Table:
+def _regimes(rows: list[dict], quantities: dict[str, Column], steepness: float) -> Table:
     pairs = dict.fromkeys((row[ABOVE], row[DROWNED]) for row in rows)
     column_heads, rows_by_depth, depths = [("H", "m")], [], set()
     for above, under in pairs:
@@ -156,18 +149,18 @@ def _regimes(rows: list[dict], quantities: dict[str, Quantity], steepness: float
     return Table(heads(*column_heads), tuple(body), caption, small=True)
 
 
-def _cell(row: dict | None, columns: dict[str, Quantity]) -> str:
+def _cell(row: dict | None, columns: dict[str, Column]) -> str:
     if row is None:
         return EMPTY
     if row["status"] != "ok":
         return row["status"]
     regime = row["regime"] or "no verdict"
-    if not math.isfinite(row[VALUE]):
+    if not math.isfinite(row[TANGENT_EXPONENT]):
         return regime
-    return f"{regime}, {plus_minus(columns, row, VALUE, ERROR)}"
+    return f"{regime}, {plus_minus(columns[TANGENT_EXPONENT], columns[TANGENT_ERROR])(row)}"
 
 
-def _stiffness(rows: list[dict], columns: dict[str, Quantity]) -> list[Item]:
+def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
     shipped = rows[0]
     usual, varied = {}, set()  # rows with the shipped treatments by (kA, H); those of them with several stiffnesses
     for row in rows:
@@ -189,7 +182,7 @@ def _stiffness(rows: list[dict], columns: dict[str, Quantity]) -> list[Item]:
         "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."
     )
     picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
-    names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", (VALUE, ERROR))
+    names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", TANGENT_EXPONENT)
     table = table_of(columns, names, shown, "What the bending stiffness changes.")
     return [heading, Figure(picture, caption, "Exponent over bending stiffness, at each depth a curve."), table]
 

@@ -2,13 +2,14 @@
 
 from pathlib import Path
 
+from tables import FAILS, HOLDS_IF, count, decimals
+
 from ..parts.columns import table_of
 from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
-from ..parts.judged import FAILS, HOLDS_IF, Judged, counted, read_statements, statements_table
+from ..parts.judged import Judged, counted, read_statements, statements_table
 from ..parts.provenance import report_page
 from ..parts.sections import section_items
-from ..parts.wording import count, decimals
 from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside

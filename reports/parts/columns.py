@@ -1,115 +1,65 @@
-"""The dictionary of a campaign's table, and report tables made from it.
+"""Tables of a report, made from the rows of a campaign's table and from the dictionary of its columns."""
 
-A campaign writes `columns.csv` beside `table.csv`: one row a column with its unit, symbol, meaning and digits. A report
-takes heads, units, digits and the words of a caption from there, so that it declares none of them.
-"""
-
-import math
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
 
-from .content import Column, Table, sub
-from .wording import EMPTY, decimals, number
+from tables import EMPTY, Column, errors_of
 
-HEADER = ("name", "unit", "symbol", "meaning", "digits")
-Name = str | tuple[str, str]  # a column, or a value and its standard error in one column
+from .content import Head, Table
 
-
-@dataclass(frozen=True)
-class Quantity:
-    """One column of a campaign's table.
-
-    symbol: its head in a report, "" for the name itself; `_` before a word makes that word a subscript. digits: places
-    after the point, None for a column of words.
-    """
-
-    name: str
-    unit: str = ""
-    symbol: str = ""
-    meaning: str = ""
-    digits: int | None = None
-
-    @property
-    def head(self) -> str:
-        """The symbol with its subscripts, or the name in words."""
-        return re.sub(r"_(\w+)", lambda match: sub(match[1]), self.symbol) or self.name.replace("_", " ")
-
-    @property
-    def label(self) -> str:
-        """The head with its unit as an axis of a figure has it, in matplotlib's mathematics."""
-        symbol = re.sub(r"_(\w+)", r"$_{\\mathrm{\1}}$", self.symbol) or self.name.replace("_", " ")
-        return f"{symbol} ({self.unit or '–'})"
-
-    def cell(self, entry: object) -> str:
-        """An entry of this column in print: a dash where the table is empty.
-
-        A number that the places after the point would show as zero gets two significant digits instead.
-        """
-        if self.digits is None:
-            missing = entry is None or entry != entry  # nan differs from itself
-            return EMPTY if missing else str(entry) or EMPTY
-        value = number_of(entry)
-        hidden = value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits
-        return number(value, 2) if hidden else decimals(value, self.digits)
-
-
-def number_of(entry: object) -> float:
-    """An entry of a table as a number, nan where it is empty."""
-    return math.nan if entry is None or entry == "" else float(entry)
-
-
-def value(row: Mapping[str, object], column: str) -> float:
-    """An entry of a row of text as a number, nan where it is empty or the row has no such column."""
-    return number_of(row.get(column))
+Columns = Mapping[str, Column]  # of a table, by name
+Row = Mapping[str, object]
+LONGEST = 24  # letters of a cell in a table of runs; longer sentences stay in the table of the folder
+Cells = Mapping[str, Callable[[Row], str]]  # name -> cell of a row, in place of the entry in print
 
 
 def table_of(
-    columns: Mapping[str, Quantity],
-    names: Sequence[Name],
-    rows: Iterable[Mapping[str, object]],
-    caption: str,
-    own_cells: Mapping[str, Callable[[Mapping[str, object]], str]] | None = None,
+    columns: Columns, names: Iterable[str], rows: Iterable[Row], caption: str, own_cells: Cells | None = None
 ) -> Table:
     """A table of the named columns: heads, units, digits and the explanation of the heads from the dictionary.
 
-    names: columns, or (value, standard error) to be set as "value ± error". rows: of `table.csv`. caption: what the
-    table shows, in front of the meanings. own_cells: name -> cell of a row, in place of the entry in print.
+    A value that has a column of errors is printed with it. caption: what the table shows, in front of the meanings.
     Raises KeyError for a name that the dictionary does not have.
     """
-    own_cells = own_cells or {}
-    cells, heads = {}, {}
-    for name in names:
-        value, error = value_and_error(name)
-        quantity = columns[value]
-        cells[value] = own_cells.get(value) or partial(plus_minus, columns, value=value, error=error)
-        align = "left" if quantity.digits is None else "right"
-        heads[value] = Column(quantity.head, quantity.unit, align)
+    cells = printed_cells(columns) | (own_cells or {})
+    shown = [columns[name] for name in names]
+    heads, meanings = [], {}
+    for column in shown:
+        heads.append(Head(column.head, column.unit, "left" if column.digits is None else "right"))
+        if column.meaning:
+            meanings[f"{column.head}: {column.meaning}"] = None  # each once, in their order
     body = []
     for row in rows:
-        body.append(tuple(cell(row) for cell in cells.values()))
-    return Table(tuple(heads.values()), tuple(body), f"{caption} {explained(columns, names)}".strip(), small=True)
+        body.append(tuple(cells[column.name](row) for column in shown))
+    explained = f"{'; '.join(meanings)}." if meanings else ""
+    return Table(tuple(heads), tuple(body), f"{caption} {explained}".strip(), small=True)
 
 
-def value_and_error(name: Name) -> tuple[str, str]:
-    """The column of a value and the column of its error, "" where it has none."""
-    return (name, "") if isinstance(name, str) else name
+def printed_cells(columns: Columns) -> dict[str, Callable[[Row], str]]:
+    """Of each column the function of a row that gives its cell: "−0.039 ± 0.003" where another has the errors."""
+    errors, cells = errors_of(columns), {}
+    for name, column in columns.items():
+        cells[name] = plus_minus(column, columns[errors[name]]) if name in errors else column.cell
+    return cells
 
 
-def explained(columns: Mapping[str, Quantity], names: Sequence[Name]) -> str:
-    """The heads and what they mean, in one sentence: "kA: wave steepness; r_min: least radius." """
-    parts: dict[str, None] = {}  # each once, in their order
-    for name in names:
-        quantity = columns[value_and_error(name)[0]]
-        if quantity.meaning:
-            parts[f"{quantity.head}: {quantity.meaning}"] = None
-    return f"{'; '.join(parts)}." if parts else ""
+def plus_minus(column: Column, error: Column) -> Callable[[Row], str]:
+    def cell(row: Row) -> str:
+        text = column.cell(row)
+        return text if text == EMPTY else f"{text}\u00a0±\u00a0{error.cell(row)}"
+
+    return cell
 
 
-def plus_minus(columns: Mapping[str, Quantity], row: Mapping[str, object], value: str, error: str) -> str:
-    """ "−0.039 ± 0.003", "−0.039" where `error` is "", or a dash where there is no value."""
-    text = columns[value].cell(row.get(value))
-    if text == EMPTY or not error:
-        return text
-    return f"{text}\u00a0±\u00a0{columns[value].cell(row.get(error))}"
+def shown_on(columns: Columns, rows: Sequence[Row], *pages: str, longest: int | None = None) -> list[str]:
+    """The columns of these pages, of all without one, that say something in some row; errors stand beside their values.
+
+    longest: letters of a cell; sentences beyond that stay in the table.
+    """
+    errors, cells, names = set(errors_of(columns).values()), printed_cells(columns), []
+    for name, column in columns.items():
+        if name in errors or (pages and column.page not in pages):
+            continue
+        texts = {cells[name](row) for row in rows}
+        if texts - {EMPTY} and (longest is None or max(map(len, texts)) <= longest):
+            names.append(name)
+    return names

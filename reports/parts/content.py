@@ -13,6 +13,8 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+from tables import DOWN, UP, sub
+
 
 @dataclass(frozen=True)
 class Heading:
@@ -84,7 +86,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Column:
+class Head:
     """A table column: its title, the unit shown under the title ("" for none), and how its cells are set.
 
     `share`: of the width that the columns of sentences divide among themselves, in the PDF.
@@ -96,14 +98,14 @@ class Column:
     share: int = 1
 
 
-def heads(*titles: str | tuple[str, str]) -> tuple[Column, ...]:
+def heads(*titles: str | tuple[str, str]) -> tuple[Head, ...]:
     """Columns of a table: a title alone is one of words, set left; a title with its unit or "" is one of numbers."""
     columns = []
     for title in titles:
         if isinstance(title, str):
-            columns.append(Column(title, align="left"))
+            columns.append(Head(title, align="left"))
         else:
-            columns.append(Column(*title))
+            columns.append(Head(*title))
     return tuple(columns)
 
 
@@ -114,7 +116,7 @@ class Table:
     Raises ValueError when a row has not one cell for every column.
     """
 
-    columns: tuple[Column, ...]
+    columns: tuple[Head, ...]
     rows: tuple[tuple[str, ...], ...]
     caption: str
     small: bool = False
@@ -228,15 +230,9 @@ class Report:
     items: tuple[Item, ...]
 
 
-# Characters of Unicode's private area: no text from outside carries them, so no text from outside becomes a subscript.
-_DOWN, _UP = "\ue000", "\ue001"
+# Characters of Unicode's private area, as those of `sub`: no text from outside carries them.
 _TO, _SAY, _BACK = "\ue002", "\ue003", "\ue004"
-_MARKS = re.compile(f"`([^`\\n]+)`|{_DOWN}([^{_UP}]*){_UP}|{_TO}([^{_SAY}]*){_SAY}([^{_BACK}]*){_BACK}")
-
-
-def sub(text: str) -> str:
-    """The text as a subscript: "T" + sub("i")."""
-    return f"{_DOWN}{text}{_UP}"
+_MARKS = re.compile(f"`([^`\\n]+)`|{DOWN}([^{UP}]*){UP}|{_TO}([^{_SAY}]*){_SAY}([^{_BACK}]*){_BACK}")
 
 
 def with_subscripts(text: str) -> str:

@@ -4,12 +4,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from .columns import value
-from .content import Bullets, Item, Report, Text
-from .folder import read_rows
-from .wording import count, number, printed
+from tables import ANSWER, any_rows, count, number, number_of, printed
 
-ANSWER = "answer.txt"
+from .content import Bullets, Item, Report, Text
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
@@ -23,7 +20,7 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
         lines = path.read_text(encoding="utf-8").splitlines()
         if lines:
             first_page.append(Bullets(tuple(map(printed, lines))))
-    duration = how_long(provenance, read_rows(directory / "table.csv"))
+    duration = how_long(provenance, any_rows(directory / "table.csv"))
     if duration:
         first_page.append(Text(duration))
     return replace(report, items=(*first_page, *report.items))
@@ -39,7 +36,7 @@ def how_long(provenance: Mapping, rows: list[dict[str, str]]) -> str:
     if duration_s < 120.0:
         duration = f"{number(duration_s, 2)} s"
     parts = [f"It took {duration}: {count(runs['total'], 'run')}"]
-    periods = sum(value(row, "periods") for row in rows if row.get("periods"))
+    periods = sum(number_of(row, "periods") for row in rows if row.get("periods"))
     if periods:
         parts.append(f" over {periods:,.0f} periods".replace(",", "\u202f"))
     if runs.get("found"):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import math
@@ -11,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .columns import HEADER, Quantity, number_of
+from tables import Column, by_columns, read_columns, read_rows
 
 if TYPE_CHECKING:
     import xarray
@@ -51,7 +50,7 @@ class Folder:
     provenance: dict
     table: tuple[dict[str, object], ...]
     scene: Scene
-    columns: dict[str, Quantity]
+    columns: dict[str, Column]
 
     @property
     def completed(self) -> list[dict[str, object]]:
@@ -120,8 +119,8 @@ def part_of(folder: Folder, name: str) -> Folder | None:
     """A folder of the same layout inside of a campaign's; None where it was left out or cannot be read."""
     directory = folder.directory / name
     try:
-        columns = read_columns(directory)
-        table = _table(_rows(directory / "table.csv"), (), columns)
+        columns = read_columns(directory / "columns.csv")
+        table = by_columns(read_rows(directory / "table.csv"), columns)
     except (OSError, ValueError):
         return None
     return Folder(directory, folder.provenance, table, folder.scene, columns)
@@ -131,7 +130,7 @@ def read_files(
     directory: str | Path, wanted: Mapping[str, str], own_readers: Mapping[str, Callable[[Path], object]] | None = None
 ) -> dict[str, object]:
     """{name: content}: rows {column: text} of a .csv file, the object of a .json file, the scene of a .toml file, the
-    `Quantity` of every column of a dictionary of columns by name, the arrays of a .nc file, text of a .txt file, the
+    `Column` of every column of a dictionary of columns by name, the arrays of a .nc file, text of a .txt file, the
     paths in a folder.
 
     wanted: name of a file or folder -> what it holds. own_readers: ending of a name -> reader in place of the usual.
@@ -141,23 +140,6 @@ def read_files(
     if faults:
         raise FolderError(Path(directory), faults)
     return contents
-
-
-def read_columns(directory: str | Path, table: str = "table.csv") -> dict[str, Quantity]:
-    """The dictionary of a table of a folder by name, in the order of the table: columns.csv, or X_columns.csv of X.csv.
-
-    Raises FolderError where there is none, as in folders made before there were dictionaries, or an unsound one.
-    """
-    name = "columns.csv" if table == "table.csv" else f"{table.removesuffix('.csv')}_columns.csv"
-    return read_files(directory, {name: f"what the columns of {table} are"})[name]
-
-
-def read_rows(table: Path) -> list[dict[str, str]]:
-    """The rows of a table that a campaign may have left out, as they stand; none where it cannot be read."""
-    try:
-        return _rows(table)
-    except (OSError, ValueError):
-        return []
 
 
 def provenance_of(directory: str | Path) -> dict:
@@ -178,7 +160,7 @@ def _readable(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> t
         path = directory / name
         reader = next(read for ending, read in readers.items() if name.endswith(ending))
         if not path.exists():
-            hint = f"; {_OLD}" if reader is _columns else ""
+            hint = f"; {_OLD}" if reader is read_columns else ""
             faults.append(f"{name} is missing ({meaning}{hint})")
             continue
         try:
@@ -186,25 +168,6 @@ def _readable(directory: Path, wanted: Mapping[str, str], readers: Mapping) -> t
         except (OSError, ValueError, KeyError, RecursionError) as error:
             faults.append(f"{name} cannot be read: {error}")
     return contents, faults
-
-
-def _rows(path: Path, head: tuple[str, ...] = ()) -> list[dict[str, str]]:
-    with open(path, encoding="utf-8", newline="") as file:
-        reader = csv.DictReader(file)
-        rows = list(reader)
-    if head and tuple(reader.fieldnames or ()) != head:
-        raise ValueError(f"its first line is not {','.join(head)}")
-    if any(None in row or None in row.values() for row in rows):
-        raise ValueError("a row has not as many entries as the first line")
-    return rows
-
-
-def _columns(path: Path) -> dict[str, Quantity]:
-    quantities = {}
-    for row in _rows(path, HEADER):
-        digits = int(row["digits"]) if row["digits"] else None
-        quantities[row["name"]] = Quantity(**{**row, "digits": digits})
-    return quantities
 
 
 def _json(path: Path) -> dict:
@@ -231,8 +194,8 @@ def read_arrays(content: bytes) -> xarray.Dataset:
 
 
 _READERS = {
-    "columns.csv": _columns,
-    ".csv": _rows,
+    "columns.csv": read_columns,
+    ".csv": read_rows,
     ".json": _json,
     ".toml": _scene,
     ".nc": lambda path: read_arrays(path.read_bytes()),
@@ -241,27 +204,10 @@ _READERS = {
 }
 
 
-def _table(rows: list[dict[str, str]], needed: tuple[str, ...], columns: dict[str, Quantity]) -> tuple[dict, ...]:
-    """The rows with numbers in the columns that have digits. Raises ValueError for missing and undeclared columns."""
-    if not rows:
-        raise ValueError("it has no rows")
-    absent = [column for column in needed if column not in rows[0]]
+def _table(rows: list[dict[str, str]], needed: tuple[str, ...], columns: Mapping[str, Column]) -> tuple[dict, ...]:
+    """The rows by their columns. Raises ValueError as `by_columns`, and where a column is missing that is needed."""
+    absent = [column for column in needed if rows and column not in rows[0]]
     if absent:
         plural = "s" if len(absent) > 1 else ""
         raise ValueError(f"column{plural} missing: {', '.join(absent)}")
-    unknown = [name for name in rows[0] if name not in columns]
-    if unknown:
-        raise ValueError(f"columns.csv does not tell of all columns: {', '.join(unknown)}")
-    table = []
-    for row in rows:
-        entries: dict[str, object] = dict(row)
-        for name, text in row.items():
-            if columns[name].digits is not None:
-                entries[name] = _number(text)
-        table.append(entries)
-    return tuple(table)
-
-
-def _number(entry: str) -> float:
-    """An entry as a number, a whole one as such. Raises ValueError for words."""
-    return int(entry) if entry.isdecimal() else number_of(entry)
+    return by_columns(rows, columns)

@@ -3,22 +3,22 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from .content import Column, Table
+from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS
+
+from .content import Head, Table
 from .folder import FolderError, read_files
 
-FILE = "statements.csv"
-COLUMNS = ("number", "place", "statement", "verdict", "condition", "found", "threshold", "evidence")
-HOLDS, HOLDS_IF, FAILS, OPEN = "holds", "holds if", "does not hold", "–"
-VERDICTS = {HOLDS: "hold", HOLDS_IF: "hold under a condition", FAILS: "do not hold", OPEN: "are not decided"}
 Judged = dict[str, str]
 
 
 def read_statements(directory: Path) -> tuple[Judged, ...]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
-    rows = read_files(directory, {FILE: "the statements of the paper as judged"})[FILE]
+    rows = read_files(directory, {STATEMENTS: "the statements of the paper as judged"})[STATEMENTS]
     for row in rows:
-        if tuple(row) != COLUMNS:
-            raise FolderError(directory, [f"{FILE} cannot be read: its first line is not {','.join(COLUMNS)}"])
+        if tuple(row) != STATEMENT_COLUMNS:
+            raise FolderError(
+                directory, [f"{STATEMENTS} cannot be read: its first line is not {','.join(STATEMENT_COLUMNS)}"]
+            )
     return tuple(rows)
 
 
@@ -35,12 +35,12 @@ def counted(rows: Iterable[Judged]) -> str:
 def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     """Number, place, statement, verdict, evidence of the rows."""
     heads = (
-        Column("no."),
-        Column("place", align="left", share=1),
-        Column("the paper", align="left", share=3),
-        Column("verdict", align="left", share=3),
-        Column("the runs", align="left", share=5),
-        Column("decided by, evidence", align="left", share=3),
+        Head("no."),
+        Head("place", align="left", share=1),
+        Head("the paper", align="left", share=3),
+        Head("verdict", align="left", share=3),
+        Head("the runs", align="left", share=5),
+        Head("decided by, evidence", align="left", share=3),
     )
     body = []
     for row in rows:

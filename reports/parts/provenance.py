@@ -7,9 +7,10 @@ import shlex
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from tables import EMPTY, decimals, number
+
 from .content import Heading, Item, Listing, Notice, Report, Table, Text, heads, with_subscripts
 from .folder import Folder
-from .wording import EMPTY, decimals, number
 
 if TYPE_CHECKING:
     from engine import Scene

@@ -14,7 +14,7 @@ from machine_code.store import hash_of
 
 FILE = ".report.json"
 _READ = (".csv", ".json", ".toml", ".txt")  # told by what they say
-_SOURCES = ("reports", "analysis", "engine")
+_SOURCES = ("reports", "analysis", "engine", "tables")
 _DRAWING = (".py", ".js", ".css", ".typ", ".toml", ".jinja", ".mplstyle")
 _LIBRARIES = ("numpy", "matplotlib", "jinja2", "typst", "pillow")
 

@@ -6,20 +6,17 @@ from functools import partial
 
 import numpy as np
 
+from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENED, Column, listed, number
+
 from ..figures.regime_map import HATCHES, Cells, Map
-from ..parts.columns import Quantity
 from ..parts.folder import Folder, part_of
 from ..parts.selecting import entries
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
-from ..parts.wording import listed, number
 from ..sweep.quantities import at, series
 
-COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # `source` of a cell
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
-CHAOS, _PERIOD = "chaotic", "period-"
 _WHOLE = 0.995  # share of a map that is called all of it
-_PAPER = 0.016, 0.13  # steepnesses, as in `campaigns.buoy_sweep`, which reports must not import
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +50,9 @@ class Page:
 class Atlas:
     """All pages over two keys; before them, where there are several pages, theirs. columns: of the cells."""
 
-    keys: Sequence[Quantity]
+    keys: Sequence[Column]
     pages: Sequence[Page]
-    columns: Mapping[str, Quantity]
+    columns: Mapping[str, Column]
 
     @property
     def labels(self) -> tuple[str, str]:
@@ -81,11 +78,11 @@ class Atlas:
         return self.share(lambda page: page.cells.hatched[reason])
 
 
-def _paper_marks(key: Quantity) -> Sequence[float]:
+def _paper_marks(key: Column) -> Sequence[float]:
     _, _, name = key.name.rpartition(".")
     if name != "steepness":
         return ()
-    return _PAPER
+    return PAPER_STEEPNESS
 
 
 def read_atlas(folder: Folder) -> Atlas | None:
@@ -129,8 +126,8 @@ def _cells(rows, x: str, y: str) -> Cells:
 
 def colour_of(word: str) -> str:
     """Of a regime on a map; that of ink for a word of the screen alone, "" for a cell without a regime."""
-    if word.startswith(_PERIOD):
-        return MAP_PERIODS[min(int(word.removeprefix(_PERIOD)), len(MAP_PERIODS)) - 1]
+    if word.startswith(PERIODIC):
+        return MAP_PERIODS[min(int(word.removeprefix(PERIODIC)), len(MAP_PERIODS)) - 1]
     if word in (FAILED, COMPUTED, SCREENED):
         return ""
     return REGIME_COLOURS.get(word, INK)
@@ -142,8 +139,8 @@ def regimes(page: Page) -> Map:
     colours = np.array(list(map(colour_of, kinds)))
     texts = np.full(len(kinds), "", dtype=object)
     for cell, word in enumerate(kinds):
-        if word.startswith(_PERIOD):
-            texts[cell] = word.removeprefix(_PERIOD)
+        if word.startswith(PERIODIC):
+            texts[cell] = word.removeprefix(PERIODIC)
     star = _star(page)
     title = "\n".join(_lines_of_title(page, star))
     return Map(page.cells, title, colours, page.number, texts=texts.astype(str), star=star)
@@ -156,7 +153,7 @@ def _lines_of_title(page: Page, star: int | None) -> list[str]:
         lines.append(page.place)
     computed = page.share(page.on_top(COMPUTED))
     if computed:
-        chaotic = page.share(_computed_as(page, [CHAOS]))
+        chaotic = page.share(_computed_as(page, [CHAOTIC]))
         lines.append(f"motion from rest: chaotic on {_percent(chaotic)} of the map")
     else:
         lines.append("motion from rest: only screened")
@@ -211,8 +208,8 @@ def _words_by_colour(atlas: Atlas) -> dict[str, list[str]]:
 def _order(word: str) -> tuple[int, str]:
     """Periods first, then the words of the analysis, then others."""
     known = list(REGIME_COLOURS)
-    if word.startswith(_PERIOD):
-        return int(word.removeprefix(_PERIOD)) - 1000, word
+    if word.startswith(PERIODIC):
+        return int(word.removeprefix(PERIODIC)) - 1000, word
     if word in known:
         return known.index(word), word
     return len(known), word
@@ -226,9 +223,9 @@ def _computed_as(page: Page, words: Sequence[str]) -> np.ndarray:
 def _words_listed(words: Sequence[str]) -> str:
     """ "chaotic", "period 2", "period 3 and more"."""
     first = words[0]
-    if first not in REGIME_COLOURS and not first.startswith(_PERIOD):
+    if first not in REGIME_COLOURS and not first.startswith(PERIODIC):
         return f"{listed(words)}, screened"
-    first = first.replace(_PERIOD, "period ")
+    first = first.replace(PERIODIC, "period ")
     if len(words) > 1:
         return f"{first} and more"
     return first

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tables import COMPUTED, FAILED, SCREENED, listed, number, percent
+
 from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
 from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
@@ -14,9 +16,8 @@ from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
 from ..parts.selecting import having
 from ..parts.style import WIDTH_IN
-from ..parts.wording import listed, number, percent
 from ..sweep.quantities import at
-from .maps import COMPUTED, FAILED, LIMITS, PULL, SCREENED, Atlas, legend, numbers, read_atlas, regimes
+from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
 from .sheets import cell_sheets
 
 

@@ -5,19 +5,14 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from analysis import read_evidence
+from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts.columns import plus_minus
+from ..parts.columns import LONGEST, printed_cells, shown_on
 from ..parts.content import CellSheets, plain
 from ..parts.folder import Folder
-from ..parts.wording import number, printed
-from ..sweep.quantities import at, colours_of, errors_of, further
-from .maps import COMPUTED, LIMITS, PULL, SCREENED, Atlas
+from ..sweep.quantities import at, colours_of
+from .maps import LIMITS, PULL, Atlas
 
-_FACTS = (
-    "regime", "verdict", "share", "found_by", "tension_top_max_N", "slack_fraction",
-    "lyapunov_tangent_bits_per_period", "multiplier_modulus", "radius_min_m", "radius_max_m", "loop_releases",
-    "max_buoy_height_above_water_m", "max_turn_rad", "periods",
-)  # fmt: skip
 _STROBES = "radius_m", "tension_N"  # once a wave period
 _HISTORY = "radius_m", "tension_top_high_N"
 _LAST, _POINTS, _NOTHING = 4, 200, np.empty(0)  # wave periods of a history, and its points
@@ -29,12 +24,11 @@ _MET = {"yes": "met", "no": "not met"}
 def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
     columns = folder.columns
-    errors = errors_of(columns)
-    names = [name for name in _FACTS if name in columns]
-    names += [name for name, _ in further(columns, (key.name for key in atlas.keys))]
+    keys, cells = {"motion", *(key.name for key in atlas.keys)}, printed_cells(columns)
+    names = [name for name in shown_on(columns, folder.table, RUNS, REGIMES, longest=LONGEST) if name not in keys]
     motions_of_places: dict[tuple[str, ...], list] = {}
     for row, curves in zip(folder.table, _curves(folder), strict=True):
-        facts = [plus_minus(columns, row, name, errors.get(name, "")) for name in names]
+        facts = [cells[name](row) for name in names]
         motions_of_places.setdefault(_place(row, atlas), []).append((row, facts, curves))
     sheets = []
     for page in atlas.pages:

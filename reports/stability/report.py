@@ -10,16 +10,15 @@ from statistics import median
 
 import numpy as np
 
-from engine.excursions import own_words
+from tables import EMPTY, Column, count, number, number_of
 
 from ..figures.stability import stiffness
-from ..parts.columns import Quantity, table_of, value
+from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
 from ..parts.selecting import entries, having
-from ..parts.wording import EMPTY, count, number
 
 
 def report(directory: str | Path) -> Report:
@@ -65,7 +64,7 @@ class Study:
     """What the campaign left: `cases` and `random`, rows of text by column."""
 
     provenance: dict
-    columns: dict[str, Quantity]
+    columns: dict[str, Column]
     cases: list[dict[str, str]]
     random: list[dict[str, str]]
 
@@ -95,7 +94,7 @@ def case_items(study: Study) -> list[Item]:
         rows += [{"case": f"— {about} —"}, *having(study.cases, about=about)]
 
     def cell(name: str):
-        return lambda row: study.columns[name].cell(row[name]) if "group" in row else row.get(name, "")
+        return lambda row: study.columns[name].cell(row) if "group" in row else row.get(name, "")
 
     caption = "Cases and verdicts, from `table.csv`."
     cells = {name: cell(name) for name in SHOWN}
@@ -108,13 +107,16 @@ def stiffness_items(study: Study) -> Iterator[Item]:
     unit = math.nan
     for row in study.judged("ok"):
         shown = row["group"] == "EA" or row["how"] == "waves in a bar"
-        if not shown or not row["measured_tension"] or own_words(row["message"]):
+        if not shown or not row["measured_tension"] or row.get("warning", row["message"]):
             continue
-        cost, stiffness_N = value(row, "newton_iterations") / value(row, "length_s"), value(row, "stiffness_N")
+        cost, stiffness_N = (
+            number_of(row, "newton_iterations") / number_of(row, "length_s"),
+            number_of(row, "stiffness_N"),
+        )
         if (row["group"], row["case"]) == DEFAULT:
             unit = cost
         if math.isfinite(stiffness_N):
-            measured.setdefault(row["how"], []).append((stiffness_N, value(row, "measured_tension"), cost))
+            measured.setdefault(row["how"], []).append((stiffness_N, number_of(row, "measured_tension"), cost))
     if not measured or math.isnan(unit):
         return
     points, worst, largest = {}, 0.0, 0.0
@@ -162,7 +164,7 @@ def random_items(study: Study) -> Iterator[Item]:
     walls: dict[tuple[str, ...], list[float]] = {}
     for row in sorted(study.random, key=lambda row: (row["kind"] != "valid", row["outcome"] != "ok")):
         named = row["kind"], row["outcome"], row["status"] or EMPTY, row["meaning"]
-        walls.setdefault(named, []).append(value(row, "wall_s"))
+        walls.setdefault(named, []).append(number_of(row, "wall_s"))
     rows = []
     for named, values in walls.items():
         rows.append((*named, str(len(values)), number(median(values), 2), number(max(values), 3)))

@@ -5,14 +5,13 @@ from collections.abc import Sequence
 from itertools import groupby
 from operator import itemgetter
 
-from ..parts.columns import table_of
+from tables import EMPTY, OUTCOMES, UNSETTLED, number, percent
+
+from ..parts.columns import plus_minus, table_of
 from ..parts.content import Heading, Item, Table, Text, heads
 from ..parts.folder import Folder, part_of
-from ..parts.wording import EMPTY, number, percent
 from .quantities import in_order
 
-_UNSETTLED = "unsettled"
-_OUTCOMES = "settled", "joined", _UNSETTLED  # of a start
 _METHOD = (
     "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "
     "ends when it has settled, or when it has joined a motion that is known at that value; unsettled ones belong to no "
@@ -50,9 +49,12 @@ def every_motion(folder: Folder, key: str, title: str) -> list[Item]:
 def _ends_table(part: Folder, ends: list[dict], key: str) -> Table:
     """Where the ranges of motions end, with the exact end where the table has one."""
     names = ["motion", "end", f"{key}_with", f"{key}_without"]
+    own_cells = {}
     if "kind" in part.columns:
-        names += [(f"{key}_end", "error"), "kind"]
-    return table_of(part.columns, [*names, "leads_to"], ends, _ENDS)
+        exact = part.columns[f"{key}_end"]
+        own_cells[exact.name] = plus_minus(exact, part.columns["error"])
+        names += [exact.name, "kind"]
+    return table_of(part.columns, [*names, "leads_to"], ends, _ENDS, own_cells)
 
 
 def _starts_table(rows: Sequence[dict], key: str, title: str) -> Table:
@@ -65,12 +67,12 @@ def _starts_table(rows: Sequence[dict], key: str, title: str) -> Table:
             outcomes[row["outcome"]] += 1
             if row["motion"]:
                 motions[row["motion"]] += 1
-        unsettled += outcomes[_UNSETTLED]
-        counts = [str(outcomes[word]) for word in _OUTCOMES]
+        unsettled += outcomes[UNSETTLED]
+        counts = [str(outcomes[word]) for word in OUTCOMES]
         reached = ", ".join(f"{letter} {motions[letter]}" for letter in sorted(motions))
         body.append((number(value), str(starts), *counts, reached or EMPTY))
     titles = [(title, ""), ("starts", "")]
-    for word in _OUTCOMES:
+    for word in OUTCOMES:
         titles.append((word, ""))
     caption = (
         f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(unsettled / len(rows))} "

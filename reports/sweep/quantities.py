@@ -5,32 +5,21 @@ from itertools import cycle
 
 import numpy as np
 
+from tables import EMPTY, PEAK, Column, errors_of, number, number_of
+
 from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts.columns import Quantity, number_of, table_of, value
+from ..parts.columns import shown_on, table_of
 from ..parts.content import Picture, Table, heads
 from ..parts.folder import Folder
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION
-from ..parts.wording import EMPTY, number
 
 PER_ROW = 2
 _CALM = BLUE, GREEN, ORANGE, PURPLE, SKY  # of all motions but that of the largest tension
-# numbers of a run for which the reports on buoys have chosen a place, or none
-PLACED = frozenset(
-    """
-    steepness dimensions kicks share share_low share_high periods transient_periods strobed_period radius_min_m
-    radius_max_m angle_min_rad angle_max_rad tension_top_min_N tension_top_max_N tension_top_max_error_N slack_fraction
-    compression_fraction lyapunov_wolf_bits_per_period lyapunov_wolf_error lyapunov_tangent_bits_per_period
-    lyapunov_tangent_error multiplier_modulus multiplier_angle_rad multiplier_error offplane_growth_bits_per_period
-    offplane_growth_error max_buoy_height_above_water_m max_turn_rad min_strain unresolved_ringing_N loop_releases
-    buoy_lateral_max_m rope_lateral_max_m planar_loop_releases planar_radius_min_m planar_radius_max_m steps
-    rejected_steps newton_iterations newton_failures end_time_s wall_s tension_static_N level
-    """.split()
-)
-Measured = tuple[tuple[Quantity, Quantity | None], ...]  # one panel: columns of one unit, each with its errors or None
+Measured = tuple[tuple[Column, Column | None], ...]  # one panel: columns of one unit, each with its errors or None
 
 
 def measured(
-    columns: Mapping[str, Quantity], rows: Sequence[Mapping[str, object]], without: Iterable[str]
+    columns: Mapping[str, Column], rows: Sequence[Mapping[str, object]], without: Iterable[str]
 ) -> list[Measured]:
     """The numeric columns of a table that are not the same in all rows, in its order.
 
@@ -42,7 +31,7 @@ def measured(
     for name, column in columns.items():
         if column.digits is not None and name not in excluded:
             names.append(name)
-    errors, panels = errors_of(names), []
+    errors, panels = errors_of(columns), []
     for name in names:
         if name.endswith("_error"):
             continue
@@ -66,7 +55,7 @@ def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
     peaks: dict[str, float] = {}
     for row in in_order(rows, []):
         letter = row.get("motion") or ""
-        peaks[letter] = max(peaks.get(letter, 0.0), value(row, "tension_top_max_N"))
+        peaks[letter] = max(peaks.get(letter, 0.0), number_of(row, PEAK))
     nameless = peaks.pop("", None)
     if len(peaks) < 2:
         return {}
@@ -90,11 +79,11 @@ def in_order(rows: Iterable[Mapping[str, object]], keys: Sequence[str]) -> list:
 
 def series(rows: Iterable[Mapping[str, object]], column: str) -> np.ndarray:
     """A column of a table over its rows (p,), nan where it is empty."""
-    return np.array([number_of(row.get(column)) for row in rows])
+    return np.array([number_of(row, column) for row in rows])
 
 
 def over_key(
-    rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured], motions: Mapping[str, str]
+    rows: Sequence[Mapping[str, object]], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]
 ) -> Picture:
     """`panels_over` as one picture."""
     grid = batched(panels_over(rows, key, shown, motions), PER_ROW)
@@ -107,7 +96,7 @@ def batched(items: Sequence, size: int) -> list[Sequence]:
 
 
 def panels_over(
-    rows: Sequence[Mapping[str, object]], key: Quantity, shown: Sequence[Measured], motions: Mapping[str, str]
+    rows: Sequence[Mapping[str, object]], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]
 ) -> list[Panel]:
     """Every quantity over a varied key, a panel each, with error bars where there are errors.
 
@@ -145,7 +134,7 @@ def panels_over(
 
 
 def extremes(
-    keys: Sequence[Quantity], rows: Sequence[Mapping[str, object]], shown: Iterable[Quantity], caption: str
+    keys: Sequence[Column], rows: Sequence[Mapping[str, object]], shown: Iterable[Column], caption: str
 ) -> list[Table]:
     """The least and the greatest value of every quantity, and where; nothing where no run has one."""
     cells = []
@@ -155,7 +144,7 @@ def extremes(
             continue
         line = [column.meaning or column.head, column.unit or EMPTY]
         for row in (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))]):
-            line += [column.cell(row[column.name]), at(keys, row)]
+            line += [column.cell(row), at(keys, row)]
         cells.append(tuple(line))
     columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
     if not cells:
@@ -163,7 +152,7 @@ def extremes(
     return [Table(columns, tuple(cells), caption, small=True)]
 
 
-def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
+def at(keys: Sequence[Column], row: Mapping[str, object]) -> str:
     """Where a row stands: "H = 21 m, kA = 0.1"; with the letter of its motion, where keys have that: "motion B"."""
     parts = []
     for key in keys:
@@ -174,33 +163,6 @@ def at(keys: Sequence[Quantity], row: Mapping[str, object]) -> str:
     return ", ".join(parts)
 
 
-def further(columns: Mapping[str, Quantity], placed: Iterable[str] = ()) -> tuple[tuple[str, str], ...]:
-    """The numbers of a table that no report has chosen a place for, each with its error, "" for none.
-
-    A column that a campaign declares so reaches its report. placed: names beside PLACED.
-    """
-    errors = errors_of(columns)
-    excluded = PLACED.union(placed, errors.values())
-    pairs = []
-    for name, column in columns.items():
-        if column.digits is not None and name not in excluded:
-            pairs.append((name, errors.get(name, "")))
-    return tuple(pairs)
-
-
-def errors_of(names: Iterable[str]) -> dict[str, str]:
-    """Column -> the column of its standard errors: X_error belongs to X, or X_..., where these stand before it."""
-    names, errors = list(names), {}
-    for place, name in enumerate(names):
-        if not name.endswith("_error"):
-            continue
-        stem = name.removesuffix("error")
-        for owner in names[:place]:
-            if f"{owner}_".startswith(stem) and not owner.endswith("_error"):
-                errors[owner] = name
-    return errors
-
-
 def filled_table(
     part: Folder | None, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
 ) -> list[Table]:
@@ -209,7 +171,7 @@ def filled_table(
     if part is None:
         return []
     filled = []
-    for name in names or part.columns:
+    for name in names or shown_on(part.columns, part.table):
         entries = [row.get(name, "") for row in part.table]
         if name != "run_key" and any(entry not in ("", 0.0) and entry == entry for entry in entries):  # nan is not
             filled.append(name)

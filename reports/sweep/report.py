@@ -6,23 +6,23 @@ from pathlib import Path
 
 import numpy as np
 
+from tables import Column, listed, number
+
 from ..figures.maps import Map, maps
-from ..parts.columns import Quantity, table_of
+from ..parts.columns import LONGEST, shown_on, table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
 from ..parts.provenance import limits, report_page, scene_items, timing_items
 from ..parts.selecting import having
-from ..parts.wording import EMPTY, listed, number
 from .motions import every_motion
 from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
-_LONGEST = 24  # letters of a cell of the tables of runs
 _NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")
 _SOUND = "Every run reached its full length, and no axial ringing is left; the answer says what else was checked."
 _EXTREMES = "Least and greatest value of every column that is not the same in all runs."
 _SCENE = "The scene as run, from `scene.toml`, with the first value of what is varied."
-_EXCURSIONS = {  # words of a message (`engine.excursions`) -> what they say
+_EXCURSIONS = {  # words of a message (`engine.trajectory.excursions`) -> what they say
     "in the air": "the sphere was in the air with its whole buoyancy",
     "below the bed": "the line lay below the bed",
 }
@@ -68,12 +68,12 @@ def report(directory: str | Path) -> Report:
     return report_page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
 
 
-def _columns_of(shown: Sequence[Measured]) -> list[Quantity]:
+def _columns_of(shown: Sequence[Measured]) -> list[Column]:
     """The columns of all panels, without their errors."""
     return [column for pairs in shown for column, _ in pairs]
 
 
-def _panels(key: Quantity, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
+def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
     items: list[Item] = []
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for column in _columns_of(part))
@@ -82,7 +82,7 @@ def _panels(key: Quantity, rows, shown: Sequence[Measured], motions: Mapping[str
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
-def _maps_of_each(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motions) -> list[Item]:
+def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> list[Item]:
     if not motions:
         return _maps(keys, rows, shown, "")
     items: list[Item] = []
@@ -92,7 +92,7 @@ def _maps_of_each(keys: Sequence[Quantity], rows, shown: Sequence[Measured], mot
     return items
 
 
-def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
+def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
     x, y = series(rows, keys[0].name), series(rows, keys[1].name)
     places = np.unique(x), np.unique(y)
     across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)
@@ -117,7 +117,7 @@ def _maps(keys: Sequence[Quantity], rows, shown: Sequence[Measured], motion: str
     return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
 
 
-def _warnings(keys: Sequence[Quantity], rows) -> Notice:
+def _warnings(keys: Sequence[Column], rows) -> Notice:
     """The runs that failed, then those whose numbers hold less, then how many left the range of the model."""
     failed, doubtful = [], []
     for row in rows:
@@ -136,16 +136,12 @@ def _warnings(keys: Sequence[Quantity], rows) -> Notice:
     return limits("Runs that failed" if failed else "Runs that hold less", lines, _SOUND)
 
 
-def _tables(columns: Mapping[str, Quantity], key_cells: Mapping[str, Callable], rows) -> list[Table]:
+def _tables(columns: Mapping[str, Column], key_cells: Mapping[str, Callable], rows) -> list[Table]:
     """Every column that says something in some row, in tables that a page can hold; sentences stay in `table.csv`.
 
     key_cells: of the varied keys, the function of a row that gives their cell.
     """
-    names = []
-    for name, column in columns.items():
-        cells = {column.cell(row[name]) for row in rows}
-        if name not in key_cells and cells != {EMPTY} and max(map(len, cells)) <= _LONGEST:
-            names.append(name)
+    names = [name for name in shown_on(columns, rows, longest=LONGEST) if name not in key_cells]
     parts, tables = batched(names, _COLUMNS), []
     for place, part in enumerate(parts, 1):
         caption = "Every run."

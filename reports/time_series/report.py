@@ -3,10 +3,11 @@
 from functools import partial
 from pathlib import Path
 
+from tables import printed
+
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
 from ..parts.content import Figure, Heading, Item, Listing, Report, Table, Text, heads
 from ..parts.folder import FolderError, read_files
-from ..parts.wording import printed
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
 PASSED = {True: "yes", False: "no", None: "not asked"}

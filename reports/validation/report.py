@@ -8,14 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
+from tables import count, number, number_of
+
 from ..figures.curves import Curve, Panel, curves
-from ..parts.columns import table_of, value
+from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Report, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
 from ..parts.provenance import report_page, timing_items
 from ..parts.sections import section_items
 from ..parts.style import BLUE, VERMILION
-from ..parts.wording import count, number
 
 FILES = {"cases.csv": "cases and verdicts", "curves.csv": "both curves of each case"}
 NUMBERS = ("title", "quantity", "verdict", "ours", "theirs", "error", "bar", "unit")
@@ -86,7 +87,7 @@ def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) ->
     body = []
     for row in rows:
         words = [row[name] for name in first]
-        body.append((*words, number(value(row, "error"), 4), number(value(row, "bar"), 4), row["unit"]))
+        body.append((*words, number(number_of(row, "error"), 4), number(number_of(row, "bar"), 4), row["unit"]))
     word_heads = ["case" if name == "title" else name for name in first]
     return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), tuple(body), caption, small=True)
 

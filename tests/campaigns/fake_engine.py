@@ -16,9 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.out_of_plane import LOOPING_DEPTHS_M, SMALL
+from campaigns.out_of_plane import LOOPING_DEPTHS_M
 from engine import Trajectory
 from engine.trajectory import COLUMNS, Profiles
+from tables import SMALL
 
 STATISTICS = {"steps": 7, "rejected_steps": 1, "newton_iterations": 21, "newton_failures": 0, "loop_releases": 0}
 ORDER = {"esdirk43": 4, "trbdf2": 2, "generalized-alpha": 2, "midpoint": 2, "backward-euler": 1}

@@ -10,13 +10,13 @@ from campaigns import accuracy
 from campaigns.accuracy.jobs import side_by_side
 from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, WORKS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
-from campaigns.columns import names
 from campaigns.machinery.plan import Job
 from engine import load_scene
 from reports import build
 from reports.accuracy.sections import read_study, smooth_series, within, work_items
 from reports.figures.work_precision import cheapest
 from reports.parts.content import Table
+from tables import names
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_engine import GRID_M, KnownErrors
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from campaigns.explore.answer import OTHER
 from campaigns.explore.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
-from campaigns.explore.starts import JOINED, UNSETTLED, settled_of
+from campaigns.explore.starts import settled_of
 from campaigns.sweep import main as sweep_command
 from engine import load_scene, simulate
+from tables import JOINED, OTHER_MOTION, UNSETTLED
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_engine import sines
 
@@ -18,7 +18,7 @@ def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands
     assert error_N(row, 101.0, same) == (7.5, ["the largest tension holds to 7 % only"])
     assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, same) == (4.5, [])
     _, (other, _) = error_N(row, 101.0, same | {"outcome": UNSETTLED})
-    assert OTHER in other
+    assert OTHER_MOTION in other
     unknown, (ended,) = error_N(row, 101.0, same | {"status": "newton-failed"})
     assert np.isnan(unknown) and "newton-failed" in ended
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap
-from campaigns.columns import Column
 from campaigns.orbits import cases, read_order
 from campaigns.orbits.tables import tables
 from campaigns.orbits.tree import Tree
+from tables import Column
 from tests.campaigns.conftest import rows_of
 
 B = 0.3

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from campaigns import out_of_plane
-from campaigns.columns import names
 from campaigns.explore.space import DIRECTIONS, SEED_MPS, in_space, velocity
 from campaigns.machinery.folder import trajectory_path
 from campaigns.out_of_plane.pairs import agreement
@@ -17,6 +16,7 @@ from reports import build
 from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
 from reports.parts.content import Figure, Notice
+from tables import names
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
 

@@ -13,13 +13,13 @@ import numpy
 import pytest
 
 from campaigns import buoy_sweep
-from campaigns.columns import names
 from campaigns.explore.rows import COLUMNS
 from campaigns.machinery import session
 from campaigns.machinery.folder import CampaignStopped, keep_json, keep_row, kept_json, kept_row, made_by
 from campaigns.machinery.plan import Job
 from campaigns.machinery.pools import dask_client
 from engine import Trajectory, load_scene, source_hash
+from tables import names
 from tests.campaigns.conftest import ROOT, USUAL, finished, forget
 from tests.campaigns.fake_engine import FakeEngine
 

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from campaigns.columns import names
 from campaigns.explore.rows import COLUMNS, buoy_row
 from engine import load_scene
 from engine.trajectory import TangentGrowth
+from tables import names
 from tests.campaigns.fake_engine import STATISTICS, sines
 
 PERIODS, TRANSIENT = 90, 10

@@ -7,13 +7,13 @@ from functools import partial
 import pytest
 
 from campaigns import stability
-from campaigns.columns import names
-from campaigns.machinery.folder import CampaignStopped, kept_row, write_table
+from campaigns.machinery.folder import CampaignStopped, kept_row
 from campaigns.stability import cases, checks, fuzz, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases, case_row
 from reports import build
 from reports.parts.folder import FolderError
 from reports.stability.report import read_study, unexplained_items
+from tables import names, write_table
 from tests.campaigns.conftest import rows_of
 
 NOT_STARTED = {"statuses": (REFUSED,)}

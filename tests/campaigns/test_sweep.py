@@ -1,5 +1,5 @@
 """`campaigns.sweep`: any number of any scene, one key or two (what cannot be varied: mistakes.toml); and a column and a
-campaign of one's own, as docs/howto_campaign.md has them (tests/test_pages.py runs that page with the engine).
+campaign of one's own, as docs/developing.md#a-campaign has them (tests/test_pages.py runs that page with the engine).
 """
 
 import json
@@ -10,7 +10,6 @@ from itertools import product
 
 import pytest
 
-from campaigns.columns import Column
 from campaigns.explore import rows as of_a_buoy
 from campaigns.machinery.folder import Table as Rows
 from campaigns.machinery.folder import write_json
@@ -21,11 +20,12 @@ from reports.parts.content import Figure, Table, plain
 from reports.parts.folder import read_folder
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
+from tables import Column
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_engine import FakeEngine
 from tests.pages import blocks
 
-PAGE = "howto_campaign"
+PAGE = "developing"
 HELD = ["--scene", "hanging_line", "--duration", "2"]
 
 
@@ -148,7 +148,7 @@ COLUMNS = (
     Column("pull_min_N", "N", "T_min", "least pull", 0),
     Column("pull_max_N", "N", "T_max", "greatest pull", 0),
     Column("growth_bits", "bits", "σ", "growth", 3),
-    Column("growth_error", "bits", "", "its standard error", 3),
+    Column("growth_error", "bits", "± σ", "its standard error", 3),
     Column("steps", "", "steps", "time steps", 0),
     Column("run_key"),
     Column("message"),

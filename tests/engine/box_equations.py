@@ -57,6 +57,16 @@ def along(x, t):
     return np.sum(x * t, 1)[:, None] * t
 
 
+def share_across(tether, v):
+    """Share of the normal drag coefficient left at the velocities v (m, 3): the law of docs/scenes.md."""
+    law = tether.drag
+    if law is None:
+        return 1.0
+    Re = np.sqrt(np.sum(v * v, 1))[:, None] * tether.diameter_m / law.viscosity_m2ps
+    x = (Re / law.critical) ** 4
+    return 1 - law.drop * x / (1 + x)
+
+
 def water_on_line(scene, lam, t, v, V_t, A):
     """Drag and fluid inertia (m, 3) per length of line (N/m): lam (m, 1) = 1 + eps, v = V - U, accelerations V_t, A."""
     tether, rho = scene.tether, scene.water.density_kgpm3 if scene.water is not None else 0.0
@@ -67,7 +77,9 @@ def water_on_line(scene, lam, t, v, V_t, A):
     added = tether.added_mass * displaced
     vt = np.sum(v * t, 1)
     friction = math.pi * tether.drag_tangential * (np.sign(vt.real) * vt**2)[:, None] * t
-    drag = -0.5 * rho * d * np.sqrt(lam) * (friction + tether.drag_normal * stretched(v - along(v, t)))
+    across = v - along(v, t)
+    normal = tether.drag_normal * share_across(tether, across) * stretched(across)
+    drag = -0.5 * rho * d * np.sqrt(lam) * (friction + normal)
     push = (displaced + added) * A - added * V_t
     return drag, push - along(push, t)
 

@@ -8,8 +8,8 @@ from functools import lru_cache
 import numpy as np
 
 from engine import load_scene, simulate
+from engine.physics.strains import tension_at
 from engine.run import Run
-from engine.scales import tension_at
 from tests.engine.box_equations import lifted
 from tests.engine.rotations import frames
 

@@ -1,14 +1,15 @@
 """A sphere with its whole buoyancy belongs under water, a line above the bed: what is refused, and what a run says."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from engine import SceneError, load_scene, simulate
-from engine.excursions import message_of, own_words
+from engine import SceneError, Trajectory, load_scene, simulate
 from engine.physics.sea import elevation_m
 from engine.run import Run
+from engine.trajectory.excursions import excursions_of, with_excursions
 
 TABLE = {"time_s": [0.0, 1.0], "height_m": [0.0, 60.0], "x_m": [0.0], "velocity_z_mps": [[[0.0], [0.0]]] * 2}
 CURRENTS = {
@@ -50,6 +51,10 @@ def places(scene, x, z, lowest=0.0):
     return {"time_s": time_s, "x_m": x, "y_m": 0.5 * x, "z_m": z, "line_lowest_m": np.full(len(z), lowest)}
 
 
+def excursions(scene, columns):
+    return "; ".join(excursions_of(scene, columns))
+
+
 SEA = {"waves.jonswap": {"significant_height_m": 1.0, "seed": 1}}
 SEAS = [{}, {"waves.direction_rad": math.pi}, {"waves.ramp_s": 30.0}, SEA, {"motion.dimensions": 3, **SEA}]
 
@@ -61,28 +66,28 @@ def test_a_sphere_is_in_the_air_where_its_lowest_point_is_above_the_wave(waves, 
     columns = places(scene, np.linspace(-5.0, 5.0, 401), np.zeros(401))
     touching = scene.water.depth_m + elevation_m(scene, *(columns[name] for name in ("time_s", "x_m", "y_m")))
     columns["z_m"] = touching + 0.75 - anchor_m - 1e-6
-    assert message_of("", scene, columns, "ok") == ""
+    assert excursions(scene, columns) == ""
     columns["z_m"][100:200] += 0.5
-    said = message_of("", scene, columns, "ok")
-    assert "25 % of the time from t = 10 to 19.9 s" in said and "up to 0.5 m above" in said
-    assert ("'spherical-cap'" in said) == (not scene.waves.irregular)  # only what is allowed is recommended
+    words = excursions(scene, columns)
+    assert "25 % of the time from t = 10 to 19.9 s" in words and "up to 0.5 m above" in words
+    assert ("'spherical-cap'" in words) == (not scene.waves.irregular)  # only what is allowed is recommended
     floats = scene.model_copy(update={"buoy": scene.buoy.model_copy(update={"submergence": "spherical-cap"})})
-    assert message_of("", floats, columns, "ok") == ""
+    assert excursions(floats, columns) == ""
 
 
 def test_a_run_that_fails_in_the_air_has_this_for_its_reason_and_one_in_the_water_its_advice():
     scene, z = load_scene("tethered_buoy", {"waves": None}), np.full(101, 20.0)
-    advice = "Newton's method did not converge at t = 40 s: lower solver.rtol"
-    assert message_of(advice, scene, places(scene, 0.0 * z, z), "newton-failed") == advice
-    z[90:95] = 25.0
-    said = message_of(advice, scene, places(scene, 0.0 * z, z), "newton-failed")
-    assert said.startswith(f"{advice}; the sphere was in the air")
-    z[95:] = 25.0
-    said = message_of(advice, scene, places(scene, 0.0 * z, z), "newton-failed")
-    assert (
-        said.startswith("Newton's method did not converge at t = 40 s: the sphere was in the air")
-        and "rtol" not in said
-    )
+    event, status = "Newton's method did not converge at t = 40 s", "newton-failed"
+    advice = f"{event}: lower solver.rtol"
+    for part, start in (
+        (slice(0), advice),
+        (slice(90, 95), f"{advice}; the sphere"),
+        (slice(95, None), f"{event}: the"),
+    ):
+        z[part] = 25.0
+        message, words = with_excursions(advice, scene, places(scene, 0.0 * z, z), status)
+        assert message.startswith(start) and message.endswith(words) and bool(words) == (start != advice)
+    assert "rtol" not in message
 
 
 def test_a_line_below_the_bed_is_told_with_its_depth_where_there_is_no_floor():
@@ -90,16 +95,20 @@ def test_a_line_below_the_bed_is_told_with_its_depth_where_there_is_no_floor():
     z = np.full(101, 19.0)
     for changes, lowest, depth in ((high, -4.5, "1.5 m"), (high, -3.005, ""), ({**high, **FLOOR}, -4.5, "")):
         scene = load_scene("tethered_buoy", changes)
-        said = message_of("", scene, places(scene, 0.0 * z, z, lowest), "ok")
-        assert (f"up to {depth} below the bed" in said and "floor" in said) if depth else said == ""
+        words = excursions(scene, places(scene, 0.0 * z, z, lowest))
+        assert (f"up to {depth} below the bed" in words and "floor" in words) if depth else words == ""
 
 
 def test_parts_of_a_run_say_together_what_the_whole_says_once():
+    """Read from files too: those of older versions have the excursions in the message alone."""
     scene = load_scene("tethered_buoy", {"tether.nodes": 11})
     whole, first = simulate(scene, periods=8), simulate(scene, periods=4)
-    both = first.followed_by(simulate(scene, periods=4, start=first))
-    assert both.message == whole.message and whole.message.count("the sphere was in the air") == 1
-    assert own_words(f"a doubt; {whole.message}") == "a doubt" and own_words(whole.message) == ""
+    doubtful = replace(first, message=f"a doubt; {first.message}")
+    older = Trajectory.from_bytes(replace(doubtful, excursions="").to_bytes())
+    later = simulate(scene, periods=4, start=first)
+    for run in (doubtful, Trajectory.from_bytes(doubtful.to_bytes()), older):
+        assert run.own_message == "a doubt" and run.followed_by(later).message == f"a doubt; {whole.message}"
+    assert whole.own_message == "" and whole.message.count("the sphere was in the air") == 1
 
 
 @pytest.mark.parametrize("scheme", ["conservation", "paper-box"])

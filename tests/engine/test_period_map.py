@@ -7,7 +7,7 @@ import pytest
 
 from analysis.orbits import OrbitMap, find_orbit
 from engine import load_scene, simulate
-from engine.period_map import PeriodMap
+from engine.run.period_map import PeriodMap
 
 SMALL = {"tether.nodes": 9, "water.depth_m": 25.0, "solver.rtol": 1e-3}
 AT = 0.13

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from engine.parameters.scales import jumps_of
 from engine.run import Run
-from engine.scales import jumps_of
-from engine.trust import blows, errors_of_ringing
+from engine.run.trust import blows, errors_of_ringing
 from tests.engine.lines import DRY, STILL, held, line, linear, ran
 
 RINGING_N, LENGTH_M, EA = 500.0, 20.0, 1e8

@@ -8,7 +8,7 @@ import xarray
 
 from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
-from engine.at_rest import static_tension_N
+from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
 from engine.views import facts
 

@@ -19,17 +19,16 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure as Drawing
 
 from campaigns import buoy_sweep
-from campaigns.columns import dictionary
 from campaigns.explore.rows import COLUMNS, STEEPNESS
 from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (
     Bullets,
     CellSheets,
-    Column,
     Explorer,
     ExplorerColumn,
     Figure,
+    Head,
     Heading,
     Item,
     Links,
@@ -44,6 +43,7 @@ from reports.parts.content import (
 )
 from reports.parts.html import render_html
 from reports.parts.sections import equation
+from tables import dictionary
 from tests.campaigns.fake_engine import FakeEngine, sines
 
 WORD = COLUMNS[2]
@@ -123,7 +123,7 @@ def every_kind(text: str) -> Report:
     drawing = Figure(
         dot, f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"), dot, ((WHOLE,), (WHOLE,))
     )
-    heads = tuple(Column(some, some, "right" if k else "left") for k in range(14))
+    heads = tuple(Head(some, some, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
     cell = {"page": 0, "box": [0, 1, 0, 1], "name": text, "note": text, "scales": [[0, 1], [0, 1]]}
     motion = {"motion": text, "colour": "", "facts": [text], "said": text, "series": [[0, 999], [9], [5], [9]]}

@@ -19,14 +19,15 @@ from reports.parts.content import Explorer, ExplorerColumn, plain
 from reports.parts.folder import read_columns
 from reports.parts.html import explorer_json
 from reports.parts.provenance import scene_table
-from reports.parts.wording import OMEGA_I, OMEGA_R, number, ranges
+from reports.parts.symbols import OMEGA_I, OMEGA_R
+from tables import number, ranges
 
 TANH = {"tether.tension": {"law": "tanh", "p": [3e4, 5.0, 0.0, 0.0, 1e4]}}
 DICTIONARY = """name,unit,symbol,meaning,digits
 steepness,,kA,wave steepness,3
 radius_min_m,m,r_min,"least distance, after the transient",2
 growth,bits,σ,exponent,3
-growth_error,bits,,its standard error,3
+growth_error,bits,± σ,its standard error,3
 status,,,,
 """
 
@@ -37,7 +38,7 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
         {"steepness": 0.13, "radius_min_m": 19.876, "growth": -0.04, "growth_error": 0.002, "status": "ok"},
         {"steepness": 0.1, "radius_min_m": math.nan, "growth": 1e-9, "growth_error": None, "status": ""},
     ]
-    columns, names = read_columns(tmp_path), ["steepness", "radius_min_m", ("growth", "growth_error"), "status"]
+    columns, names = read_columns(tmp_path / "columns.csv"), ["steepness", "radius_min_m", "growth", "status"]
     table = table_of(columns, names, rows, "Two runs.", {"status": lambda row: row["status"].upper()})
     assert [plain(column.title) for column in table.columns] == ["kA", "rmin", "σ", "status"]
     assert [(column.unit, column.align) for column in table.columns[1::2]] == [("m", "right"), ("", "left")]

@@ -17,15 +17,15 @@ import pytest
 
 from campaigns.accuracy.rows import COLUMNS as of_accuracy
 from campaigns.explore.rows import COLUMNS as of_a_buoy
-from campaigns.machinery.folder import write_json, write_table
+from campaigns.machinery.folder import write_json
 from campaigns.out_of_plane.rows import COLUMNS as of_plane
 from engine import load_scene
 from reports import build, content_of
 from reports.__main__ import main
 from reports.buoy_sweep.report import report
 from reports.parts.content import Bullets, Figure, Heading, Notice, Picture, Report, Sheet, Text, plain
-from reports.parts.folder import read_rows
 from reports.parts.pdf import render_pdf
+from tables import read_rows, write_table
 from tests.reports.conftest import campaign
 
 ROOT = Path(__file__).parents[2]

@@ -14,15 +14,15 @@ from matplotlib.colors import same_color, to_hex
 
 import reports
 from campaigns.explore.rows import COLUMNS
-from campaigns.machinery.folder import read_rows
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure, regime_items
 from reports.buoy_sweep.runs import read_sweep
-from reports.figures.orbit_diagram import NARROW_IN, Column, OrbitDiagram, Range
+from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Range, Strobes
 from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text, plain
 from reports.parts.first_page import how_long, opened
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
+from tables import read_table
 from tests.reports.conftest import Page, points_of, rows_in, write
 
 LABELS = "kA", "r (m)"
@@ -33,7 +33,7 @@ WORDS = ["period-1"] * 20 + ["quasi-periodic"] * 4 + ["chaotic"] * 5
 def columns_of(wide_m=(0.1, 8.0)):
     """Twenty columns of points within the first width, nine within the second, as far as they are named."""
     spans = [np.linspace(-0.5, 0.5, 7) * wide_m[k >= 20] for k in range(29)]
-    return [Column(at, 20.0 + span, word) for at, span, word in zip(VALUES, spans, WORDS, strict=True)]
+    return [Strobes(at, 20.0 + span, word) for at, span, word in zip(VALUES, spans, WORDS, strict=True)]
 
 
 def bar_of(axes):
@@ -43,7 +43,7 @@ def bar_of(axes):
 
 
 def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_it_holds(drawn):
-    between = [Column(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
+    between = [Strobes(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
     every = sorted(columns_of() + between, key=lambda one: one.at)
     loops = Range("loops released", [one.at > 0.12 for one in every])
     OrbitDiagram(every, LABELS, [], [loops], [(0.13, "paper")]).drawn()
@@ -91,7 +91,7 @@ def sweep(folder, tmp_path):
     """A copy of the folder, with regimes: the first two exponents by Wolf's method alone, at kA = 0.13 by both."""
     place = shutil.copytree(folder, tmp_path / "copy", ignore=shutil.ignore_patterns("report.*"))
     words = {0.016: "period-1", 0.1: "quasi-periodic", 0.13: "chaotic"}
-    rows = read_rows(place / "table.csv")
+    rows = read_table(place / "table.csv")
     for row in rows:
         row["regime"] = words.get(float(row["steepness"]), "")
         if row["regime"]:

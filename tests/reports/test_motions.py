@@ -12,11 +12,11 @@ from campaigns.explore.rows import COLUMNS, STEEPNESS
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure
 from reports.buoy_sweep.runs import read_sweep
-from reports.parts.columns import Quantity
 from reports.parts.content import Explorer, Heading, Sheet, Table, plain
 from reports.parts.style import VERMILION
 from reports.sweep.quantities import colours_of, panels_over
 from reports.sweep.report import _maps_of_each
+from tables import Column
 from tests.reports.conftest import points_of, rows_in, write
 from tests.reports.test_words_apart import crowded
 
@@ -135,7 +135,7 @@ def test_a_table_with_one_motion_gives_the_figure_of_one_without(folder, several
 
 
 def test_a_sweep_of_any_key_keeps_motions_apart():
-    key, depth, pull = Quantity("kA", digits=2), Quantity("H", digits=1), Quantity("tension_top_max_N", "N", digits=0)
+    key, depth, pull = Column("kA", digits=2), Column("H", digits=1), Column("tension_top_max_N", "N", digits=0)
     rows = [
         {"kA": kA, "H": 1.0, "motion": letter, "status": "ok", "tension_top_max_N": kA if letter == "A" else 9.0 + kA}
         for kA in (1.0, 2.0)

@@ -4,64 +4,70 @@ import shutil
 
 import pytest
 
-from campaigns.basins.found import COLUMNS as of_basins
-from campaigns.columns import Column
-from campaigns.explore.rows import COLUMNS as of_sweeps
-from campaigns.out_of_plane.rows import COLUMNS as of_space
-from campaigns.regime_map.tables import motion_columns
+from campaigns import buoy_sweep, sweep
+from campaigns.explore import rows as buoy_rows
+from campaigns.explore.rows import COLUMNS
+from campaigns.out_of_plane.rows import COLUMNS as IN_SPACE
 from engine import list_scenes, load_scene
 from reports import content_of
 from reports.basins.report import _motions
-from reports.out_of_plane.report import _PLACED
-from reports.parts.content import Table
-from reports.parts.folder import Folder, read_columns, read_folder
+from reports.out_of_plane.report import _runs_tables
+from reports.out_of_plane.runs import VARIED, Run, Study
+from reports.parts.content import Sheet, Table
+from reports.parts.folder import Folder, read_folder
 from reports.parts.provenance import scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
-from reports.sweep.quantities import further
-from tests.reports.conftest import columns_of, rows_in, write
+from tables import PLANE, RUNS, SHEET, Column, read_columns, read_rows, write_table
+from tests.reports.conftest import Motions, columns_of, rows_in, write
 from tests.reports.test_regime_map import SYMBOLS, WORDS, folder_of
 
 __all__ = ["folder_of"]  # a fixture
 NEW = Column("snaps_per_period", "1/T", "snaps", "snaps in a wave period", 2)
 ERROR = Column("snaps_per_period_error", "1/T", "± snaps", "standard error of the snaps", 2)
-CAMPAIGNS = {
-    "buoy_sweep": (of_sweeps, ()),
-    "out_of_plane": (of_space, _PLACED),
-    "regime_map": (motion_columns(()), ()),
-    "basins": (tuple(column for column in of_basins if not column.name.startswith(("kick", "displ", "phase"))), ()),
+SHORT = "--periods 5 --transient 1 --jobs 1 --backend threading --no-report --set output.tangent_vectors=0".split()
+SWEEPS = {
+    buoy_sweep: "--steepness 0.05 0.1 --no-accuracy",
+    sweep: "--vary waves.steepness 0.05 0.1 2 --starts rest",
 }
-
-
-def dictionary(columns):
-    return {column.name: column for column in columns}
 
 
 def shown(items) -> list[str]:
     """The entries below the head of the new column, in the tables of a report."""
-    found = []
+    cells = []
     for table in (item for item in items if isinstance(item, Table)):
         places = [place for place, head in enumerate(table.columns) if head.title == NEW.symbol]
-        found += [row[place] for place in places for row in table.rows]
-    return found
+        cells += [row[place] for place in places for row in table.rows]
+    return cells
 
 
-@pytest.mark.parametrize("campaign", CAMPAIGNS)
-def test_every_column_has_a_place_and_a_new_one_gets_its_own_with_its_error(campaign):
-    columns, placed = CAMPAIGNS[campaign]
-    assert further(dictionary(columns), placed) == ()
-    assert further(dictionary((*columns, NEW, ERROR)), placed) == ((NEW.name, ERROR.name),)
-    assert further(dictionary((NEW, *columns)), placed) == ((NEW.name, ""),)
+def one_row(columns) -> dict[str, object]:
+    """A row with a number, or a word, in every column."""
+    return {column.name: "word" if column.digits is None else 1.0 for column in columns}
 
 
-def test_a_new_column_is_in_the_table_of_runs_of_a_buoy_sweep(folder, tmp_path):
-    place = tmp_path / "with_column"
-    shutil.copytree(folder, place)
-    rows = rows_in(place)
-    for number, row in enumerate(rows):
-        row[NEW.name] = 0.25 + number
-    write(place, rows, (*of_sweeps, NEW))
-    assert shown(content_of(place)[0].items) == [f"{0.25 + number:.2f}" for number in range(len(rows))]
+@pytest.mark.parametrize("campaign", SWEEPS, ids=lambda campaign: campaign.STUDY.name)
+def test_a_declaration_and_its_formula_bring_a_column_into_table_dictionary_and_report(campaign, monkeypatch, tmp_path):
+    """The declaration stands among the columns of a run of the buoy, the formula in the function that fills its row."""
+    described = buoy_rows.buoy_row
+    for module in (buoy_rows, campaign):
+        if hasattr(module, "COLUMNS"):
+            monkeypatch.setattr(module, "COLUMNS", (*COLUMNS, NEW))
+        if hasattr(module, "buoy_row"):
+            monkeypatch.setattr(
+                module,
+                "buoy_row",
+                lambda *given, **how: described(*given, **how) | {NEW.name: given[0].scene.waves.steepness},
+            )
+    assert campaign.main([*SWEEPS[campaign].split(), *SHORT, "--out", str(tmp_path)], simulate=Motions()) == 0
+    assert [float(row[NEW.name]) for row in read_rows(tmp_path / "table.csv")] == [0.05, 0.1]
+    assert read_columns(tmp_path / "columns.csv")[NEW.name] == NEW
+    items = content_of(tmp_path)[0].items
+    assert {"0.05", "0.10"} == set(shown(items))
+    sheets = [item for item in items if isinstance(item, Sheet)]
+    assert all(
+        (NEW.symbol, f"{value} 1/T") in sheet.facts for sheet, value in zip(sheets, ("0.05", "0.10"), strict=False)
+    )
 
 
 def test_a_new_column_is_in_the_sheets_of_a_map(folder_of):
@@ -73,11 +79,37 @@ def test_a_new_column_is_in_the_sheets_of_a_map(folder_of):
     assert [head for head, _ in sheets.heads].count(NEW.name.replace("_", " ")) == 1
 
 
-def test_a_new_column_is_in_the_table_of_motions_of_basins(tmp_path):
-    row = {column.name: "" if column.digits is None else 1.0 for column in of_sweeps} | {NEW.name: 0.75, "motion": "A"}
-    write(tmp_path, [row], (*of_sweeps, NEW))
-    part = Folder(tmp_path, {}, (row,), load_scene("tethered_buoy"), read_columns(tmp_path))
-    assert shown(_motions(part, [row], None)) == ["0.75"]
+def test_a_new_column_is_in_the_motions_of_basins_with_its_error(tmp_path):
+    columns = {column.name: column for column in (*COLUMNS, NEW, ERROR)}
+    row = one_row(COLUMNS) | {NEW.name: 0.75, ERROR.name: 0.25, "motion": "A"}
+    part = Folder(tmp_path, {}, (row,), load_scene("tethered_buoy"), columns)
+    assert shown(_motions(part, [row], None)) == ["0.75\u00a0±\u00a00.25"]
+
+
+def test_a_new_column_is_in_the_table_of_runs_out_of_the_plane():
+    columns = {column.name: column for column in (*IN_SPACE, NEW)}
+    row = one_row(IN_SPACE) | {NEW.name: 0.75}
+    folder = Folder(None, {}, (row,), load_scene("tethered_buoy"), columns)
+    assert shown(_runs_tables(Study(folder, (Run(row),), dict.fromkeys(VARIED), 0))) == ["0.75"]
+
+
+def test_a_column_is_printed_where_its_declaration_says(folder, tmp_path):
+    """On the page RUNS in the table of runs, PLANE in that of loops and of space, and always on the sheet of a run."""
+    place = tmp_path / "with_column"
+    shutil.copytree(folder, place)
+    for page, runs in ((RUNS, 8), (PLANE, 2), (SHEET, 0)):  # of the eight runs two release loops
+        rows = [{**row, NEW.name: 0.25} for row in rows_in(place)]
+        write(place, rows, (*COLUMNS, Column(NEW.name, NEW.unit, NEW.symbol, NEW.meaning, 2, page)))
+        items = content_of(place)[0].items
+        assert len(shown(items)) == runs
+        assert all((NEW.symbol, "0.25 1/T") in item.facts for item in items if isinstance(item, Sheet))
+
+
+def test_a_dictionary_of_before_there_were_pages_is_read(tmp_path):
+    write_table(tmp_path / "table.csv", (NEW,), [{NEW.name: 0.75}])
+    dictionary = tmp_path / "columns.csv"
+    dictionary.write_text("".join(line.rpartition(",")[0] + "\n" for line in dictionary.read_text().splitlines()))
+    assert "page" not in dictionary.read_text() and read_columns(dictionary) == {NEW.name: NEW}
 
 
 def leaves(section, prefix=""):

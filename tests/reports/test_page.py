@@ -5,9 +5,10 @@ from itertools import pairwise
 
 import pytest
 
-from reports.parts.content import Report, Text, link, plain, spans, sub
+from reports.parts.content import Report, Text, link, plain, spans
 from reports.parts.html import render_html
 from reports.parts.pdf import render_pdf
+from tables import sub
 from tests.reports.conftest import ODD_TITLE, Page, every_kind
 
 HEADINGS = {f"h{level}": level for level in range(1, 7)}

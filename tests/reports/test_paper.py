@@ -8,12 +8,11 @@ from itertools import product
 import numpy as np
 import pytest
 
-from campaigns.columns import dictionary, names
 from campaigns.paper.dependence import COLUMNS as DEPENDENCE
 from campaigns.paper.measured import Results
 from campaigns.paper.parts import COLUMNS
 from campaigns.paper.statements import claims
-from campaigns.statements import FAILS, HOLDS_IF, write_statements
+from campaigns.statements import write_statements
 from engine import load_scene
 from reports.figures.line_panels import LinePanel, limits
 from reports.paper.index import entries, markdown, named_in
@@ -21,6 +20,7 @@ from reports.paper.report import report, short_answer
 from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
 from reports.parts.judged import read_statements
+from tables import FAILS, HOLDS_IF, dictionary, names
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
 

@@ -4,11 +4,11 @@ import pytest
 
 from analysis import read_evidence
 from campaigns import buoy_sweep, out_of_plane
-from campaigns.machinery.folder import read_rows
 from campaigns.out_of_plane.pairs import APART_M
 from reports.buoy_sweep.report import report
 from reports.buoy_sweep.tables import COMPARED
 from reports.parts.content import Sheet
+from tables import read_table
 from tests.campaigns import conftest
 
 pytestmark = pytest.mark.slow
@@ -72,8 +72,8 @@ def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_pat
     base = out_of_plane.base_of(order)
     order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case.labels), base)]
     assert out_of_plane.STUDY.conduct(order, words) == 0
-    rows = {row["run_key"]: row for row in read_rows(tmp_path / "out" / "table.csv")}
-    pairs = read_rows(tmp_path / "out" / "pairs.csv")
+    rows = {row["run_key"]: row for row in read_table(tmp_path / "out" / "table.csv")}
+    pairs = read_table(tmp_path / "out" / "pairs.csv")
     assert [pair["depth_m"] for pair in pairs] == [21.0, 21.6, 22.0]
     assert all(depth in COMPARED for depth in ("21.0", "21.6", "22.0")) and "200 wave periods" in COMPARED
     for pair in pairs:

@@ -16,7 +16,7 @@ from campaigns.machinery.folder import made_by, read_json, write_json
 from campaigns.paper.figures.chaos import running_exponents, sections
 from campaigns.paper.figures.motions import SHOWN, breaking, history, offplane_histories, spectra
 from campaigns.paper.measured import LeftOut, Parts
-from campaigns.paper.measures import LARGE, SMALL
+from tables import LARGE, SMALL
 
 LEFT_OUT = "left_out.json"
 MAKERS = ("figures", "measures.py", "measured.py")

@@ -14,9 +14,10 @@ import numpy as np
 from campaigns.figure_data import Array, Source, source
 from campaigns.machinery.folder import trajectory_path
 from campaigns.paper.measured import LeftOut, Parts, Plan
-from campaigns.paper.measures import LARGE, SMALL, strobed
+from campaigns.paper.measures import strobed
 from engine.natural_frequencies import natural_frequencies
 from engine.views import carried
+from tables import LARGE, SMALL
 
 LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one
 LATER_POINTS = 600

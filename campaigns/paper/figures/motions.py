@@ -14,8 +14,9 @@ import numpy as np
 from campaigns.breaking_line.lines import named
 from campaigns.figure_data import Array
 from campaigns.paper.measured import LeftOut, Parts, Plan
-from campaigns.paper.measures import LARGE, SMALL, WINDOW, in_window
+from campaigns.paper.measures import WINDOW, in_window
 from engine.natural_frequencies import natural_frequencies
+from tables import BODIES, LARGE, SMALL
 
 INSTANT_S = 0.010
 SHOWN = {  # what a figure shows: columns of the profiles with unit and meaning
@@ -26,7 +27,6 @@ SHOWN = {  # what a figure shows: columns of the profiles with unit and meaning
 TITLES = {"tension": "Tension", "radial": "Radial motion of the buoy", "angular": "Angular motion of the buoy"}
 TENSIONS = {"": "tension", "_low": "least tension since the last sample", "_high": "largest tension since then"}
 MOTIONS = {"radial": ("radius_m", "r/r_0", "1"), "angular": ("angle_rad", "theta", "rad")}  # column, name, unit
-DISPLACEMENT = {"buoy": "y_m", "rope": "offplane_m"}  # column of a trajectory
 WAVES = {"small": SMALL, "large": LARGE}  # in the order of the paper's key
 
 
@@ -151,7 +151,7 @@ def _offplane(runs: dict) -> dict[str, Array]:
         scene, columns, kA = trajectory.scene, trajectory.columns, f"kA = {WAVES[name]:g}"
         period_s, of_time, of_envelope = scene.waves.period_s, (f"{name}_time_s",), (f"{name}_periods",)
         arrays[of_time[0]] = (of_time, columns["time_s"], "s", "time")
-        for body, column in DISPLACEMENT.items():
+        for body, column in BODIES.items():
             size = np.abs(columns[column])
             arrays[f"{name}_{body}_m"] = (of_time, size, "m", f"distance from the plane, {body}, {kA}")
             time, largest = envelope_of(size[np.isfinite(size)], scene.sample_step_s(), period_s)

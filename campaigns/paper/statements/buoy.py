@@ -8,9 +8,8 @@ import math
 from operator import itemgetter
 
 from campaigns.explore.along import from_rest
-from campaigns.machinery.folder import Row
 from campaigns.paper.measured import STRANGE, Results
-from campaigns.paper.measures import EARLY, LARGE, SMALL, WINDOW
+from campaigns.paper.measures import EARLY, WINDOW
 from campaigns.paper.statements import judging
 from campaigns.paper.statements.judging import (
     LONG,
@@ -21,20 +20,19 @@ from campaigns.paper.statements.judging import (
     everywhere,
     exponent,
     passed,
-    value_of,
 )
-from campaigns.statements import Measured, listed, shown, told
+from campaigns.statements import Measured, shown, told
+from tables import BODIES, LARGE, SMALL, WOLF_ERROR, WOLF_EXPONENT, Row, listed, number_of
 
 EARLIEST = f"the first {EARLY[1]} periods"
 PRINTED_DIGIT = 0.05  # the paper's estimates are printed to one digit
 RESONANT = 0.1  # relative distance of a ratio of natural frequencies from 1, 2 or 3
 NEGLIGIBLE = 0.01  # share of the variance below which a coupling is negligible
-BODIES = ("buoy", "rope")
 
 
 def always_taut(results: Results) -> Measured:
     """Least top tension [N], of the whole long run and of the short ones after their transients."""
-    short = [(place, value_of(row, "tension_top_min_N")) for place, row in everywhere(results, SMALL)]
+    short = [(place, number_of(row, "tension_top_min_N")) for place, row in everywhere(results, SMALL)]
     return each([(f"kA = {SMALL:g}, {LONG}", results.number("long_tension_min_N")), *short], ".4g")
 
 
@@ -90,8 +88,8 @@ def on_estimates(results: Results) -> Measured:
 
 def exponent_to_zero(results: Results) -> Measured:
     """The exponent of the long run by two methods."""
-    row = results.buoy.get(SMALL)
-    wolf, error = value_of(row, "lyapunov_wolf_bits_per_period"), value_of(row, "lyapunov_wolf_error")
+    row = results.buoy.get(SMALL, {})
+    wolf, error = number_of(row, WOLF_EXPONENT), number_of(row, WOLF_ERROR)
     if math.isnan(wolf):
         return Measured()
     words = f"Wolf's method on r(t) {shown(wolf, '.3f')} ± {shown(error, '.3f')}; tangent dynamics {exponent(row)}"
@@ -163,7 +161,7 @@ def chaos_beyond(results: Results) -> Measured:
 
 def is_slack(row: Row) -> bool:
     """Whether the line goes slack at all."""
-    return value_of(row, "slack_fraction") > 0.0
+    return number_of(row, "slack_fraction") > 0.0
 
 
 def spans(chosen: list[bool], rows: list[Row]) -> str:
@@ -232,7 +230,7 @@ def never_repeats(results: Results) -> Measured:
     """The strobed period of the short runs; none where the motion does not repeat."""
     periods, checks = [], []
     for row in results.over_depth(LARGE):
-        period = value_of(row, "strobed_period")
+        period = number_of(row, "strobed_period")
         periods.append((at(row), period))
         checks.append((at(row), math.isnan(period)))
     return Measured(passed(*checks), told(periods, "g"))
@@ -246,7 +244,7 @@ def no_dominant_mode(results: Results) -> Measured:
         rows[LONG] = long
     checks, least, least_place = [], math.inf, ""
     for place, row in rows.items():
-        r, theta = value_of(row, "radial_line"), value_of(row, "angular_line")
+        r, theta = number_of(row, "radial_line"), number_of(row, "angular_line")
         if not math.isfinite(r):
             continue
         checks.append((place, max(r, theta)))
@@ -262,7 +260,7 @@ def no_dominant_mode(results: Results) -> Measured:
 
 def _line_in_words(name: str, side: str, row: Row) -> str:
     """The largest share of the variance of r or theta on one bin, and where the bin is."""
-    share, frequency = value_of(row, f"{side}_line"), value_of(row, f"{side}_at")
+    share, frequency = number_of(row, f"{side}_line"), number_of(row, f"{side}_at")
     return f"{name} {shown(share, '.1%')} at {shown(frequency, '.3g')} of the waves' frequency"
 
 

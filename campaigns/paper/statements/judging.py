@@ -6,16 +6,14 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from campaigns.machinery.folder import Row
 from campaigns.paper.measured import Results
-from campaigns.paper.measures import LARGE
 from campaigns.statements import Check, Measured, formula, grouped, shown
+from tables import LARGE, OPEN, TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
 
 Measure = Callable[[Results], Measured]
 Place = tuple[str, Row]  # where a run was, in words, and its row
-UNDECIDED = ("", "undecided", "transient")  # regimes that decide nothing
+UNDECIDED = ("", *OPEN)  # regimes that decide nothing
 NOT_IN_DOUBT = 2.0  # standard errors
-EXPONENT, ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 LONG = "the long run"
 
 
@@ -89,29 +87,22 @@ def passed(*checks: tuple[str, bool]) -> list[Check]:
     return [(place, float(holds)) for place, holds in checks]
 
 
-def value_of(row: Row | None, column: str) -> float:
-    """A number of a row; nan where the row, or its entry, is not there."""
-    if row is None:
-        return math.nan
-    return float(row.get(column, math.nan))
-
-
 def exponent(row: Row | None) -> str:
     """The exponent of the tangent dynamics with its error, in words."""
-    value, error = value_of(row, EXPONENT), value_of(row, ERROR)
+    value = number_of(row or {}, TANGENT_EXPONENT)
     if math.isnan(value):
         return "none"
-    return f"{shown(value, '.3f')} ± {shown(error, '.3f')}"
+    return f"{shown(value, '.3f')} ± {shown(number_of(row, TANGENT_ERROR), '.3f')}"
 
 
 def positive(row: Row) -> bool:
     """Whether that exponent is above zero beyond doubt."""
-    return value_of(row, EXPONENT) - NOT_IN_DOUBT * value_of(row, ERROR) > 0.0
+    return number_of(row, TANGENT_EXPONENT) - NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) > 0.0
 
 
 def settled(row: Row) -> bool:
     """Whether the run says if its exponent is positive: by the exponent itself, or by a regime that excludes it."""
-    below = value_of(row, EXPONENT) + NOT_IN_DOUBT * value_of(row, ERROR) < 0.0
+    below = number_of(row, TANGENT_EXPONENT) + NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) < 0.0
     return positive(row) or below or row["regime"] not in UNDECIDED
 
 

@@ -14,15 +14,6 @@ A law's file has
 `value` and `integral` are compiled (`engine.physics.tension.kernels`): numbers, `math`, no calls of other functions.
 """
 
-from functools import reduce
-from importlib import import_module
-from operator import or_
-from pkgutil import iter_modules
-from typing import Annotated, get_args
+from ..laws import laws_in
 
-from pydantic import Field
-
-LAWS = tuple(import_module(f"{__name__}.{found.name}") for found in iter_modules(__path__) if found.name != "kernels")
-# the number by which a parameter record names a law is its place in both
-NAMES = [get_args(law.Model.model_fields["law"].annotation)[0] for law in LAWS]
-TensionLaw = Annotated[reduce(or_, (law.Model for law in LAWS)), Field(discriminator="law")]
+LAWS, NAMES, TensionLaw = laws_in(__name__, __path__)

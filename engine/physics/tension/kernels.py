@@ -7,44 +7,19 @@ In the paper: eq. (20) tension law; eq. (29) slope of the tension law.
 """
 
 import math
-from functools import cache
 
-from machine_code.parts import compiled_in_parts
-
-from ...compiled import by_kind, kernel
+from ...compiled import kernel
 from ...simd.select import larger, some, where
+from ..law_choice import of_the_law
 from . import LAWS
 
-_ALL = tuple(range(len(LAWS)))
-_IN_LANES = tuple(code for code in _ALL if LAWS[code].IN_LANES)
+
+@kernel
+def _code(p):
+    return p.law
 
 
-@cache
-def _of_law(name, code):
-    return kernel(getattr(LAWS[code], name))
-
-
-def _choice(name, codes):
-    """A kernel (p, tables, eps) that calls the function `name` of the law p.law; codes: of the laws it may be."""
-    code, own = codes[0], _of_law(name, codes[0])
-    others = _choice(name, codes[1:]) if codes[1:] else None
-
-    def last(p, tables, eps):
-        return own(eps, p, tables)
-
-    def chosen(p, tables, eps):
-        if p.law == code:
-            return own(eps, p, tables)
-        return others(p, tables, eps)
-
-    function = last if others is None else chosen
-    # Numba names machine code by this: what two processes keep of two choices must not have one name
-    function.__qualname__ = "_".join([name, "of_law", *map(str, codes)])
-    return compiled_in_parts(function, None)
-
-
-_value, _integral = _choice("value", _ALL), _choice("integral", _ALL)
-law_tension = by_kind(_value, _value, _choice("value", _IN_LANES))
+law_tension, _integral = of_the_law(LAWS, "value", _code), of_the_law(LAWS, "integral", _code)
 
 
 @kernel

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from tables import number, sub
+
 from ...figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, seen
-from ...parts.content import Figure, sub
-from ...parts.wording import number
+from ...parts.content import Figure
 from .drawing import behind, value
 
 if TYPE_CHECKING:

@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tables import decimals, listed, number, sub
+
 from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import envelope, spectrum_panels
-from ...parts.content import Figure, sub
+from ...parts.content import Figure
 from ...parts.style import BLUE, GREEN, INK, VERMILION
-from ...parts.wording import L_0, OMEGA_I, T_I, T_S, TAU_0, decimals, listed, number
+from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
 from .drawing import DASHED, behind, sources_of, spans, value
 
 if TYPE_CHECKING:

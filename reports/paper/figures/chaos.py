@@ -13,12 +13,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from tables import decimals, number
+
 from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import settled
 from ...figures.offplane_history import History, lateral_histories
 from ...parts.content import Figure
 from ...parts.style import BLUE, INK, VERMILION
-from ...parts.wording import L_0, T_I, decimals, number
+from ...parts.symbols import L_0, T_I
 from .drawing import DASHED, behind, sources_of, spans, value
 
 if TYPE_CHECKING:

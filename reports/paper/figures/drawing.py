@@ -9,7 +9,9 @@ import json
 from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
-from ...parts.wording import RHO_W, decimals, number
+from tables import decimals, number
+
+from ...parts.symbols import RHO_W
 
 if TYPE_CHECKING:
     import xarray

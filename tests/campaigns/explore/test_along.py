@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from analysis.motions import Settled, joins, share_of
-from campaigns.columns import Column
 from campaigns.explore import along as module
 from campaigns.explore import ends
 from campaigns.explore.along import Along
 from campaigns.explore.proposals import kicks
 from campaigns.explore.starts import Ended, Start
+from tables import Column
 
 FOLD = 2.0 / (3.0 * math.sqrt(3.0))
 VALUES = [round(-0.6 + 0.1 * step, 1) for step in range(13)]

@@ -12,7 +12,8 @@ import pytest
 from campaigns.breaking_line.lines import CASES, over_case_4
 from campaigns.paper.measured import Results
 from campaigns.paper.statements import buoy_claims, claims
-from campaigns.statements import COLUMNS, FAILS, HOLDS, HOLDS_IF, OPEN, Claim, Measured, Statement, as_csv, judge
+from campaigns.statements import Claim, Measured, Statement, as_csv, judge
+from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS
 
 STRAINS = (0.099, 0.178, 0.228, 0.292)
 DEPTHS = (21.0, 22.5)
@@ -195,12 +196,12 @@ def judged(results):
 
 
 def test_without_results_nothing_is_decided():
-    assert {one.verdict for one in judged(Results())} == {OPEN}
+    assert {one.verdict for one in judged(Results())} == {NOT_JUDGED}
 
 
 def test_a_quick_look_judges_nothing_of_the_buoy_and_says_why():
     told = [judge(quick, world()) for quick, claim in zip(claims(True), claims(), strict=True) if quick != claim]
-    assert len(told) > 30 and all(one.verdict == OPEN and "not judged, because" in one.found for one in told)
+    assert len(told) > 30 and all(one.verdict == NOT_JUDGED and "not judged, because" in one.found for one in told)
 
 
 def claim_of(*checks):
@@ -214,8 +215,8 @@ def claim_of(*checks):
         ((("a", 1.0), ("b", -2.0)), HOLDS_IF),
         ((("a", -1.0), ("b", -2.0)), FAILS),
         ((("a", 1.0), ("b", math.nan)), HOLDS),
-        ((("b", math.nan),), OPEN),
-        ((), OPEN),
+        ((("b", math.nan),), NOT_JUDGED),
+        ((), NOT_JUDGED),
     ],
 )
 def test_a_verdict_is_that_of_all_checks_and_no_number_decides_nothing(checks, verdict):
@@ -252,11 +253,11 @@ def test_at_the_shipped_depth_the_long_run_counts():
 
 def test_a_regime_that_is_open_decides_nothing():
     open_ones = tuple(deep(0.016, H, regime=regime) for H, regime in ((21.0, "transient"), (22.5, "")))
-    assert judge(buoy_claims()["regular"], world(dependence=open_ones, buoy={})).verdict == OPEN
+    assert judge(buoy_claims()["regular"], world(dependence=open_ones, buoy={})).verdict == NOT_JUDGED
 
 
 def test_the_file_has_every_statement_with_number_and_evidence():
     rows = list(csv.DictReader(io.StringIO(as_csv(judged(world())).decode())))
-    assert len(rows) == len(claims()) == 81 and tuple(rows[0]) == COLUMNS
+    assert len(rows) == len(claims()) == 81 and tuple(rows[0]) == STATEMENT_COLUMNS
     assert [int(row["number"]) for row in rows] == list(range(1, len(rows) + 1))
     assert all(row["place"] and row["evidence"] and row["threshold"] and row["found"] for row in rows)

@@ -1,7 +1,7 @@
 """Eqs. (36), (37) and (40) of appendix A, and (6), as printed, against the equations that they abbreviate.
 
 The print is copied from the scan, in the paper's letters, keyed by row; (34), (35), (38) and (39) are missing there.
-Where it is wrong is told by CORRECTIONS and `docs/appendix_a.md`. States are random, with any |beta|: entries that
+Where it is wrong is told by CORRECTIONS and `THEORY.md`. States are random, with any |beta|: entries that
 agree there are the same polynomials. That the engine solves these equations is the law of `test_newton_update`.
 """
 
@@ -77,7 +77,7 @@ def C_6(y):
     ]
 
 
-# what has to be added to printed rows: docs/appendix_a.md
+# what has to be added to printed rows: THEORY.md#17-misprints-of-the-paper
 CORRECTIONS = {
     1: lambda y: (y.S_b - y.S_n) * y.O3 / y.df,
     2: lambda y: y.R * y.A_n,

@@ -2,8 +2,7 @@
 From the outside it is an ordinary trajectory, or a fault of the scene; where it fails it stops and says why.
 
 At kA = 0.016 their difference falls as h^2 and dt^2 together, to micrometres. That takes true accelerations in
-Morison's force; the component rates of the print move the buoy by less than 1 um here. Held, moved, released and free
-ends: in their place, and on the way of the conservation form.
+Morison's force. Held, moved, released and free ends: in their place, and on the way of the conservation form.
 """
 
 import math
@@ -11,14 +10,9 @@ import math
 import numpy as np
 import pytest
 
-from engine import SceneError, load_scene, simulate, simulate_batch
+from engine import load_scene, simulate
 from engine.paper_box.driver import run as run_boxed
-from engine.paper_box.line import line_of
-from engine.paper_box.nodal import positions
-from engine.paper_box.start import lifted
-from tests.engine.lines import held, line, linear, orders, ran
-from tests.engine.time.test_manufactured_solution import motion as motion_of
-from tests.engine.time.test_manufactured_solution import scene_of
+from tests.engine.lines import held, line, linear, orders
 
 END_S = 1.5
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
@@ -46,26 +40,6 @@ def places(found):
     return np.stack([getattr(found.profiles, f"{axis}_m") for axis in "xyz"])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("stretching", [0.0, 1.0])
-def test_in_space_towards_a_motion_that_was_chosen_first(stretching):
-    errors = []  # per grid: position (m) and strain, at rest and in motion
-    for nodes in (11, 21, 41):
-        scene = scene_of(END_S, True, nodes, 1 / 64, stretching, scheme="paper-box", newton_tolerance=1e-7)
-        run, found = ran(scene, duration_s=END_S), []
-        for t, sample in ((0.0, 0), (END_S, -1)):
-            exact = motion_of(t, run.profiles.s_m / 20.0, True)[0]
-            x, _, z = exact["X"].T
-            found.append(np.hypot(run.profiles.x_m[sample] - x, run.profiles.z_m[sample] - z).max())
-            found.append(np.abs(run.profiles.strain[sample] - np.linalg.norm(exact["q"], axis=1) + 1).max())
-        errors.append([*found, run.statistics["closure_m"], run.statistics["euler_norm_error"]])
-    errors = np.array(errors)
-    assert errors[0, [0, 2]].max() < 0.03
-    assert np.all(np.abs(orders(errors[:, :4]) - 2) < 0.1), errors
-    # so do, from the coarsest to the finest, what the form does not keep: the length of a bent line, and |beta|
-    assert np.all(np.abs(orders(errors[::2, 4:]) / 2 - 2) < 0.1), errors
-
-
 def calm(nodes, step_s, accelerations=False):
     """Places (3, samples) of the buoy in calm waves."""
     return places(run_of(nodes, step_s, CALM, duration_s=5.0, accelerations=accelerations))[:, :, -1]
@@ -77,10 +51,6 @@ def test_the_difference_from_the_conservation_form_falls_at_order_two():
     errors = np.array([np.abs(calm(*grid, True) - limit).max(1)[[0, 2]] for grid in grids])
     assert np.all(np.abs(orders(errors) - 2) < 0.1), errors
     assert errors[0].max() < 1.2e-3 and errors[-1].max() < 2e-5
-
-
-def test_component_rates_matter_little():
-    assert 1e-9 < np.abs(calm(11, 0.05, True) - calm(11, 0.05)).max() < 1e-6
 
 
 @pytest.mark.slow
@@ -144,46 +114,6 @@ def test_progress_is_told_and_every_sample_is_there():
     found = run_boxed(small(**{"output.profiles": True, "solver.step_s": 0.0125}), 2.0, told.append)
     assert len(found.columns["time_s"]) == 41 and found.profiles.strain.shape == (41, 7)
     assert told == sorted(told) and 0 < told[-1] <= 1
-
-
-def test_samples_between_steps():
-    """Steps that do not divide the samples: interpolated, to the error of the steps."""
-    even = simulate(small(**{"output.step_s": 0.1}), duration_s=2.0)
-    odd = simulate(small(**{"output.step_s": 0.1, "solver.step_s": 0.03}), duration_s=2.0)
-    assert np.array_equal(even.columns["time_s"], odd.columns["time_s"])
-    assert np.abs(even.columns["radius_m"] - odd.columns["radius_m"]).max() < 2e-3
-
-
-def test_a_batch_may_mix_schemes():
-    scenes = [small(), small(**{"solver.scheme": "conservation"})]
-    boxed, conserved = simulate_batch(scenes, duration_s=1.0)
-    assert "closure_m" in boxed.statistics and "closure_m" not in conserved.statistics
-    assert np.abs(boxed.columns["radius_m"] - conserved.columns["radius_m"]).max() < 1e-3
-
-
-def test_a_tether_without_bending_is_refused():
-    with pytest.raises(SceneError, match=r"tether\.bending_stiffness_Nm2"):
-        small(**{"tether.bending_stiffness_Nm2": 0.0})
-
-
-def test_nothing_twists_a_line_with_torque_free_ends():
-    """Omega_1 = 0 in space: with the torsion of a rigid rod the motion is the same."""
-    aside = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.4, 0.3, -0.1], "solver.newton_tolerance": 1e-10}
-    soft, stiff = (
-        simulate(small(**aside, **{"tether.torsion_stiffness_Nm2": GIp}), duration_s=2.5) for GIp in (0.0, 40.0)
-    )
-    assert soft.status == stiff.status == "ok" and np.ptp(soft.columns["y_m"]) > 0.1
-    for name in ("x_m", "y_m", "z_m", "tension_top_N"):
-        assert np.abs(soft.columns[name] - stiff.columns[name]).max() < 1e-8 * np.abs(soft.columns[name]).max()
-
-
-def test_a_planar_equilibrium_is_turned_to_any_azimuth():
-    scene = small(**{"motion.dimensions": 3, "current": {"law": "uniform", "velocity_mps": [1.0, 0.0, 0.0]}})
-    line, leaning = line_of(scene), np.zeros((scene.tether.nodes, 6))
-    leaning[:, 4] = np.linspace(1.4, 0.3, len(leaning))
-    up, along, _ = positions(line, lifted(leaning))
-    assert np.ptp(along) > 5.0
-    assert np.allclose(positions(line, lifted(leaning, 2.0)), [up, along * np.cos(2.0), along * np.sin(2.0)])
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from engine.physics.energy import VISCOUS
+from engine.time.energy import VISCOUS
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, SPACE, line
 

@@ -153,17 +153,6 @@ def test_in_a_plane_it_is_that_of_the_plane(name, in_motion):
     assert e[1] == 0 and D[0, 1] == D[1, 2] == 0
 
 
-@pytest.mark.parametrize("in_motion", [1.0, 0.0])
-@pytest.mark.parametrize("name", ENDS)
-def test_the_derivatives_are_those_of_the_condition(name, in_motion):
-    _, e_N, D = condition(ENDS[name], N, V, V_TILDE, WATER, in_motion)
-    for j, d in enumerate(1e-4 * np.eye(3)):
-        ahead, behind = (condition(ENDS[name], N, V + step, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
-        assert (ahead - behind) / 2e-4 == pytest.approx(D[:, j], rel=1e-7, abs=1e-5)
-        ahead, behind = (condition(ENDS[name], N + step, V, V_TILDE, WATER, in_motion)[0] for step in (d, -d))
-        assert (ahead - behind) / 2e-4 == pytest.approx(e_N * d / 1e-4, abs=1e-7)
-
-
 def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():
     clamped = {"anchor.rotation": "clamped"}
     upwards = parameters_of(line(SPACE, clamped))[0]

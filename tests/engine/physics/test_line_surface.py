@@ -10,7 +10,7 @@ import pytest
 
 from engine import simulate
 from engine.physics.extras import surface_load, wetting
-from engine.scales import tension_at
+from engine.physics.strains import tension_at
 from engine.scene import build_scene
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, STILL, equilibrium, held, line

@@ -3,7 +3,7 @@ the line of section 4.1 without gravity, on an even grid.
 
 Order of the L1 error of strain, in the mean over the second half of the way (the error at one time swings with the
 place of the shock in its element): one with a shock, two where the wave stays smooth. A force that falls in 5 ms makes
-edges that are nearly kinks: the order is then between (docs/breaking_line.md). Bounds: overshoot 1 %, half
+edges that are nearly kinks: the order is then between (docs/results.md#the-breaking-line). Bounds: overshoot 1 %, half
 an element at 401 nodes, end speeds 0.3 %, fronts 1 %.
 """
 

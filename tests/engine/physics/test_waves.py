@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from engine import goes_in_lanes, simulate
+from engine import goes_in_lanes
 from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
 from engine.physics.waves import wave_number
 from engine.scene.values import LARGEST, SMALLEST
@@ -182,10 +182,3 @@ def test_a_regular_wave_is_no_sea():
     plain, many = sea_of("one"), sea_of("two")
     assert (parameters_of(plain)[0]["sea_n"], parameters_of(many)[0]["sea_n"]) == (0, 2)
     assert goes_in_lanes(plain) and not goes_in_lanes(many)
-
-
-@pytest.mark.slow
-def test_a_jonswap_sea_moves_the_buoy_and_repeats_itself_bit_for_bit():
-    first, again = (simulate(jonswap(significant_height_m=0.5, seed=1), periods=10) for _ in range(2))
-    assert first.status == "ok" and np.ptp(first.columns["radius_m"]) > 0.05
-    assert np.array_equal(first.columns["radius_m"], again.columns["radius_m"])

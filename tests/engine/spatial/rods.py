@@ -4,15 +4,10 @@ A rod here is a dry, weightless line of `length` m under a linear law, clamped a
 """
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
-from engine.parameters import grid
-from engine.time.statics import settle
-from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, SPACE, equilibrium, held, line, linear
-from tests.engine.rotations import carried, parameters_of_frames
 
 DENSITY, AREA = 1140.0, 7.85e-5
 
@@ -40,27 +35,10 @@ class Rod:
         )  # fmt: skip
 
 
-def at_rest(rod, nodes, guess=None):
-    """State of rest (n, 13) of the engine, and element lengths; from the engine's own guess, or a function of s."""
-    scene = rod.scene(nodes)
-    if guess is None:
-        motion = equilibrium(scene)
-        return motion.Y.copy(), motion.h
-    h = grid(rod.length, nodes, 0.0)
-    Y = guess(np.concatenate([[0.0], np.cumsum(h)]))
-    assert settle(*parameters_of(scene), Y, np.array(rod.place)) == 0, "no rest"
-    return Y, h
-
-
-def state_of(rod, s, t, n, M, N):
-    """State (n, 13) of tangents, normals, moments (n, 3) and a force (3,): a guess, exact where they are."""
-    b = np.cross(t, n)
-    Y = np.zeros((len(s), 13))
-    Y[:, 0], Y[:, 1], Y[:, 2] = t @ N / rod.EA, n @ N, b @ N
-    Y[:, 6:10] = parameters_of_frames(t, n)
-    for column, (axis, stiffness) in enumerate(((t, rod.GI), (n, rod.EI), (b, rod.EI))):
-        Y[:, 10 + column] = np.sum(M * axis, 1) / stiffness
-    return Y
+def at_rest(rod, nodes):
+    """State of rest (n, 13) of the engine, and element lengths."""
+    motion = equilibrium(rod.scene(nodes))
+    return motion.Y.copy(), motion.h
 
 
 @dataclass(frozen=True)
@@ -85,10 +63,6 @@ class Localised:
         """D: what the ends come closer, m, extension left out."""
         return 4 * np.sqrt(self.EI / self.T) * np.sqrt(1 - self.m**2)
 
-    def rotation(self, length):
-        """R: what the ends are turned against each other, rad."""
-        return self.torque * length / self.GI + 4 * np.arccos(self.m)
-
     @property
     def deflection(self):
         """Largest distance from the axis, m: half the shortening."""
@@ -98,18 +72,3 @@ class Localised:
         """theta and psi at s from the middle."""
         k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
         return 2 * np.arcsin(a / np.cosh(k * a * s)), m * k * s + np.arctan(a / m * np.tanh(k * a * s))
-
-    def rod(self, length, EA):
-        """The clamped rod of this length along x whose ends are placed as this solution has them."""
-        reach = (length - self.shortening) * (1 + self.T / EA)
-        return Rod(self.EI, self.GI, EA, length, (reach, 0.0, 0.0), self.rotation(length))
-
-    def state(self, rod, s):
-        """State (n, 13) along a rod: the moment M t + EI t x t_s, and n without roll, from node to node."""
-        theta, psi = self.angles(s - 0.5 * rod.length)
-        t = np.stack([np.cos(theta), np.sin(theta) * np.cos(psi), np.sin(theta) * np.sin(psi)], 1)
-        n = [np.cross([0.0, 0.0, 1.0], t[0]) / np.hypot(*t[0, :2])]
-        for below, above in pairwise(t):
-            n.append(carried(below, above, n[-1]))
-        M = self.torque * t + self.EI * np.cross(t, np.gradient(t, s, axis=0))
-        return state_of(rod, s, t, np.array(n), M, np.array([self.T, 0.0, 0.0]))

@@ -23,8 +23,8 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from engine import load_scene, simulate
+from tests.engine.box_equations import water_on_line, wet_weight
 from tests.engine.lines import DRY, STILL, held, line, linear, ran
-from tests.engine.planar.test_tether_in_current import slope
 
 LENGTH, G = 1.022, 9.81
 TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5], [1.5, -1.0, 0.5], [0.5, 0.0, 0.0]])
@@ -103,6 +103,17 @@ def test_a_tight_fold_falls_as_its_energy_says():
     for x in (0.2, 0.4, 0.6, 0.8, 0.88):
         assert np.interp(x, -z[t > 0], t[t > 0]) == pytest.approx(time_of(x), rel=2e-3)
         assert time_of(x) < np.sqrt(2 * x / G)
+
+
+def slope(s, y, scene):
+    """d/ds of (N, X) of a line at rest without bending, in a current by heights."""
+    T = np.linalg.norm(y[:3])
+    t, stretch = y[:3] / T, 1 + T / scene.tether.tension.stiffness_N
+    heights, velocities = scene.current.height_m, np.transpose(scene.current.velocity_mps)
+    current = np.array([np.interp(y[5], heights, part) for part in velocities])
+    still = np.zeros((1, 3))
+    drag, _ = water_on_line(scene, np.array([[stretch]]), t[None], -current[None], still, still)
+    return [*(wet_weight(scene) - drag[0]), *(stretch * t)]
 
 
 def hanging_free(scene):

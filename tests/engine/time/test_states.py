@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from engine import Trajectory, __main__, load_scene, simulate, simulate_each
-from engine.final_state import NONE
-from engine.going_on import between, taken_over
 from engine.planar import columns as col
+from engine.run.going_on import between
+from engine.run.start import taken_over
 from engine.spatial import lift
+from engine.trajectory.final_state import NONE
 
 SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5, "solver.rtol": 1e-3}
 SLACK = {"tether.nodes": 21, "waves.steepness": 0.13, "water.depth_m": 21.0}  # folded after 12.6 periods
@@ -101,16 +102,15 @@ def test_between_two_states(dimensions):
         released[4:, col.PHI] += 2 * np.pi
     else:
         released[4:, lift.BETA] *= -1.0
-    for one in (b, replace(b, Y=released)):
+    for end in (b, replace(b, Y=released)):
         for share in (0.0, 0.25, 1.0):
-            found = between(a, one, share)
-            for name, tolerance in (("C", 1e-9), ("K", 1e-9)):
-                ends = getattr(a, name), getattr(b, name)
-                if share in (0.0, 1.0):
-                    assert getattr(found, name) == pytest.approx(ends[int(share)], abs=tolerance)
-            strains = [np.linalg.norm(state.C[:, :dimensions], axis=1) for state in (a, b, found)]
-            assert strains[2] == pytest.approx((1 - share) * strains[0] + share * strains[1])
-            assert simulate(a.scene, periods=0.2, start=found).status == "ok"
+            state = between(a, end, share)
+            if share in (0.0, 1.0):
+                exact = (a, b)[int(share)]
+                assert state.C == pytest.approx(exact.C, abs=1e-9) and state.K == pytest.approx(exact.K, abs=1e-9)
+            first, second, mixed = (np.linalg.norm(each.C[:, :dimensions], axis=1) for each in (a, b, state))
+            assert mixed == pytest.approx((1 - share) * first + share * second)
+            assert simulate(a.scene, periods=0.2, start=state).status == "ok"
     with pytest.raises(ValueError, match="of one time"):
         between(a, b.at_zero(), 0.5)
     with pytest.raises(ValueError, match="one grid"):

@@ -1,0 +1,187 @@
+"""Runs that advance together: which share a batch, the arrays of up to COUNT lanes, how a run is put into one and taken
+out; a lane whose run has ended gets the next run that waits."""
+
+import time
+from collections import namedtuple
+
+import numpy as np
+
+from ..lanes.follow import Followers, lane_work
+from ..lanes.ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, Trails, advance
+from ..parameters import record_of
+from ..parameters.cover import goes_in_lanes
+from ..perturbations.exponents import STEPS
+from ..planar import columns as col
+from ..planar.state import conserved
+from ..record import SAMPLE_WIDTH, STATE
+from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
+from . import Run
+
+LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one run alone, and less than two
+TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
+# of the whole numbers these decide nothing within the vectors
+OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
+
+
+def kind_of(scene):
+    """What scenes must have in common to share a batch: all whole numbers that kernels branch on or count to. None
+    for a scene that goes alone.
+    """
+    if not goes_in_lanes(scene):
+        return None
+    tables = []
+    record = record_of(scene, tables)[0]
+    carried = scene.output.tangent_vectors, scene.output.lateral_growth
+    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables), *carried)
+
+
+class Machine:
+    """COUNT lanes for runs of one kind."""
+
+    def __init__(self, run):
+        n, s = int(run.record["nodes"]), max(int(run.record["stages"]), 2)
+        self.runs = [None] * COUNT
+        self.records, self.states = np.zeros(COUNT, run.record.dtype), np.zeros(COUNT, STATE)
+        self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
+        self.tables = np.zeros((COUNT, run.tables.size))
+        self.samples = np.zeros((COUNT, len(run.output.samples), SAMPLE_WIDTH))
+        self.counts = np.array([run.record[name] for name in WHOLE])
+        self.arrays = Arrays(
+            values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
+            a=lane_zeros(s), w=lane_zeros(3), Y=lane_zeros(n, 6), now=lane_zeros(n, 6), before=lane_zeros(n, 6),
+            C=lane_zeros(n, 4), Ks=lane_zeros(s, n, 4), history=lane_zeros(3, n, 6),
+            C_new=lane_zeros(n, 4), K_new=lane_zeros(n, 4),
+        )  # fmt: skip
+        self.work = lane_work(n, col.BOX_WIDTH)
+        room = STEPS if run.trail.followed else 0
+        self.followers = Followers(run) if run.trail.followed else None
+        self.trail = Trails(np.zeros((COUNT, room, 3)), lane_zeros(COUNT * room * (s - 1), n), lane_zeros(n, 8))
+        for b in range(COUNT):
+            self._fill(b, run)
+
+    def _fill(self, b, run):
+        """Parameters and state of a run into a lane."""
+        lane, motion = self.arrays, run.motion
+        self.records[b], self.states[b] = run.record, run.state
+        self.tables[b] = lane.tables[:, b] = run.tables
+        lane.values[:, b] = [run.record[name] for name in REAL]
+        lane.Y[..., b], lane.now[..., b], lane.before[..., b] = motion.Y, motion.Y, motion.Y_before
+        lane.C[..., b] = motion.C
+        lane.Ks[..., b] = 0.0
+        lane.Ks[0, ..., b] = motion.K
+        lane.numbers[RATE, b] = lane.numbers[STEP, b] = 1.0
+        self.work.Q[:, col.TURN, b] = 0.0
+
+    def load(self, b, run):
+        """Put a run into a lane that is free."""
+        if run.state["steps"] == 0:
+            conserved(run.record, run.motion.Y, run.motion.C)
+        self._fill(b, run)
+        self.runs[b] = run
+        rows = len(run.output.samples)
+        if rows > self.samples.shape[1]:
+            longer = np.zeros((COUNT, rows, SAMPLE_WIDTH))
+            longer[:, : self.samples.shape[1]] = self.samples
+            self.samples = longer
+        self.samples[b, :rows] = run.output.samples
+        if self.followers is not None:
+            self.followers.load(b, run)
+        self.spent[b] = 0
+        self.lanes[b] = 0
+        self.lanes[b]["goal"] = run.goal
+        self._let_go(b)
+
+    def _let_go(self, b):
+        """The lane begins its next trial."""
+        self.lanes[b]["active"] = GOING
+        self.arrays.numbers[MOVED, b] = self.arrays.numbers[RESTARTED, b] = 1.0
+
+    def unload(self, b):
+        """Take the run of a lane out, wherever it is."""
+        run, self.runs[b] = self.runs[b], None
+        for name in STATE.names:
+            run.state[name] = self.states[b][name]
+        lane = self.arrays
+        for part, values in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
+            part[:] = values[..., b]
+        rows = len(run.output.samples)
+        run.output.samples[:] = self.samples[b, :rows]
+        if self.followers is not None:
+            self.followers.unload(b, run)
+        return run
+
+    def compile(self):
+        """Compile what `advance` needs, or load it compiled, outside the time of any run."""
+        self.advance(0)
+        if self.followers is not None:
+            self._follow([])
+
+    def advance(self, ticks=TICKS):
+        """Make ticks until a run ends; returns the lanes whose runs have ended."""
+        started = time.perf_counter()
+        advance(
+            ticks, self.records, self.tables, self.states, self.lanes, self.spent, self.samples, self.trail,
+            self.counts, self.arrays, self.work,
+        )  # fmt: skip
+        taken = [b for b, run in enumerate(self.runs) if run is not None]
+        ended = [b for b in taken if self.lanes[b]["active"] == ENDED]
+        if self.followers is not None and (ended or (self.lanes["active"] == WAITING).any()):
+            self._follow(taken)
+        for b in taken:
+            self.runs[b].wall_s += (time.perf_counter() - started) / len(taken)
+        return ended
+
+    def _follow(self, taken):
+        """Carry the perturbations of all lanes through their trails, and empty these."""
+        trails = np.zeros(COUNT, np.int64)
+        for b in taken:
+            trails[b] = self.states[b]["trail"]
+            self.runs[b].trail.mark(self.trail.T[b, : trails[b]])
+        self.followers.follow(self.records, self.tables, self.trail, trails, self.counts, self.arrays)
+        for b in taken:  # the step that a lane is in the middle of begins the next trail
+            if trails[b] < self.trail.T.shape[1]:
+                steps = self.trail.rows.reshape(*self.trail.T.shape[:2], -1)[b]
+                steps[0] = steps[trails[b]]
+            if self.lanes[b]["active"] == WAITING:
+                self._let_go(b)
+        self.states["trail"] = 0
+
+
+# A run that waits: its number, Scene, length (s) and FinalState to go on from, or None
+Request = namedtuple("Request", "number scene duration_s start")
+
+
+def run_through(waiting, progress):
+    """Run Requests, all of one kind, side by side; yields (Request, Trajectory) as they end, in no order.
+
+    waiting: deque, to which runs of the same kind may be added meanwhile. It is left with what too few would share.
+    progress: callable(seconds simulated of the runs that have not ended), called now and then.
+    """
+    machine, requests = None, [None] * COUNT
+    while True:
+        going = 0 if machine is None else sum(run is not None for run in machine.runs)
+        for b in range(COUNT):
+            while waiting and (machine is None or machine.runs[b] is None) and going + len(waiting) >= LEAST:
+                request = waiting.popleft()
+                run = Run(request.scene, request.duration_s, request.start)
+                if run.done():  # no equilibrium to start from
+                    yield request, run.trajectory()
+                    continue
+                if machine is None:
+                    machine = Machine(run)
+                    machine.compile()
+                machine.load(b, run)
+                requests[b] = request
+                going += 1
+        if going == 0:
+            return
+        for b in machine.advance():
+            run = machine.unload(b)
+            yield requests[b], run.trajectory()
+        progress(
+            sum(
+                float(state["samples"]) / run.goal * request.duration_s
+                for state, run, request in zip(machine.states, machine.runs, requests, strict=True)
+                if run is not None
+            )
+        )

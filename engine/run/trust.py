@@ -1,0 +1,162 @@
+"""How far the tensions of a finished run hold: sentences for its message, each of one cause."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..parameters.limits import longest_step
+from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_beyond
+from ..physics.strains import tension_at
+from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
+from ..scene.models import Scene
+from ..time.folds import words_of_folds
+from ..time.ringing import HEARD
+from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
+from .rest import rest_of
+
+if TYPE_CHECKING:
+    from . import Run
+
+NOTED = 0.05  # share of the largest tension: a smaller error is not told
+BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
+FINER = 4  # times the elements, of the line at rest with which a bent one is compared
+
+
+def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
+    """What the user has to know of a run that came to its end, before using its numbers; empty where there is nothing.
+
+    columns: of its trajectory.
+    """
+    record, scene = run.record, run.scene
+    doubts = [
+        _coarse_at_rest(run),
+        _steps_too_long(run, columns),
+        blows(record, scene, columns),
+        unresolved(record, run.tables, scene, columns),
+        _waves_on_element(run),
+        _out_at_rest(run),
+    ]
+    if record["end"] == HELD:
+        doubts.append(words_of_folds(scene, run.state, columns))
+    return "; ".join(filter(None, doubts))
+
+
+def _coarse_at_rest(run: "Run") -> str:
+    """Says that a line which is bent at rest has another tension at the top on a finer grid, or nothing."""
+    if run.rest is None or run.rest.turn < BENT:
+        return ""
+    tether = run.scene.tether
+    nodes = FINER * (tether.nodes - 1) + 1
+    finer = rest_of(run.scene.model_copy(update={"tether": tether.model_copy(update={"nodes": nodes})}))
+    top_N = run.rest.top_N
+    if finer.status != OK or abs(top_N - finer.top_N) <= NOTED * max(abs(top_N), abs(finer.top_N)):
+        return ""
+    return (
+        f"at rest the top bears {top_N:.4g} N on this grid and {finer.top_N:.4g} N on {nodes} nodes: add tether.nodes"
+    )
+
+
+def _steps_too_long(run: "Run", columns: dict[str, np.ndarray]) -> str:
+    """Says what steps twice as long do to the largest tension, of one-stage methods in steps of one length."""
+    solver = run.scene.solver
+    if run.record["method"] != ONE_STAGE or solver.courant is not None:
+        return ""
+    twice = solver.model_copy(update={"step_s": 2 * float(run.record["fixed_step"])})
+    longer = type(run)(run.scene.model_copy(update={"solver": twice}), run.duration_s, run.started)
+    longer.advance(longer.goal)
+    largest_N = float(columns["tension_top_high_N"].max())
+    other_N = float(longer.output.samples[: longer.goal, TOP_HIGH].max())
+    error_N = abs(other_N - largest_N) / (1 if solver.integrator == "backward-euler" else 3)  # 2^order - 1
+    if longer.state["status"] != OK or error_N <= NOTED * abs(largest_N):
+        return ""
+    return (
+        f"the largest tension, {largest_N:.4g} N, holds to {error_N:.2g} N, because it is {other_N:.4g} N in steps "
+        "twice as long: shorten solver.step_s"
+    )
+
+
+def _waves_on_element(run: "Run") -> str:
+    """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
+    record = run.record
+    length, top_m = float(lengths_of(record, run.tables)[-1]), run.output.samples[:1, AT_Z].sum()
+    top_m += run.scene.anchor.position_m[2]
+    force_N = wave_beyond(record, length, float(top_m))
+    if force_N <= HEARD * tension_at(1.0 / record["per_strain"], run.scene.tether.tension):
+        return ""
+    return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
+
+
+def _out_at_rest(run: "Run") -> str:
+    """Says that a buoy without a cap began at rest more than half out of still water, or nothing."""
+    record, scene = run.record, run.scene
+    moved = run.started is not None or any(scene.start.buoy_displacement_m)
+    if scene.buoy is None or not record["wet"] or record["spherical_cap"] or moved:
+        return ""
+    height_m = scene.anchor.position_m[2] + run.output.samples[0, AT_Z] - scene.water.depth_m
+    return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
+
+
+def errors_of_ringing(record: np.void, scene: Scene, time_s: np.ndarray, lost_N: np.ndarray) -> np.ndarray:
+    """Error (N) of the tension at each sample, from ringing that was lost until then.
+
+    What was lost would ring on until drag has taken it away, a' = -beta a^2, 1/a = 1/a_0 + beta (t - t_0): of a mass M
+    on the line, and of the line itself, beta = 4 C/(3 pi omega M^2), C |v| v the drag.
+    """
+    length = scene.tether.length_m
+    moved = float(record["inertia"]) / length
+    line = (moved - float(record["M_total"])) / float(record["m"])  # length that moves as its end does
+    drag = float(record["C_buoy"]) + float(record["ct"]) * line
+    omega = 2 * math.pi / ringing_period(record, scene)
+    beta = 4 * drag / (3 * math.pi * omega * moved**2)
+    with np.errstate(divide="ignore"):
+        return 1 / (beta * time_s + np.minimum.accumulate(1 / lost_N - beta * time_s))
+
+
+def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[str, np.ndarray]) -> str:
+    """Says how far the largest tension holds where ringing was lost, and other and later ones; at most to itself."""
+    time_s, high, lost_N = columns["time_s"], columns["tension_top_high_N"], columns["unresolved_N"]
+    if not lost_N.any():
+        return ""
+    peak, largest_N = int(high.argmax()), float(np.abs(high).max())
+    errors = errors_of_ringing(record, scene, time_s, lost_N)
+    errors[:-1] = np.maximum(errors[:-1], errors[1:])  # what a step lost is booked with the sample after it
+    errors = np.minimum(errors, largest_N)
+    worst, large = int(errors.argmax()), np.flatnonzero(errors > NOTED * largest_N)
+    if not len(large):
+        return ""
+    key, step_s = longest_step(scene)
+    if record["adaptive"]:
+        key = "solver.shortest_period_s or solver.max_step_s"
+    cause = f"axial ringing of period {ringing_period(record, scene):.2g} s is"
+    if record["all_waves"]:
+        cause = f"axial waves on elements of {lengths_of(record, tables)[-1]:.2g} m are"
+    holds = f"the largest tension, {high[peak]:.4g} N at t = {time_s[peak]:.4g} s, holds to {errors[peak]:.2g} N"
+    if errors[worst] > 1.1 * errors[peak]:
+        holds += f", others to {errors[worst]:.2g} N (t = {time_s[worst]:.4g} s)"
+    settled = large[-1] + 1
+    if settled < len(errors):
+        holds += f", from t = {time_s[settled]:.4g} s on to {errors[settled:].max():.2g} N"
+    return f"{cause} not resolved by steps of up to {step_s:.2g} s: {holds}; lower {key}"
+
+
+def blows(record: np.void, scene: Scene, columns: dict[str, np.ndarray]) -> str:
+    """Says where a held end is set in motion or stopped at once, if that makes the largest force.
+
+    A jump of velocity v sends out a wave of the force v sqrt(m T'). Spread over longer than a wave takes along the line
+    and back it makes less, because what comes back takes it away. It is told where it makes most of what the largest
+    force, of either sign, is above that at rest: until the wave has come back twice.
+    """
+    wave_mps, jumps = fastest_wave(record, scene), []
+    back_s, sample_s = 2 * scene.tether.length_m / wave_mps, float(record["output_step"])
+    high = columns["tension_top_high_N"]
+    forces = np.maximum(high, -columns["tension_top_low_N"])
+    largest_s, rise_N = columns["time_s"][forces.argmax()], forces.max() - abs(high[0])
+    for t, speed, spread_s in jumps_of(scene.end):
+        force_N = float(record["m"]) * wave_mps * speed * min(1.0, back_s / max(spread_s, 1e-300))
+        soon = t - spread_s <= largest_s <= t + spread_s + 2 * back_s + sample_s
+        if soon and 0 < rise_N < 2 * force_N and force_N > NOTED * forces.max():
+            jumps.append(f"by {speed:.2g} m/s at t = {t:.4g} s (about {force_N:.2g} N)")
+    if not jumps:
+        return ""
+    return f"the velocity of end.motion jumps {' and '.join(jumps)}, a blow on the line: let it begin and end at rest"

@@ -1,0 +1,70 @@
+"""Where a run left what its laws are made for, in words: a whole sphere in the air, a line below the bed.
+
+A sphere counts as in the air where its lowest point is above the linear wave: its top is then more than a diameter
+above the water, and nothing of its constant buoyancy, eq. (30), is there. Less than that is a part of it.
+"""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from ..scene.models import Scene
+
+AIR = (
+    "the sphere was in the air for {share:.2g} % of the time from t = {first:.5g} to {last:.5g} s, its lowest point up "
+    "to {most:.2g} m above the water, and kept its whole buoyancy there (buoy.submergence = 'full'): "
+)
+CAP = "'spherical-cap' loads what is below the wave"
+NO_CAP = (
+    "loads of an irregular sea hold where it stays in the water; waves.above_still_water = 'zero' adds none up there"
+)
+BED = (
+    "the line was up to {most:.2g} m below the bed (first at t = {first:.5g} s), because the scene has no floor: "
+    "floor.stiffness_Npm3 = 1e5 adds one"
+)
+
+
+def with_excursions(own_message: str, scene: Scene, columns: Mapping[str, np.ndarray], status: str) -> tuple[str, str]:
+    """The message of a run, and the part of it that tells where the run left the water or went below the bed.
+
+    own_message: what the engine says of the run, "event" or "event: advice". A run that failed with its sphere in the
+    air says so in place of advice on steps, because such advice helps nowhere there.
+    """
+    excursions = "; ".join(excursions_of(scene, columns))
+    if not excursions:
+        return own_message, ""
+    if status != "ok" and height_above_wave(scene, columns)[-1] > 0.0:
+        event = own_message.rpartition(": ")[0] or own_message
+        return f"{event}: {excursions}", excursions
+    return "; ".join(filter(None, (own_message, excursions))), excursions
+
+
+def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[str]:
+    """A sentence for each way in which a run left what its laws are made for."""
+    time_s = columns["time_s"]
+    if scene.water is None or not len(time_s):
+        return
+    height = height_above_wave(scene, columns)
+    flying = height > 0.0
+    if flying.any():
+        first, last = time_s[flying][[0, -1]]
+        words = AIR.format(share=100.0 * flying.mean(), first=first, last=last, most=height[flying].max())
+        irregular = scene.waves is not None and scene.waves.irregular
+        yield words + (NO_CAP if irregular else CAP)
+    depth = -scene.anchor.position_m[2] - columns["line_lowest_m"]
+    buried = depth > scene.tether.diameter_m
+    if scene.floor is None and buried.any():
+        yield BED.format(most=depth[buried].max(), first=time_s[buried][0])
+
+
+def height_above_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Height (m) of the lowest point of a buoy without a cap above the linear wave at its place; -inf without one."""
+    if scene.buoy is None or scene.buoy.submergence != "full":
+        return np.full(len(columns["time_s"]), -np.inf)
+    lowest_m = scene.anchor.position_m[2] + columns["z_m"] - 0.5 * scene.buoy.diameter_m - scene.water.depth_m
+    if scene.waves is None:
+        return lowest_m
+    from ..physics.sea import elevation_m
+
+    with np.errstate(all="ignore"):  # places of a run that blew up
+        return lowest_m - elevation_m(scene, columns["time_s"], columns["x_m"], columns["y_m"])
