@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.explore.along import CARRIED, DOWN, MOTION, UP, Along, Motion
 from campaigns.explore.starts import JOINED, Asked, Ended, Start
-from campaigns.judge import tighter_scene
 from campaigns.machinery.folder import write_table
+from campaigns.machinery.long_runs import tighter_scene
 from engine.scene import scene_from_toml
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
@@ -112,7 +112,7 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
     from campaigns.explore.orbit_tasks import lost
-    from campaigns.explore.tracing import Line, Task, work
+    from campaigns.explore.tracing import Line, line_task, work
 
     span, tasks = max(along.values) - min(along.values), {}
     for end in ends:
@@ -121,7 +121,7 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
             value, state = along.values[end.motion.at], end.motion.state
             low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
             line = Line(along.scene_at, low, high, span, state, value)
-            tasks[end] = Task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
+            tasks[end] = line_task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}
     for end, (result, _) in zip(tasks, results, strict=True):

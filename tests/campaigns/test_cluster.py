@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from campaigns import buoy_sweep
+from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery import pools
 from campaigns.machinery.cli import Running
@@ -86,17 +87,17 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
         assert b"of-the-campaign" not in sent
         for task in tasks:
             outcomes = pickle.loads(sent)(pickle.loads(cloudpickle.dumps(task)))
-            assert list((place / "trajectories").iterdir()) == [] and outcomes[0].content
+            assert list((place / "trajectories").iterdir()) == [] and outcomes[0][1].content
             yield task, pickle.loads(pickle.dumps(outcomes))
 
     job = Job({"steepness": 0.05}, load_scene("tethered_buoy", {"waves.steepness": 0.05}), 6)
-    row, places = partial(buoy_row, transient_periods=2), [tmp_path / "here", tmp_path / "of-the-campaign"]
+    row, places = partial(buoy_row, judgement=Judgement(2)), [tmp_path / "here", tmp_path / "of-the-campaign"]
     rows = []
     for place, backend in zip(places, ("threading", "dask"), strict=True):
         (place / "trajectories").mkdir(parents=True)
         plan = Plan(Running(place, 1, backend), FakeEngine(), row, COLUMNS, "this one")
         rows += run_campaign(plan, [job]).rows
-        monkeypatch.setattr("campaigns.machinery.runner.opened", lambda *_: contextlib.nullcontext(elsewhere))
+        monkeypatch.setattr("campaigns.machinery.tasks.opened", lambda *_: contextlib.nullcontext(elsewhere))
     assert rows[0] == rows[1]
     for name in (f"{job.key}.nc", f"{job.key}.row.json"):
         here, there = (place / "trajectories" / name for place in places)
