@@ -19,7 +19,7 @@ import numpy as np
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
-from campaigns.stability.fuzz import DONE, limited, outcome_of
+from campaigns.stability.limits import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
 from engine.excursions import own_words
 
@@ -31,7 +31,7 @@ _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
 FILE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 COLUMNS = (
-    Column("part", symbol="part", meaning="case: one run that is judged; fuzz: all random scenes of one kind"),
+    Column("part", symbol="part", meaning="case: one run that is judged"),
     Column("group", symbol="group", meaning="what is extreme in the case"),
     Column("about", symbol="about", meaning="the group in words"),
     Column("case", symbol="case", meaning="the case within its group"),
@@ -142,7 +142,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
             return {_NOT_SAVED: write_failure(path.parents[1], error)}
     row = {name: run.statistics.get(name) for name in names(STATISTICS)}
     row |= {"run_status": run.status, "message": run.message}
-    outcome, _, _ = outcome_of(run, case.length_s)
+    outcome = outcome_of(run, case.length_s)
     if outcome not in ("ok", "ended"):
         return row | {"verdict": UNEXPLAINED, "run_status": outcome}
     if run.status != "ok":
