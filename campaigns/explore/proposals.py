@@ -14,7 +14,7 @@ from campaigns.machinery.tasks import Task, results
 from engine.scales import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
-TOGETHER = 8  # scenes that a worker is given at once
+SCENES = 8  # that a worker is given at once
 LONGER = 320  # wave periods of the start from rest and of kicks that come nearer to a period, if 80 do not settle them
 DIFFERENCE = 1e-5  # of a state, for the derivative of the map over a wave period
 
@@ -46,7 +46,7 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
         key = key_of(scene.key(), speed_mps, seed, engine.source_hash(), _maker())
         tasks.append(Task(key, partial(_motions, kicked, scene)))
     store = Store(plan.how.out / "proposals")
-    return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, TOGETHER).results]
+    return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, SCENES).results]
 
 
 def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
@@ -72,39 +72,48 @@ def _motions(kicked: np.ndarray, scene) -> dict:
     except ValueError:  # not covered
         return {"motions": []}
     starts = np.column_stack([*map(partial(np.full, len(kicked)), rest), kicked])
-    known, found, numbers = [], [], range(len(kicked))
+    known, motions, numbers = [], [], range(len(kicked))
     unknown = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
     loose = dict(unknown)
     for periods in (PERIODS, LONGER):
-        runs, ringing = engine.massless_runs(scene, starts[numbers], periods), []
+        runs = engine.massless_runs(scene, starts[numbers], periods)
+        ringing = []
         for number, strobed, measures in zip(numbers, runs.strobed, runs.measures, strict=True):
             if not np.isfinite(strobed).all():
                 continue
-            which = joins(strobed, measures, known)
-            if which is not None:
-                one = found[which]
-            elif (motion := _settled(scene, strobed, measures, number == SCREENED and periods == LONGER)) is not None:
-                known.append(motion)
+            from_rest = number == SCREENED
+            joined = joins(strobed, measures, known)
+            settled = None
+            if joined is None:
+                settled = _settled(scene, strobed, measures, from_rest and periods == LONGER)
+            if joined is not None:
+                motion = motions[joined]
+            elif settled is not None:
+                known.append(settled)
                 x, z, u, w = map(float, strobed[-1])
-                one = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period}
-                one["tension_N"] = float(motion.measures[:, 2].max())
-                found.append(one)
-            elif periods < LONGER and (number == SCREENED or approached_period(strobed, np.ptp(strobed, axis=0))):
+                motion = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": settled.period}
+                motion["tension_N"] = float(settled.measures[:, 2].max())
+                motions.append(motion)
+            elif periods < LONGER and (from_rest or approached_period(strobed, np.ptp(strobed, axis=0))):
                 ringing.append(number)
                 continue
             else:
-                one, later = loose, float(measures[len(measures) // 2 :, 2].max())
-                one["tension_N"] = max(one["tension_N"], later)
-            if number < SCREENED:
-                one["share"] += 1.0 / SCREENED
+                motion = loose
+                largest_N = float(measures[len(measures) // 2 :, 2].max())
+                motion["tension_N"] = max(motion["tension_N"], largest_N)
+            if from_rest:
+                motion["rest"] = True
             else:
-                one["rest"] = True
+                motion["share"] += 1.0 / SCREENED
         if not ringing:
             break
         numbers = ringing[::-1]  # the one from rest first: others join what it comes to
-    found += [loose] if loose["tension_N"] else []
+    if loose["tension_N"]:
+        motions.append(loose)
     static_N = tension_at(float(np.hypot(*rest)) / scene.tether.length_m - 1.0, scene.tether.tension)
-    return {"motions": [motion | {"static_N": max(float(static_N), 0.0)} for motion in found]}
+    for motion in motions:
+        motion["static_N"] = max(float(static_N), 0.0)
+    return {"motions": motions}
 
 
 def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):

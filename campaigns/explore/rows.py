@@ -129,16 +129,16 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
         row["periods"] = (len(columns["time_s"]) - 1) * step_s / period_s
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
-    transient_s = judgement.transient * period_s
-    if lasts(columns, step_s, transient_s + period_s):
-        row["transient_periods"] = judgement.transient
-        row |= settled(scene, columns, transient_s) | strobed_period(trajectory, columns, judgement.transient)
-        row |= lateral_growth(trajectory, judgement.transient)
+    transient_periods = judgement.transient
+    if lasts(columns, step_s, (transient_periods + 1) * period_s):
+        measured = settled(scene, columns, transient_periods * period_s)
+        measured |= strobed_period(trajectory, columns, transient_periods)
+        measured |= lateral_growth(trajectory, transient_periods)
         if judgement.limit:
-            row |= settled(scene, judgement.orbit.run.columns, 0.0)
-            row[STROBED.name] = judgement.verdict.period
+            measured |= settled(scene, judgement.orbit.run.columns, 0.0) | {STROBED.name: judgement.verdict.period}
+        row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
-            first = round(transient_s / step_s)  # sample after the transient
+            first = round(transient_periods * period_s / step_s)  # sample after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:

@@ -129,7 +129,7 @@ class Tree:
                     continue
                 share = (value - one["value"]) / (other["value"] - one["value"])
                 guess = (1.0 - share) * branch.points[at] + share * branch.points[at + 1]
-                asked.append(Task(under, self.line, (value, one["period"], guess)))
+                asked.append(line_task(under, self.line, (value, one["period"], guess)))
                 of.append(branch)
         known = [one for one in self.chosen if one["value"] == value]
         for branch, (result, _) in zip(of, self.work("all orbits of one value", asked), strict=True):
