@@ -96,18 +96,18 @@ def orbit_under(trajectory: Trajectory, period: int, orbits: Store, iterations: 
 
     from engine.final_state import state_of_file
 
-    own = trajectory.scene
-    key = key_of(trajectory.final_state, own.key(), period, iterations, engine.source_hash(), _maker())
-    kept = orbits.finished(key, partial(_computed, trajectory, period, iterations))
-    if kept["reason"]:
-        raise ArithmeticError(kept["reason"])
-    arrays = {name: np.array(values) for name, values in kept["state"].items()}
-    samples = max(LONG, 8 * kept["period"]) * (len(kept["history"]["time_s"]) // kept["period"]) + 1
-    columns = {name: np.resize(np.array(values), samples) for name, values in kept["history"].items()}
-    columns["time_s"] = np.arange(samples) * own.sample_step_s()
-    run = replace(trajectory, columns=columns, final_state=state_of_file(own, arrays))
-    multipliers = np.array([complex(*parts) for parts in kept["multipliers"]])
-    return OrbitUnder(kept["period"], multipliers, np.array(kept["errors"]), run)
+    scene = trajectory.scene
+    key = key_of(trajectory.final_state, scene.key(), period, iterations, engine.source_hash(), _maker())
+    result = orbits.finished(key, partial(_computed, trajectory, period, iterations))
+    if result["reason"]:
+        raise ArithmeticError(result["reason"])
+    arrays = {name: np.array(values) for name, values in result["state"].items()}
+    samples = max(LONG, 8 * result["period"]) * (len(result["history"]["time_s"]) // result["period"]) + 1
+    columns = {name: np.resize(np.array(values), samples) for name, values in result["history"].items()}
+    columns["time_s"] = np.arange(samples) * scene.sample_step_s()
+    run = replace(trajectory, columns=columns, final_state=state_of_file(scene, arrays))
+    multipliers = np.array([complex(*parts) for parts in result["multipliers"]])
+    return OrbitUnder(result["period"], multipliers, np.array(result["errors"]), run)
 
 
 @cache
@@ -120,8 +120,8 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     from analysis.orbits import find_orbit, scatter_of
     from engine.scene import scene_from_toml
 
-    own = trajectory.scene
-    scene = scene_from_toml(own.to_toml(), {"solver.rtol": min(QUICK, own.solver.rtol)})
+    scene = trajectory.scene
+    scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
         cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
         orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations)

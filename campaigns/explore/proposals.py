@@ -46,7 +46,7 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
         key = key_of(scene.key(), speed_mps, seed, engine.source_hash(), _maker())
         tasks.append(Task(key, partial(_motions, kicked, scene)))
     store = Store(plan.how.out / "proposals")
-    return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, SCENES).results]
+    return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 
 def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:

@@ -16,8 +16,8 @@ from campaigns.machinery.store import Store, key_of
 from campaigns.machinery.tasks import Task, results
 from engine.scene import SceneError, scene_from_toml
 
-_OWN = (f"campaigns/explore/{name}.py" for name in ("tracing", "orbit_tasks", "multipliers"))
-SOURCES = "analysis/orbits", "analysis/sampling.py", *_OWN
+_FILES = (f"campaigns/explore/{name}.py" for name in ("tracing", "orbit_tasks", "multipliers"))
+SOURCES = "analysis/orbits", "analysis/sampling.py", *_FILES
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,13 @@ class Scenes:
     name: str
     index: int | None = None
 
-    def at(self, value: float, more: dict | None = None):
-        """The scene at a value, with more changes. Raises SceneError."""
+    def at(self, value: float, changes: dict | None = None):
+        """The scene at a value, with further changes. Raises SceneError."""
         put: object = value
         if self.index is not None:
-            whole = [*reduce(getattr, self.name.split("."), self.base)]
-            put = [*whole[: self.index], value, *whole[self.index + 1 :]]
-        return scene_from_toml(self.toml, {self.name: put, **(more or {})})
+            elements = [*reduce(getattr, self.name.split("."), self.base)]
+            put = [*elements[: self.index], value, *elements[self.index + 1 :]]
+        return scene_from_toml(self.toml, {self.name: put, **(changes or {})})
 
     def __call__(self, value: float):
         """The scene at a value; None where there is none, as between two whole numbers."""
@@ -69,9 +69,9 @@ class Line:
 
     def scene(self, value: float):
         """The scene at a value, as its orbits are computed. Raises ArithmeticError where there is none."""
-        more: dict[str, object] = {"solver.rtol": min(self.rtol, self.scenes.base.solver.rtol)}
+        changes: dict[str, object] = {"solver.rtol": min(self.rtol, self.scenes.base.solver.rtol)}
         try:
-            return self.scenes.at(value, more | ({"tether.nodes": self.nodes} if self.nodes else {}))
+            return self.scenes.at(value, changes | ({"tether.nodes": self.nodes} if self.nodes else {}))
         except SceneError:
             raise ArithmeticError(f"no scene can have {self.scenes.key} = {value:.4g}") from None
 
@@ -82,20 +82,20 @@ class Line:
 
     def digest(self) -> str:
         """Of all that results depend on beside their own task."""
-        made = self.state.digest(), made_by({}, *SOURCES), engine.source_hash()
-        parts = self.scenes, self.low, self.high, self.size, self.value, self.nodes, self.rtol, *made
+        content = self.state.digest(), made_by({}, *SOURCES), engine.source_hash()
+        parts = self.scenes, self.low, self.high, self.size, self.value, self.nodes, self.rtol, *content
         return hashlib.sha256(repr(parts).encode()).hexdigest()
 
 
-def line_task(do: Callable, line: Line, given: tuple) -> Task:
-    """The task do(line, *given) -> (result, points). given: numbers, words, arrays, states."""
-    return Task(key_of(do.__name__, line, *given), partial(_computed, do, line, given))
+def line_task(do: Callable, line: Line, arguments: tuple) -> Task:
+    """The task do(line, *arguments) -> (result, points). arguments: numbers, words, arrays, states."""
+    return Task(key_of(do.__name__, line, *arguments), partial(_computed, do, line, arguments))
 
 
-def _computed(do: Callable, line: Line, given: tuple) -> dict:
+def _computed(do: Callable, line: Line, arguments: tuple) -> dict:
     """The result of a task and its points; where the orbits of a line fail, the result is the reason."""
     try:
-        result, points = do(line, *given)
+        result, points = do(line, *arguments)
     except (ArithmeticError, ValueError) as why:
         result, points = {"reason": str(why)}, []
     return {"result": result, "points": points}
@@ -108,6 +108,6 @@ def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[l
     """
     finished = results(plan.how, Store(folder), title, tasks)
     pairs = []
-    for kept in finished.results:
-        pairs.append((kept["result"], [np.array(points) for points in kept["points"]]))
-    return pairs, finished.found
+    for result in finished.results:
+        pairs.append((result["result"], [np.array(points) for points in result["points"]]))
+    return pairs, finished.reused

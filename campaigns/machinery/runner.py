@@ -20,7 +20,7 @@ from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import shares, stage, tell
 from campaigns.machinery.store import orbits_in
-from campaigns.machinery.tasks import each
+from campaigns.machinery.tasks import as_completed
 from campaigns.machinery.worker import failed, keep_row, reuse, run_jobs
 from engine.atomic import write_atomic
 
@@ -97,12 +97,12 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
             tasks.append(task)
     if not tasks:
         return
-    where = "loky", min(plan.how.jobs, max(2, len(missing)))
+    pool = "loky", min(plan.how.jobs, max(2, len(missing)))
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
-        where = "threading", 1
+        pool = "threading", 1
     ended: list[dict] = []
     with (
-        opened(*where) as execute,
+        opened(*pool) as execute,
         stage(ENGINE, len(tasks), "parts", lambda: len(ended)),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
@@ -170,10 +170,10 @@ def _row(job: Job, outcome: Outcome) -> dict[str, object]:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: Sequence[Job], found: int) -> Iterator[tuple[str, Outcome]]:
+def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[str, Outcome]]:
     """Key and outcome of the jobs, as they come: those that can share a worker first, then what these leave undone.
 
-    A run that kills its worker twice, the second time alone, is given up. found: runs that were there before.
+    A run that kills its worker twice, the second time alone, is given up. reused: runs that were there before.
     """
     if not jobs:
         return
@@ -182,23 +182,23 @@ def _computed(plan: Plan, jobs: Sequence[Job], found: int) -> Iterator[tuple[str
     groups = groups_of(plan, jobs)
     together = {job.key for group in groups for job in group}
     groups += [(job,) for job in jobs if job.key not in together]
-    left = {job.key for job in jobs}
-    total = found + len(jobs)
+    unfinished = {job.key for job in jobs}
+    total = reused + len(jobs)
 
-    def done() -> float:
+    def count() -> float:
         """Runs that have ended, and the shares that workers tell of those under way."""
         under_way = 0.0
         for name, share in shares(Path(place)).items():
             group = by_name.get(name, ())
-            if all(job.key in left for job in group):
+            if all(job.key in unfinished for job in group):
                 under_way += share * len(group)
-        return total - len(left) + under_way
+        return total - len(unfinished) + under_way
 
     by_name = {name_of(group): group for group in [*groups, *((job,) for job in jobs)]}
-    with _progress(plan) as place, stage(plan.title, total, "runs", done):
+    with _progress(plan) as place, stage(plan.title, total, "runs", count):
         call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
-        for key, outcome in each(plan.how, groups, call, _given_up):
-            left.discard(key)
+        for key, outcome in as_completed(plan.how, groups, call, _given_up):
+            unfinished.discard(key)
             yield key, outcome
 
 

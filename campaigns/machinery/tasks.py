@@ -1,6 +1,6 @@
 """The loop over the tasks of a campaign: what is not finished is computed in a pool, and a lost worker is no end.
 
-A group of tasks may share a worker. `each` is the loop. Runs of simulations go through it
+A group of tasks may share a worker. `as_completed` is the loop. Runs of simulations go through it
 (`campaigns.machinery.runner`), and so does every other computation, as a `Task` whose result a `Store` keeps.
 """
 
@@ -28,29 +28,29 @@ class Results(NamedTuple):
     """Results of tasks, in their order, and how many of them were finished before."""
 
     results: list[Result]
-    found: int
+    reused: int
 
 
-def results(how: Running, store: Store, title: str, tasks: Sequence[Task], together: int = 1) -> Results:
+def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size: int = 1) -> Results:
     """The results of tasks; those that the store does not have are computed, and saved as they come.
 
-    together: how many a worker is given at once, where each takes a moment only.
+    size: how many a worker is given at once, where each takes a moment only.
     Raises CampaignStopped where a task kills its worker twice; what is finished is kept.
     """
     finished = {task.key: store.get(task.key) for task in tasks}
     missing = {task.key: task for task in tasks if finished[task.key] is None}
-    found = len(tasks) - len(missing)
+    reused = len(tasks) - len(missing)
     sends = how.backend == "dask"
     if missing:
         compute = partial(_computed, None if sends else store.folder.absolute())
-        left = list(missing.values())
-        groups = [left[first : first + together] for first in range(0, len(left), together)]
+        tasks_left = list(missing.values())
+        groups = [tasks_left[first : first + size] for first in range(0, len(tasks_left), size)]
         with stage(title, len(tasks), "of them", lambda: len(tasks) - [*finished.values()].count(None)):
-            for key, result in each(how, groups, compute, _stopped):
+            for key, result in as_completed(how, groups, compute, _stopped):
                 finished[key] = result
                 if sends:
                     store.put(key, result)
-    return Results([finished[task.key] for task in tasks], found)
+    return Results([finished[task.key] for task in tasks], reused)
 
 
 def _computed(folder, group: Sequence[Task]) -> list[tuple[str, Result]]:
@@ -62,30 +62,32 @@ def _stopped(task: Task, reason: str) -> Result:
     raise CampaignStopped(f"a worker process ended twice at the same task: {reason}; what is finished is kept")
 
 
-def each(how: Running, groups: Sequence[Sequence], call: Callable, lost: Callable) -> Iterator[tuple[str, object]]:
+def as_completed(
+    how: Running, groups: Sequence[Sequence], call: Callable, lost: Callable
+) -> Iterator[tuple[str, object]]:
     """Key and result of each task of the groups, as they come.
 
     call(group) -> key and result of those of its tasks that came to an end; the others are done one by one, when all
     groups have ended. A task whose worker dies is done again, alone. Where it dies again: lost(task, reason) -> result.
     """
-    left = {task.key: task for group in groups for task in group}
+    unfinished = {task.key: task for group in groups for task in group}
     waiting = list(groups)
-    with opened(how.backend, min(how.jobs, max(1, len(left))), how.dask_address) as execute:
-        while left:
+    with opened(how.backend, min(how.jobs, max(1, len(unfinished))), how.dask_address) as execute:
+        while unfinished:
             try:
-                for group, ended in execute(call, waiting or [(task,) for task in left.values()]):
-                    waiting = [other for other in waiting if other is not group]
+                for group, ended in execute(call, waiting or [(task,) for task in unfinished.values()]):
+                    waiting = [next_group for next_group in waiting if next_group is not group]
                     for key, result in ended:
-                        del left[key]
+                        del unfinished[key]
                         yield key, result
             except PoolBroken as broken:
                 waiting = [group for group in waiting if not any(group is suspect for suspect in broken.suspects)]
                 for suspect in broken.suspects:
                     if len(suspect) == 1:
-                        yield _alone(execute, call, left.pop(suspect[0].key), lost)
+                        yield _by_itself(execute, call, unfinished.pop(suspect[0].key), lost)
 
 
-def _alone(execute: Callable, call: Callable, task, lost: Callable) -> tuple[str, object]:
+def _by_itself(execute: Callable, call: Callable, task, lost: Callable) -> tuple[str, object]:
     try:
         ((_, ended),) = execute(call, [(task,)], alone=True)
         return ended[0]

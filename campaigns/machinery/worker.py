@@ -63,8 +63,8 @@ def _run_together(
 ) -> None:
     first = jobs[0]
     scenes = [job.scene for job in jobs]
-    each = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s)
-    for number, trajectory in each:
+    runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s)
+    for number, trajectory in runs:
         outcomes[jobs[number].key] = _saved(plan, jobs[number], trajectory)
         report(len(outcomes) / len(jobs))
 
@@ -123,8 +123,8 @@ def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
     outcome = reuse(plan, job)
     if outcome is None:
         return LongRun(job), None
-    whole = outcome.row.get("status") in ("ok", None)
-    return LongRun(job, stored_run(plan.how.out, job.key) if whole else None, outcome.row), outcome
+    complete = outcome.row.get("status") in ("ok", None)
+    return LongRun(job, stored_run(plan.how.out, job.key) if complete else None, outcome.row), outcome
 
 
 def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> Outcome:
@@ -144,10 +144,10 @@ def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> 
     return outcome
 
 
-def reuse(plan: Plan, job: Job, say: Callable[[str], None] = lambda _: None) -> Outcome | None:
+def reuse(plan: Plan, job: Job, report: Callable[[str], None] = lambda _: None) -> Outcome | None:
     """The outcome of a run that is there already; None where it has to be computed.
 
-    A file that is damaged, or not of the run that its name and the order say, is as good as none; say(why).
+    A file that is damaged, or not of the run that its name and the order say, is as good as none; report(why).
     """
     out = plan.how.out
     if out is None:
@@ -161,7 +161,7 @@ def reuse(plan: Plan, job: Job, say: Callable[[str], None] = lambda _: None) -> 
         if trajectory.scene.model_copy(update={"output": job.scene.output}) != job.scene:  # it may carry perturbations
             raise ValueError("another run: its scene is not the one of its key")
     except Exception as error:  # whatever it is, from a foreign hand or cut short, the cure is the same
-        say(f"{path}: {str(error).removeprefix(': ')}; computed again")
+        report(f"{path}: {str(error).removeprefix(': ')}; computed again")
         return None
     row = kept_row(plan, job.key, content)
     if row is not None:
@@ -181,8 +181,8 @@ def keep_row(plan: Plan, outcome: Outcome, content: bytes) -> None:
 def kept_row(plan: Plan, key: str, content: bytes) -> dict | None:
     """The row of a run whose file has this content, if the maker of today made it."""
     copy = _rows(plan).get(key) or {}
-    same = copy.get("made_by") == plan.row_maker and copy.get("run") == sha256(content).hexdigest()
-    return copy["row"] if same else None
+    is_current = copy.get("made_by") == plan.row_maker and copy.get("run") == sha256(content).hexdigest()
+    return copy["row"] if is_current else None
 
 
 def _rows(plan: Plan) -> Store:
@@ -191,7 +191,7 @@ def _rows(plan: Plan) -> Store:
 
 def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
     """The row of a run. What a row needs beside its run is computed here, and kept (`Plan.judge`); a row reads it."""
-    began = time.perf_counter()
+    start_s = time.perf_counter()
     orbits = orbits_in(plan.how.out)
     try:
         if job.describe is not None or plan.judge is None:
@@ -202,7 +202,7 @@ def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> 
             row = plan.describe(trajectory, plan.judge(trajectory, checks, orbits))
     except Exception as error:
         row = {"status": "analysis-failed", "message": _reason(error)}
-    return Outcome(job.key, row, time.perf_counter() - began, orbits=orbits.unsaved)
+    return Outcome(job.key, row, time.perf_counter() - start_s, orbits=orbits.unsaved)
 
 
 def _reason(error: BaseException) -> str:

@@ -40,7 +40,7 @@ def done(order: Order) -> tuple[dict[str, float], Summary]:
     """Tasks and table."""
     from campaigns.stability import tasks
 
-    return tasks.done(order.own)
+    return tasks.judge_cases(order.own)
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:

@@ -28,7 +28,7 @@ def planned(order) -> list[Case]:
     return cases + [case for case in all_cases() if case.quick or not order.quick]
 
 
-def done(order) -> tuple[dict[str, float], Summary]:
+def judge_cases(order) -> tuple[dict[str, float], Summary]:
     """Judge every case that is not judged yet; write the table. Returns the times and the summary for the session.
 
     Raises CampaignStopped where a worker dies: cases have their own processes.
@@ -43,17 +43,17 @@ def done(order) -> tuple[dict[str, float], Summary]:
         row = store.get(key)
         if row is not None and row["run_status"] == DIED:  # for want of memory perhaps: tried again
             store.path(key).unlink()
-    began = time.perf_counter()
+    start_s = time.perf_counter()
     if any(not store.path(task.key).exists() for task in tasks):
         with stage(ENGINE):
             load_kernels()
-    timing = {"compile_s": time.perf_counter() - began}
-    began = time.perf_counter()
+    timing = {"compile_s": time.perf_counter() - start_s}
+    start_s = time.perf_counter()
     finished = results(order.how, store, "cases", tasks)
     rows = [row | {"run_key": task.key} for task, row in zip(tasks, finished.results, strict=True)]
     write_table(out / "table.csv", COLUMNS, rows)
-    timing |= {"run_s": time.perf_counter() - began, "analysis_s": 0.0}
-    return timing, Summary(rows, finished.found, len(tasks) - finished.found, 0.0)
+    timing |= {"run_s": time.perf_counter() - start_s, "analysis_s": 0.0}
+    return timing, Summary(rows, finished.reused, len(tasks) - finished.reused, 0.0)
 
 
 def judged(case: Case, path: Path) -> dict[str, object]:
