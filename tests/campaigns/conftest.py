@@ -142,9 +142,9 @@ class Apart:
         assert not list(self.out.rglob(".*.tmp"))
 
 
-def judged_row(run, transient_periods=None, full=None):
-    """The row of a run, judged as in a sweep; what is computed for it is not kept."""
-    return buoy_row(run, judgement_of(run, None, Store(None), transient_periods, full))
+def judged_row(run, transient_periods=None, full=None, orbits=None):
+    """The row of a run, judged as in a sweep. orbits: where these are kept, nowhere by default."""
+    return buoy_row(run, judgement_of(run, None, orbits or Store(None), transient_periods, full))
 
 
 @pytest.fixture
