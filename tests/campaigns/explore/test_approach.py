@@ -40,7 +40,7 @@ def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(
     path.write_bytes(path.read_bytes()[:-9])
     assert judged_row(run, orbits=orbits) == row and "damaged" in capsys.readouterr().err
     run.save(tmp_path / "run.nc")
-    monkeypatch.setattr("campaigns.explore.multipliers._computed", None)  # no row, and no motion, computes it again
+    monkeypatch.setattr("campaigns.explore.multipliers._computed", lambda *_: pytest.fail("computed again"))
     again = Trajectory.load(tmp_path / "run.nc")
     assert judged_row(again, orbits=orbits) == row
     motion = settled_of(again, orbits)
