@@ -87,10 +87,9 @@ def claimed(directory: Path) -> Iterator[None]:
 def _drop_temporaries(directory: Path) -> None:
     for path in directory.glob(f"{PROGRESS}*"):
         shutil.rmtree(path, ignore_errors=True)
-    for place in (directory, directory / "trajectories"):
-        for path in place.glob(".*.tmp"):
-            with contextlib.suppress(OSError):
-                path.unlink()
+    for path in directory.rglob(".*.tmp"):
+        with contextlib.suppress(OSError):
+            path.unlink()
 
 
 class Table:

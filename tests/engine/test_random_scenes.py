@@ -52,27 +52,3 @@ def test_a_valid_scene_runs_or_ends_with_a_reason_or_is_refused_in_words(raw):
     way, answer, _ = limited(lambda: outcome(raw), LIMIT_S)
     assert way == DONE, answer
     assert answer in ("ok", "ended", "refused")
-
-
-@pytest.mark.slow
-def test_valid_scenes_have_every_part_that_a_scene_may_have():
-    scenes = []
-
-    @examples(300)
-    @given(valid_scene())
-    def collect(raw):
-        scenes.append(build_scene(raw))
-
-    collect()
-    assert {scene.end.kind for scene in scenes} == {"buoy", "held", "free"}
-    assert {scene.motion.dimensions for scene in scenes} == {2, 3}
-    assert {scene.tether.tension.law for scene in scenes} == {"linear", "tanh", "tabulated"}
-    assert {scene.solver.scheme for scene in scenes} == {"conservation", "paper-box"}
-    assert {scene.current.law for scene in scenes if scene.current} == {"uniform", "profile", "table"}
-    assert len({scene.solver.integrator for scene in scenes}) == 5
-    for present in (
-        lambda s: s.waves, lambda s: s.end.motion, lambda s: s.end.release_s, lambda s: s.end.force_decay_s,
-        lambda s: s.solver.shock_viscosity, lambda s: s.solver.courant, lambda s: s.output.tangent_vectors,
-        lambda s: s.output.profiles, lambda s: s.anchor.rotation == "clamped", lambda s: s.tether.grid_stretching,
-    ):  # fmt: skip
-        assert 0 < sum(bool(present(scene)) for scene in scenes) < len(scenes)
