@@ -75,23 +75,32 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     return groups
 
 
+def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
+    return {job.key for group in groups for job in group}
+
+
 def _mixed(jobs: list[Job]) -> list[Job]:
     """The jobs in an order in which any part of them is like the whole: what some took says what the rest takes.
 
     Not the first one leads, which in a sweep is often the fastest: a slow one that begins late would end alone.
     """
-    return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0, reverse=True)]
+    order = sorted(range(len(jobs)), key=lambda place: place * GOLDEN % 1.0, reverse=True)
+    return [jobs[place] for place in order]
 
 
 def _compile(plan: Plan, missing: list[Job]) -> None:
     """Compile what the runs may call: what has kernels in common in one process, the rest in others meanwhile."""
-    together = {job.key for group in groups_of(plan, missing) for job in group}
-    ours = [job for job in missing if plan.simulate is engine.simulate and job.simulate is None]
-    wanted = [(job.scene, job.key in together, job.carrying) for job in ours]
-    wanted += [(job.scene, False, True) for job in ours if job.carrying]  # its last part may go alone
-    pieces = engine.shares_of(wanted)
+    if plan.simulate is not engine.simulate:
+        return
+    together = _keys(groups_of(plan, missing))
+    wanted = []
+    for job in missing:
+        if job.simulate is None:
+            wanted.append((job.scene, job.key in together, job.carrying))
+            if job.carrying:
+                wanted.append((job.scene, False, True))  # its last part may go alone
     tasks = []
-    for part in pieces:
+    for part in engine.shares_of(wanted):
         task = {key: scene for key, scene in part.items() if key not in _ready}
         if task:
             tasks.append(task)
@@ -180,10 +189,13 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     # A worker kept from an earlier campaign of this process may stand in another folder.
     how = replace(plan.how, out=None if plan.sends else plan.how.out.absolute())
     groups = groups_of(plan, jobs)
-    together = {job.key for group in groups for job in group}
-    groups += [(job,) for job in jobs if job.key not in together]
-    unfinished = {job.key for job in jobs}
     total = reused + len(jobs)
+    unfinished = {job.key for job in jobs}
+    singles = {job.key: (job,) for job in jobs}
+    together = _keys(groups)
+    for key, single in singles.items():
+        if key not in together:
+            groups.append(single)
 
     def count() -> float:
         """Runs that have ended, and the shares that workers tell of those under way."""
@@ -194,7 +206,7 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
                 under_way += share * len(group)
         return total - len(unfinished) + under_way
 
-    by_name = {name_of(group): group for group in [*groups, *((job,) for job in jobs)]}
+    by_name = {name_of(group): group for group in [*groups, *singles.values()]}
     with _progress(plan) as place, stage(plan.title, total, "runs", count):
         call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
         for key, outcome in as_completed(plan.how, groups, call, _given_up):
