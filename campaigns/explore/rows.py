@@ -130,10 +130,8 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
     transient_periods = judgement.transient
-    if lasts(columns, step_s, (transient_periods + 1) * period_s):
-        measured = settled(scene, columns, transient_periods * period_s)
-        measured |= strobed_period(trajectory, columns, transient_periods)
-        measured |= lateral_growth(trajectory, transient_periods)
+    measured = after_transient(trajectory, columns, transient_periods)
+    if measured:
         if judgement.limit:
             measured |= settled(scene, judgement.orbit.run.columns, 0.0) | {STROBED.name: judgement.verdict.period}
         row |= {"transient_periods": transient_periods, **measured}
@@ -171,6 +169,19 @@ def height_m(scene, columns) -> float | None:
         return None
     top_m = scene.anchor.position_m[2] + float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
     return top_m - scene.water.depth_m
+
+
+def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
+    """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
+
+    columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
+    """
+    scene = trajectory.scene
+    if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * scene.waves.period_s):
+        return {}
+    row = settled(scene, columns, transient_periods * scene.waves.period_s)
+    row |= strobed_period(trajectory, columns, transient_periods)
+    return row | lateral_growth(trajectory, transient_periods)
 
 
 def strobed_period(trajectory, columns, transient_periods: int) -> dict[str, object]:

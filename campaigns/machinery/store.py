@@ -11,8 +11,6 @@ import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-import numpy as np
-
 from campaigns.machinery.folder import keep_json, kept_json
 from campaigns.machinery.progress import tell
 
@@ -79,11 +77,9 @@ def orbits_in(folder: Path | None) -> Store:
 
 def plain(content: object) -> object:
     """What JSON writes for an array (a list), a complex number (two numbers) and a number of NumPy."""
-    if isinstance(content, np.ndarray):
-        return content.tolist()
     if isinstance(content, complex):
         return [content.real, content.imag]
-    return content.item()
+    return content.tolist()
 
 
 def key_of(*parts: object) -> str:
@@ -92,7 +88,7 @@ def key_of(*parts: object) -> str:
     for part in parts:
         if hasattr(part, "digest"):
             part = part.digest()
-        if isinstance(part, np.ndarray):
+        if hasattr(part, "tobytes"):
             part = (part.shape, part.tobytes())
         content.update(f"{part!r}\0".encode())
     return content.hexdigest()

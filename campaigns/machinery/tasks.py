@@ -42,7 +42,7 @@ def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size:
     reused = len(tasks) - len(missing)
     sends = how.backend == "dask"
     if missing:
-        compute = partial(_computed, None if sends else store.folder.absolute())
+        compute = partial(_computed, Store(None if sends else store.folder.absolute(), store.suffix))
         tasks_left = list(missing.values())
         groups = [tasks_left[first : first + size] for first in range(0, len(tasks_left), size)]
         with stage(title, len(tasks), "of them", lambda: len(tasks) - [*finished.values()].count(None)):
@@ -53,8 +53,7 @@ def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size:
     return Results([finished[task.key] for task in tasks], reused)
 
 
-def _computed(folder, group: Sequence[Task]) -> list[tuple[str, Result]]:
-    store = Store(folder)
+def _computed(store: Store, group: Sequence[Task]) -> list[tuple[str, Result]]:
     return [(task.key, store.finished(task.key, task.compute)) for task in group]
 
 
