@@ -198,13 +198,12 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
             groups.append(single)
 
     def count() -> float:
-        """Runs that have ended, and the shares that workers tell of those under way."""
-        under_way = 0.0
-        for name, share in shares(Path(place)).items():
-            group = by_name.get(name, ())
-            if all(job.key in unfinished for job in group):
-                under_way += share * len(group)
-        return total - len(unfinished) + under_way
+        """Runs that have ended; of groups and of a single run under way, what their workers tell."""
+        ended = total - len(unfinished)
+        for name, runs in shares(Path(place)).items():
+            if all(job.key in unfinished for job in by_name[name]):
+                ended += runs
+        return ended
 
     by_name = {name_of(group): group for group in [*groups, *singles.values()]}
     with _progress(plan) as place, stage(plan.title, total, "runs", count):

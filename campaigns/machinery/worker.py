@@ -66,7 +66,7 @@ def _run_together(
     runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s)
     for number, trajectory in runs:
         outcomes[jobs[number].key] = _saved(plan, jobs[number], trajectory)
-        report(len(outcomes) / len(jobs))
+        report(len(outcomes))
 
 
 def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[[float], None]) -> None:
@@ -100,7 +100,7 @@ def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], rep
             saved_s[number] = time.monotonic()
         if part is None:
             outcomes[run.job.key] = outcome
-            report(len(outcomes) / len(jobs))
+            report(len(outcomes))
             return None
         return part.scene, part.periods, part.start
 
