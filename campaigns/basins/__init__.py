@@ -85,10 +85,11 @@ def measures(order: Order) -> Measures:
     """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
     from functools import partial
 
+    from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import COLUMNS, buoy_row
 
     columns = tuple(column for column in COLUMNS if not column.name.startswith("planar_"))
-    return Measures(columns, partial(buoy_row, transient_periods=None), ROW_SOURCES, {"transient_periods": None})
+    return Measures(columns, buoy_row, ROW_SOURCES, judge=partial(judgement_of, transient_periods=None))
 
 
 def runs(order: Order) -> Callable:

@@ -12,6 +12,7 @@ from campaigns.judge import judged_job
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
+from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
 from tables import JOINED, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column
 
@@ -88,7 +89,8 @@ class Found:
         motions = self.motions or [None]
         summary, runs = self.within("motions", "judged runs", [self._job(order, motion) for motion in motions])
         longer = {motion: one for motion, one in zip(motions, runs, strict=True) if one is not None}
-        settled = {motion: settled_of(one) or as_it_is(one) for motion, one in longer.items()}
+        orbits = orbits_in(self.plan.how.out / "motions")
+        settled = {motion: settled_of(one, orbits) or as_it_is(one) for motion, one in longer.items()}
         if None in settled:
             self.motions.append(Motion(0, settled[None], longer[None].final_state, FROM_REST))
         else:
@@ -99,7 +101,7 @@ class Found:
         """Do runs in a folder beside that of the starts; their Trajectories, None for one that ended early."""
         how = replace(self.plan.how, out=self.plan.how.out / folder)
         with claimed(how.out):
-            timing, summary = run(replace(self.plan, how=how, said=said), jobs)
+            timing, summary = run(replace(self.plan, how=how, title=said), jobs)
         self.along.starts.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         return summary, [run_of(how.out, rows[job.key]) if job.key in rows else None for job in jobs]

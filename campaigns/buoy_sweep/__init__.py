@@ -104,10 +104,11 @@ def runs(order: Order) -> Callable:
 
 def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
+    from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import COLUMNS, buoy_row
 
     settings = settings_of(order)
-    return Measures(COLUMNS, partial(buoy_row, **settings), ROW_SOURCES, settings)
+    return Measures(COLUMNS, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
 
 
 def parameters(order: Order) -> dict[str, object]:
@@ -168,7 +169,6 @@ STUDY = Study(
     parameters=parameters,
     runs=runs,
     beside=beside,
-    after=0.25,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

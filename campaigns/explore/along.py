@@ -15,6 +15,7 @@ from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import FOUND_BY, Asked, Ended, Start, Starts, as_it_is, settled_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan
+from campaigns.machinery.store import orbits_in
 from tables import REGIMES, SHEET, Column
 
 MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
@@ -97,6 +98,7 @@ class Lattice:
 
     def add(self, jobs: Sequence[Job], rows: Sequence[dict]) -> range:
         """Add the places of runs from rest; rows: of those that have ended. Returns their numbers."""
+        orbits = orbits_in(self.plan.how.out)
         before, by_key = len(self.scenes), {row["run_key"]: row for row in rows}
         for at, job in enumerate(jobs, before):
             self.names.append({key.name: job.labels[key.name] for key in self.keys})
@@ -104,7 +106,7 @@ class Lattice:
             self.motions.append([])
             run = run_of(self.plan.how.out, by_key[job.key]) if job.key in by_key else None
             if run is not None:
-                settled = settled_of(run) or as_it_is(run)
+                settled = settled_of(run, orbits) or as_it_is(run)
                 self.motions[at].append(Motion(at, settled, run.final_state, FROM_REST))
         return range(before, len(self.scenes))
 
@@ -199,7 +201,9 @@ class Lattice:
         """Take motions as their judged runs have them (`merge`); rows: of those that have ended."""
         ended = {row["run_key"]: row for row in rows}
         runs = {motion: run_of(self.plan.how.out, ended[job.key]) for motion, job in jobs.items() if job.key in ended}
-        self.merge({motion: settled_of(run) or as_it_is(run) for motion, run in runs.items() if run is not None})
+        orbits = orbits_in(self.plan.how.out)
+        ended_runs = {motion: run for motion, run in runs.items() if run is not None}
+        self.merge({motion: settled_of(run, orbits) or as_it_is(run) for motion, run in ended_runs.items()})
 
     def merge(self, judged: Mapping[Motion, object]) -> None:
         """Take motions of one value as one that longer runs have found to be one. judged: what these settled to."""

@@ -15,6 +15,7 @@ import numpy as np
 
 from campaigns.answers import greatest
 from campaigns.explore.along import MOTION, from_rest
+from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import claimed, run_of
@@ -58,15 +59,10 @@ class Batch:
         if not self.jobs and not out.exists():
             return 0.0
         each = plan.simulate_each if self.together else None
-        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, said=self.said)
-        own = replace(own, describe=partial(unchecked, row=self.row))
+        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, title=self.said)
+        own = replace(own, describe=self.row, judge=None)
         with claimed(out):
             return run(replace(own, simulate_each=each), self.jobs)[1].analysis_s
-
-
-def unchecked(trajectory, row: Callable, checks=None) -> dict[str, object]:
-    """row(trajectory); checks: what a run gets that begins in the state of another one, and none of these has."""
-    return row(trajectory)
 
 
 def changed(scene, *changes: dict):
@@ -81,7 +77,7 @@ def finer(scene) -> dict[str, int]:
 
 def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
     """What a run fills of these columns without a verdict."""
-    row = buoy_row(trajectory, transient_periods) | {"nodes": trajectory.scene.tether.nodes}
+    row = buoy_row(trajectory, Judgement(transient_periods)) | {"nodes": trajectory.scene.tether.nodes}
     return {name: row[name] for name in names(columns) if name in row}
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from campaigns.explore.along import CARRIED, DOWN, MOTION, UP, Along, Motion
 from campaigns.explore.starts import Asked, Ended, Start
-from campaigns.judge import tighter_scene
+from campaigns.machinery.long_runs import tighter_scene
 from engine.scene import scene_from_toml
 from tables import JOINED, MESSAGE, RUN_KEY, STATUS, Column, write_table
 
@@ -111,7 +111,7 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
     from campaigns.explore.orbit_tasks import lost
-    from campaigns.explore.tracing import Line, Task, work
+    from campaigns.explore.tracing import Line, line_task, work
 
     span, tasks = max(along.values) - min(along.values), {}
     for end in ends:
@@ -120,7 +120,7 @@ def by_orbits(along: Along, ends: Sequence[_End]) -> dict[_End, dict[str, object
             value, state = along.values[end.motion.at], end.motion.state
             low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
             line = Line(along.scene_at, low, high, span, state, value)
-            tasks[end] = Task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
+            tasks[end] = line_task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
     results, _ = work(along.plan, along.plan.how.out / "ends", "ends of ranges by their orbits", list(tasks.values()))
     found = {}
     for end, (result, _) in zip(tasks, results, strict=True):

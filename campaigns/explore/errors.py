@@ -34,9 +34,11 @@ from campaigns.explore.approach import orbit_ahead
 from campaigns.explore.batches import UNFOLLOWED, Batch, changed, finer
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, as_it_is, section_of, settled_of
-from campaigns.judge import job_from, tighter_scene
+from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
+from campaigns.machinery.long_runs import tighter_scene
 from campaigns.machinery.plan import Plan, Summary
+from campaigns.machinery.store import orbits_in
 from engine import goes_in_lanes, simulate
 from engine.run.rest import static_tension_N
 from tables import (
@@ -78,18 +80,19 @@ def errors(plan: Plan, summary: Summary) -> float:
     Rows without a transient, as of runs that ended early, stay empty. Raises as `runner.run`.
     """
     jobs, usual, slack = [], {}, {}
+    orbits = orbits_in(plan.how.out)
     for row in summary.rows if plan.simulate is simulate else ():
         if row.get("transient_periods") is None or (run := run_of(plan.how.out, row)) is None:
             continue
         scene, period = tighter_scene(changed(run.scene, UNFOLLOWED, finer(run.scene)), TIGHTER), _period(row)
         if period and "approach: " in (row.get("evidence") or ""):
-            run = orbit_ahead(run)[0].run
+            run = orbit_ahead(run, orbits)[0].run
         if run.final_state is None or not goes_in_lanes(scene):
             continue
         usual[row["run_key"]] = usual_max_N(run, row["transient_periods"], period)
         slack[row["run_key"]] = slack_shares(run, row["transient_periods"], period)
         length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
-        motion = (settled_of(run) or as_it_is(run)) if row.get("regime") else None
+        motion = (settled_of(run, orbits) or as_it_is(run)) if row.get("regime") else None
         describe = partial(companion_row, period=period, motion=motion)
         job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
         jobs.append(replace(job, describe=describe))
@@ -108,7 +111,7 @@ def errors(plan: Plan, summary: Summary) -> float:
     return analysis_s
 
 
-def companion_row(trajectory, checks=None, period: int | None = None, motion=None) -> dict[str, object]:
+def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
     """The columns of COLUMNS that a companion fills. period, motion (`analysis.Settled`): of its row, where known."""
     from analysis import joins
 

@@ -6,6 +6,6 @@ ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 
 
 def settings_of(order: Order) -> dict[str, int | None]:
-    """How a row is made: transient_periods, full of `rows.buoy_row`."""
+    """How a row is made: transient_periods, full of `judgement.judgement_of`."""
     full = getattr(order.own, "evidence", "") == "full"
     return {"transient_periods": order.transient, "full": order.periods if full else None}

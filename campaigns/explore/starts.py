@@ -20,8 +20,10 @@ import numpy as np
 from campaigns.explore.approach import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of
-from campaigns.machinery.plan import Further, Job, Plan, Summary
+from campaigns.machinery.long_runs import until_settled
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
+from campaigns.machinery.store import Store, orbits_in
 from engine.scene import scene_from_toml
 from engine.views import state_of
 from tables import (
@@ -115,23 +117,12 @@ def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LO
         start.scene(scene),
         ends[-1],
         describe=partial(start_row, known=tuple(known), settles=settles),
-        going=partial(_until_settled, start=start.state, ends=ends),
+        going=partial(until_settled, start=start.state, ends=ends),
         made=f"start {digest.hexdigest()}{'' if settles else ' joins'}",
     )
 
 
-def _until_settled(scene, trajectory, row, checks, start, ends):
-    """What the run of a start does next (`campaigns.machinery.plan.Further`)."""
-    if row is None:
-        return Further(scene, ends[0], start)
-    done = row.get("periods")
-    ahead = next((end for end in ends if done is not None and end > done + 1e-6), None)
-    if row["status"] != "ok" or row.get("outcome") != UNSETTLED or ahead is None:
-        return None
-    return Further(scene, ahead - done, trajectory)
-
-
-def start_row(trajectory, checks=None, known: Sequence = (), settles: bool = True) -> dict[str, object]:
+def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[str, object]:
     """The columns of OF_A_START that the run of a start fills."""
     from analysis import joins, settled
 
@@ -169,15 +160,21 @@ def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
     return strobed, np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
 
 
-def settled_of(trajectory):
-    """The motion to which a run has settled, or comes nearer (`analysis.Settled`); None where it does neither."""
+def settled_of(trajectory, orbits: Store):
+    """The motion to which a run has settled, or comes nearer (`analysis.Settled`); None where it does neither.
+
+    orbits: of its campaign.
+    """
     from analysis import settled
 
     strobed, measures, scale = section_of(trajectory)
     motion = settled(strobed, measures, scale=scale)
-    if motion is None and (ahead := orbit_ahead(trajectory)) and ahead[1].passed:
-        return settled_of(ahead[0].run)
-    return motion
+    if motion is not None:
+        return motion
+    near = orbit_ahead(trajectory, orbits)
+    if near is None or not near[1].passed:
+        return None
+    return settled_of(near[0].run, orbits)
 
 
 def as_it_is(trajectory):
@@ -234,7 +231,9 @@ class Starts:
     def __init__(self, plan: Plan, named: tuple[Column, ...]):
         columns = (*named, FOUND_BY, *OF_A_START)
         how = replace(plan.how, out=plan.how.out / "starts")
-        self.plan = replace(plan, how=how, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
+        self.plan = replace(
+            plan, how=how, columns=columns, describe=start_row, judge=None, row_maker=made_by({}, *SOURCES)
+        )
         self.ended: list[Ended] = []
         self.times: Counter = Counter()
         self.computed = 0
@@ -253,7 +252,7 @@ class Starts:
         if not jobs:
             return []
         with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, said=said), jobs)
+            timing, summary = run(replace(self.plan, title=said), jobs)
         self.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         found = [self._ended(job, rows.get(job.key)) for job in jobs]
@@ -265,7 +264,9 @@ class Starts:
         if row.get("outcome") == JOINED:
             return Ended(row, round(row["joins"]))
         run = run_of(self.plan.how.out, row) if row.get("outcome") == SETTLED else None
-        return Ended(row) if run is None else Ended(row, None, settled_of(run), run.final_state)
+        if run is None:
+            return Ended(row)
+        return Ended(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
 
     def write(self) -> None:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""

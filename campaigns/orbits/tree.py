@@ -8,8 +8,9 @@ from string import ascii_lowercase
 import numpy as np
 
 from campaigns.explore.orbit_tasks import finer, followed, sharper, under
-from campaigns.explore.tracing import Line, Task, work
+from campaigns.explore.tracing import Line, line_task, work
 from campaigns.machinery.plan import Plan
+from campaigns.machinery.tasks import Task
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
@@ -50,7 +51,7 @@ class Tree:
 
     def grow(self, starts: Sequence[tuple[str, float, int, object]]) -> None:
         """Follow the orbits under runs (motion, value, period, FinalState), and what begins on their branches."""
-        asked = [Task(under, self.line, start[1:]) for start in starts]
+        asked = [line_task(under, self.line, start[1:]) for start in starts]
         left = []
         for (motion, value, period, _), (result, points) in zip(
             starts, self.work("orbits under motions", asked), strict=True
@@ -64,7 +65,7 @@ class Tree:
         while left and len(self.branches) < self.room:
             left = [one for one in left if not self._known(one)]
             now, left = left[: self.plan.how.jobs], left[self.plan.how.jobs :]
-            asked = [Task(followed, self.line, (value, points, self.most)) for _, value, _, points, _ in now]
+            asked = [line_task(followed, self.line, (value, points, self.most)) for _, value, _, points, _ in now]
             for (motion, value, seen, _, begins), (result, points) in zip(
                 now, self.work("branches", asked), strict=True
             ):
@@ -128,7 +129,7 @@ class Tree:
                     continue
                 share = (value - one["value"]) / (other["value"] - one["value"])
                 guess = (1.0 - share) * branch.points[at] + share * branch.points[at + 1]
-                asked.append(Task(under, self.line, (value, one["period"], guess)))
+                asked.append(line_task(under, self.line, (value, one["period"], guess)))
                 of.append(branch)
         known = [one for one in self.chosen if one["value"] == value]
         for branch, (result, _) in zip(of, self.work("all orbits of one value", asked), strict=True):
@@ -159,12 +160,12 @@ class Tree:
                 at = int(np.argmin(apart))
                 near[id(event)] = event, branch.orbits[at]["value"], branch.points[at]
         unsure = [one for one in near.values() if one[0]["error"] is None or one[0]["error"] > rough]
-        asked = [Task(sharper, sharp, (event["kind"], event["value"], *of)) for event, *of in unsure]
+        asked = [line_task(sharper, sharp, (event["kind"], event["value"], *of)) for event, *of in unsure]
         for (event, *_), (result, _) in zip(unsure, self.work("events at a tighter tolerance", asked), strict=True):
             if not result["reason"]:
                 event |= {"value": result["value"], "error": result["error"], "sharp": True}
         asked = [
-            Task(finer, sharp if event.get("sharp") else self.line, (event["kind"], event["value"], *of))
+            line_task(finer, sharp if event.get("sharp") else self.line, (event["kind"], event["value"], *of))
             for event, *of in near.values()
         ]
         for (event, *_), (result, _) in zip(near.values(), self.work("events on a finer grid", asked), strict=True):

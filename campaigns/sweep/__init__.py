@@ -186,14 +186,20 @@ def measures(order: Order) -> Measures:
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     sources, settings = (*ROW_SOURCES, "campaigns/sweep/__init__.py"), settings_of(order)
-    settings["asked"] = getattr(order.own, "transient", None)  # campaigns of orbits have no such option
-    return Measures(columns, partial(sweep_row, **settings), sources, settings)
+    asked = getattr(order.own, "transient", None)  # campaigns of orbits have no such option
+    row = partial(sweep_row, transient_periods=order.transient, asked=asked)
+    return Measures(columns, row, sources, settings | {"asked": asked}, partial(judge, **settings))
 
 
-def sweep_row(
-    trajectory, transient_periods: int | None, checks=None, full: int | None = None, asked: int | None = None
-) -> dict[str, object]:
-    """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
+def judge(trajectory, checks, orbits, **settings):
+    """`judgement_of` of a buoy in regular waves; None of any other line."""
+    from campaigns.explore.judgement import judgement_of
+
+    return judgement_of(trajectory, checks, orbits, **settings) if in_regular_waves(trajectory.scene) else None
+
+
+def sweep_row(trajectory, judgement, transient_periods: int | None, asked: int | None = None) -> dict[str, object]:
+    """The columns of `measures` that a trajectory fills; those left out are unknown.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
     of an irregular sea its ramp, and what is `asked` for by --transient.
@@ -201,8 +207,8 @@ def sweep_row(
     from campaigns.explore.rows import HEIGHT, buoy_row, height_m, settled, sound_part
 
     scene = trajectory.scene
-    if in_regular_waves(scene):
-        return buoy_row(trajectory, transient_periods, checks, full)
+    if judgement is not None:
+        return buoy_row(trajectory, judgement)
     row, columns = counted(trajectory), sound_part(trajectory.columns)
     row[HEIGHT.name] = height_m(scene, columns)
     transient_s = 0.0
@@ -268,7 +274,6 @@ STUDY = Study(
     parameters=parameters,
     runs=runs,
     beside=beside,
-    after=0.05,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

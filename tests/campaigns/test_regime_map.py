@@ -117,7 +117,7 @@ def around(monkeypatch):
 
     monkeypatch.setattr(module, "Starts", Starts)
     monkeypatch.setattr(module, "run_of", Run)
-    monkeypatch.setattr(module, "settled_of", lambda found: found.settled)
+    monkeypatch.setattr(module, "settled_of", lambda found, orbits: found.settled)
     monkeypatch.setattr(module, "proposals", lambda plan, scenes, *how: [[] for _ in scenes])
     found = Around(shape)
     found.find(0, 2.0, 1)

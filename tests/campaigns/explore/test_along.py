@@ -83,7 +83,7 @@ def found(monkeypatch, tmp_path):
 
     monkeypatch.setattr(module, "Starts", FakeStarts)
     monkeypatch.setattr(module, "run_of", lambda folder, row: Run(row["p"]))
-    monkeypatch.setattr(module, "settled_of", lambda run: run.settled)
+    monkeypatch.setattr(module, "settled_of", lambda run, orbits: run.settled)
     monkeypatch.setattr(module, "proposals", lambda plan, scenes, *how: [[] for _ in scenes])
     plan = type("Plan", (), {"how": type("How", (), {"out": tmp_path})})
     along = Along(plan, KEY, [FakeJob(p) for p in VALUES], Scene, [{"run_key": f"{p}", "p": p} for p in VALUES])
