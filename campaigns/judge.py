@@ -12,11 +12,19 @@ LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by 
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
 
 
-def tighter_scene(scene, times: int = 10):
-    """The scene at a tenth of its tolerance, or of its step where that is fixed; or at another share of it."""
-    step_s = scene.solver.step_s
-    key, value = ("solver.step_s", step_s / times) if step_s else ("solver.rtol", scene.solver.rtol / times)
-    return engine.scene.scene_from_toml(scene.to_toml(), {key: value})
+def finer(scene, elements: int = 1, steps: int = 1, changes: dict | None = None):
+    """The same scene, finer: with `elements` times the elements, and at 1/steps of its tolerance.
+
+    Where the step is fixed, it is the step that is divided. changes: of other keys.
+    """
+    changes = dict(changes or {})
+    if elements > 1:
+        changes["tether.nodes"] = elements * (scene.tether.nodes - 1) + 1
+    if steps > 1:
+        step_s = scene.solver.step_s
+        key, value = ("solver.step_s", step_s) if step_s else ("solver.rtol", scene.solver.rtol)
+        changes[key] = value / steps
+    return engine.scene.scene_from_toml(scene.to_toml(), changes)
 
 
 def tangent_of(trajectory, transient_periods: int):
@@ -110,7 +118,7 @@ def going_on(
     if row["regime"] == "chaotic" and row.get("regime_tighter") is None:
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
         enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
-        return Further(tighter_scene(_carrying(scene)), min(enough, judged), trajectory, check=True)
+        return Further(finer(_carrying(scene), steps=10), min(enough, judged), trajectory, check=True)
     if check is not None and check.status == "ok" and row.get("regime_tighter") != "chaotic":
         if (ran := len(check.tangent.growth_nats)) < judged:
             return Further(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)

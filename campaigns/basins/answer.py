@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from campaigns.answers import Row, greatest, kilonewton, known, spans
 from campaigns.basins.grid import COLUMNS, PHASE
-from campaigns.explore.along import from_rest
 from campaigns.explore.answer import use_of
+from campaigns.explore.motions import from_rest
 from campaigns.explore.starts import UNSETTLED
 from campaigns.statements import listed
 

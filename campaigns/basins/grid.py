@@ -22,7 +22,7 @@ GRID = "grid"  # found_by of its starts
 
 
 @dataclass(frozen=True)
-class Grid:
+class StartGrid:
     """counts of starts along the two axes `across`; each from -size to size (m/s, m), phases all round.
 
     A start is also told by a turn and a size: direction and length of its kick; with a phase, the turn is that, and the

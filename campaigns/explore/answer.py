@@ -10,7 +10,7 @@ from itertools import pairwise
 from statistics import median
 
 from campaigns.answers import OPEN_WORDS, Row, between, greatest, kilonewton, known, of_kicks, regimes, spans
-from campaigns.explore.along import from_rest
+from campaigns.explore.motions import from_rest
 from campaigns.machinery.session import MOST_LINES
 from campaigns.statements import listed
 from engine.views import in_regular_waves

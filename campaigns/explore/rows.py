@@ -22,8 +22,8 @@ from campaigns.columns import (
     names,
     number,
 )
-from campaigns.explore.along import MOTIONS
 from campaigns.explore.approach import judged_by_orbit
+from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS, orbit_row
 from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
 from engine.at_rest import static_tension_N

@@ -21,7 +21,7 @@ from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL
 from campaigns.explore.approach import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of, write_table
-from campaigns.machinery.plan import Further, Job, Plan, Summary
+from campaigns.machinery.plan import Further, Job, Plan
 from campaigns.machinery.runner import run
 from engine.scene import scene_from_toml
 from engine.views import state_of
@@ -72,13 +72,12 @@ class Start:
 
     def labels(self) -> dict[str, object]:
         """The columns of KICKS; those of a state are empty."""
-        if self.state is not None:
-            return {"found_by": self.found_by}
-        (kick, moved), phase = (self.kick, self.displacement), {} if self.phase is None else {"phase_rad": self.phase}
-        return {
-            "found_by": self.found_by,
-            **dict(zip((one.name for one in KICKS), (*kick, *moved), strict=False)),
-        } | phase
+        labels: dict[str, object] = {"found_by": self.found_by}
+        if self.state is None:
+            labels |= dict(zip((column.name for column in KICKS), (*self.kick, *self.displacement), strict=False))
+            if self.phase is not None:
+                labels["phase_rad"] = self.phase
+        return labels
 
 
 DISPLACED = Start("massless", displacement=(1.0, 0.0))  # what the starts on motions of a massless tether are like
@@ -89,22 +88,43 @@ def strobed_at(phase_rad: float) -> float:
     return phase_rad / (2.0 * math.pi) % 1.0
 
 
-def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1], settles: bool = True) -> Job:
-    """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it. settles: `Asked`."""
+class Request(NamedTuple):
+    """A start to run.
+
+    labels: columns that name it.
+    scene: in which it begins.
+    start: how it begins.
+    known: the motions (`analysis.Settled`) that are known of the scene.
+    most: wave periods that it may take.
+    settles: whether it ends too when it has settled on another one: one that passes by an unstable orbit seems to have.
+    """
+
+    labels: dict
+    scene: object
+    start: Start
+    known: Sequence = ()
+    most: int = LOOKS[-1]
+    settles: bool = True
+
+
+def start_job(request: Request) -> Job:
+    """The run of a start."""
+    start, scene = request.start, request.scene
     # it ends at the phase at which its scene begins, so that the scene can take up its last state
-    after = 0.0 if start.phase is None else strobed_at(start.phase - scene.waves.phase_rad)
-    ends = tuple(end + after for end in (*(end for end in LOOKS if end < most), most))
+    shift = 0.0 if start.phase is None else strobed_at(start.phase - scene.waves.phase_rad)
+    looks = [look for look in LOOKS if look < request.most]
+    ends = tuple(look + shift for look in (*looks, request.most))
     digest = hashlib.sha256(b"" if start.state is None else start.state.digest().encode())
-    for motion in known:
+    for motion in request.known:
         for part in (motion.points, motion.measures, motion.scale):
             digest.update(np.ascontiguousarray(part).tobytes())
     return Job(
-        labels | start.labels(),
+        request.labels | start.labels(),
         start.scene(scene),
         ends[-1],
-        describe=partial(start_row, known=tuple(known), settles=settles),
+        describe=partial(start_row, known=tuple(request.known), settles=request.settles),
         going=partial(_until_settled, start=start.state, ends=ends),
-        made=f"start {digest.hexdigest()}{'' if settles else ' joins'}",
+        made=f"start {digest.hexdigest()}{'' if request.settles else ' joins'}",
     )
 
 
@@ -179,24 +199,13 @@ def as_it_is(trajectory):
     )
 
 
-class Asked(NamedTuple):
-    """A start to run: columns that name it, scene, Start, the motions that are known, and its most wave periods.
-
-    settles: whether it ends too when it has settled on another one: one that passes by an unstable orbit seems to have.
-    """
-
-    labels: dict
-    scene: object
-    start: Start
-    known: Sequence = ()
-    most: int = LOOKS[-1]
-    settles: bool = True
-
-
 @dataclass(eq=False)
-class Ended:
-    """How a start ended: its row; the known motion that it joined, or its own, with its last state.
+class Ending:
+    """How a start ended.
 
+    row: of the table of starts.
+    joins: number of the known motion that it joined.
+    settled, state: the motion (`analysis.Settled`) on which it settled itself, and its last state.
     motion: what its motion is called later (anything with branch.letter).
     """
 
@@ -212,53 +221,52 @@ class Ended:
 
         if not known:
             return None
-        *before, own = grouped([*known, self.settled])
-        return next((number for number, label in enumerate(before) if label == own), None)
+        *labels, own = grouped([*known, self.settled])
+        return labels.index(own) if own in labels else None
 
 
 class Starts:
-    """All starts of a campaign: runs in its folder starts/, with a table; named: columns that name a start."""
+    """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
-    def __init__(self, plan: Plan, named: tuple[Column, ...]):
-        columns = (*named, FOUND_BY, *OF_A_START)
+    def __init__(self, plan: Plan, keys: tuple[Column, ...]):
+        columns = (*keys, FOUND_BY, *OF_A_START)
         how = replace(plan.how, out=plan.how.out / "starts")
         self.plan = replace(plan, how=how, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
-        self.ended: list[Ended] = []
+        self.endings: list[Ending] = []
         self.times: Counter = Counter()
         self.computed = 0
 
-    def did(self, timing: dict[str, float], summary: Summary) -> None:
-        """Add runs to the times and to the runs that were not there before."""
-        self.times.update(timing)
-        self.computed += summary.computed
-
-    def run(self, said: str, asked: Sequence[Asked], told: bool = True) -> list[Ended]:
-        """Run starts that are not there yet, side by side; said: what they are called; told: whether in the table.
+    def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:
+        """Run starts that are not there yet, side by side. title: of the progress. listed: whether in the table.
 
         Raises as `runner.run`.
         """
-        jobs = [start_job(*one) for one in asked]
+        jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
         with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, said=said), jobs)
-        self.did(timing, summary)
+            timing, summary = run(replace(self.plan, said=title), jobs)
+        self.times.update(timing)
+        self.computed += summary.computed
         rows = {row["run_key"]: row for row in summary.rows}
-        found = [self._ended(job, rows.get(job.key)) for job in jobs]
-        self.ended += found if told else []
-        return found
+        endings = [self._ending(job, rows.get(job.key)) for job in jobs]
+        if listed:
+            self.endings += endings
+        return endings
 
-    def _ended(self, job: Job, row: dict | None) -> Ended:
+    def _ending(self, job: Job, row: dict | None) -> Ending:
         row = {**job.labels, "status": "lost"} if row is None else {**row, **job.labels}
         if row.get("outcome") == JOINED:
-            return Ended(row, round(row["joins"]))
+            return Ending(row, round(row["joins"]))
         run = run_of(self.plan.how.out, row) if row.get("outcome") == SETTLED else None
-        return Ended(row) if run is None else Ended(row, None, settled_of(run), run.final_state)
+        return Ending(row) if run is None else Ending(row, None, settled_of(run), run.final_state)
 
     def write(self) -> None:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""
-        rows = [{**one.row, "motion": one.motion.branch.letter if one.motion else None} for one in self.ended]
-        for row in rows:
+        rows = []
+        for ending in self.endings:
+            row = {**ending.row, "motion": ending.motion.branch.letter if ending.motion else None}
             row.pop("joins", None)
+            rows.append(row)
         columns = tuple(column for column in self.plan.columns if column is not JOINS)
         write_table(self.plan.how.out / "table.csv", columns, rows)

@@ -15,14 +15,14 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 
-from campaigns.explore.settings import ROW_SOURCES
+from campaigns.explore.settings import PAPER_STEEPNESS, ROW_SOURCES
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.judge import LEAST_JUDGED, judged_scene
 from campaigns.machinery.folder import read_rows, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
 
-SMALL, LARGE = 0.016, 0.13  # the paper's two waves
+SMALL, LARGE = PAPER_STEEPNESS
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
 LOOPING_DEPTHS_M = (21.0, 21.6, 22.0)  # where planar runs of the large wave have to release loops
 STIFFNESSES_NM2 = (0.1, 0.4, 4.0)
