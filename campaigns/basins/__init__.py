@@ -31,8 +31,8 @@ REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m":
 
 
 def options(group) -> None:
-    what = "what the starts differ in: velocity or place of the buoy, phase of the wave"
-    cli.add(group, "--across", "|".join(PAIRS), what, usual=PAIRS[0])
+    differences = "what the starts differ in: velocity or place of the buoy, phase of the wave"
+    cli.add(group, "--across", "|".join(PAIRS), differences, usual=PAIRS[0])
     usual = f"starts along both, or along each of the two (default: {COUNT})"
     cli.add(group, "--grid", "N|N M", usual)
     above = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
@@ -98,14 +98,13 @@ def runs(order: Order) -> Callable:
         from campaigns.explore.ends import confirm
         from campaigns.explore.motions import Search
 
-        own = order.own
-        exploration = Exploration(
-            plan, jobs[0], own.grid, Search(order, len(own.grid.points()), own.kick_speed, own.seed)
-        )
+        grid = order.own.grid
+        search = Search(order, kicks=0, speed_mps=order.own.kick_speed, seed=order.own.seed)
+        exploration = Exploration(plan, jobs[0], grid, search)
         exploration.find()
-        rest, *others = exploration.motions or [None]
-        if others:
-            worst = max(others, key=lambda motion: motion.tension_N)
+        rest, *kicked = exploration.motions or [None]
+        if kicked:
+            worst = max(kicked, key=lambda motion: motion.tension_N)
             shocks(exploration, worst)
             edge_state(exploration, rest, worst)
         confirm(exploration.places)
@@ -119,8 +118,13 @@ def runs(order: Order) -> Callable:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
-    return {"across": list(own.grid.across), "grid": list(own.grid.counts), "size": own.grid.size, "seed": own.seed}
+    options = order.own
+    return {
+        "across": list(options.grid.across),
+        "grid": list(options.grid.counts),
+        "size": options.grid.size,
+        "seed": options.seed,
+    }
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:

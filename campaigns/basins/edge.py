@@ -134,21 +134,21 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> dict[
     Raises as `runner.run`.
     """
     edge = Edge(exploration, first, second)
-    runs, apart, doublings = [], [], 0.0
+    runs, distances_so_far, doublings = [], [], 0.0
     row: dict[str, object] = {"motion": first.branch.letter, "other": second.branch.letter}
-    while len(apart) < MOST and (distances := edge.narrow()) is not None:
+    while len(distances_so_far) < MOST and (distances := edge.narrow()) is not None:
         parted = distances > APART
         periods = int(np.argmax(parted)) - 1 if parted.any() else len(distances) - 1
         trajectory, row["run_key"] = edge.go_on(periods)
         if trajectory is None:
             break
         runs.append(trajectory)
-        apart += [*map(float, distances[:periods])]
+        distances_so_far += [*map(float, distances[:periods])]
         doublings += math.log2(distances[periods] / distances[0])
-    row |= {"periods": len(apart), "status": "ok" if len(apart) >= MOST else "lost"}
+    row |= {"periods": len(distances_so_far), "status": "ok" if len(distances_so_far) >= MOST else "lost"}
     strobed: list[np.ndarray] = []
     if runs:
-        row["growth_bits_per_period"] = doublings / len(apart)
+        row["growth_bits_per_period"] = doublings / len(distances_so_far)
         for trajectory in runs:
             strobed += [*section_of(trajectory)[0][:-1]]
         row |= _later_extremes(runs) | {"strobed_period": _repeats(np.array(strobed) / edge.scale)}
@@ -156,7 +156,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> dict[
     write_table(folder / "table.csv", COLUMNS, [row])
     names, orbit = [column.name for column in ORBIT[1:-1]], []
     for period, state in enumerate(strobed):
-        orbit.append({"period": period, **dict(zip(names, state, strict=True)), "apart": apart[period]})
+        orbit.append({"period": period, **dict(zip(names, state, strict=True)), "apart": distances_so_far[period]})
     write_table(folder / "orbit.csv", ORBIT, orbit)
     return row
 

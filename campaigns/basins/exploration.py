@@ -37,29 +37,29 @@ class Exploration:
         """Find the motions, and where the starts of the grid end. Raises as `runner.run`."""
         places, search = self.places, self.search
         propose(places, run_from_rest(places, [self.job]), search)
-        left, points = list(self.grid.spread(search.seed)), self.grid.points()
-        while left:
+        waiting, points = list(self.grid.spread(search.seed)), self.grid.points()
+        while waiting:
             count = len(self.motions)
-            self._run("starts spread over the grid", left[:SAMPLE], points, fine=True)
-            left = left[SAMPLE:]
+            self._run("starts spread over the grid", waiting[:SAMPLE], points, fine=True)
+            waiting = waiting[SAMPLE:]
             if len(self.motions) == count:
                 break
             judge(places, search)  # what they found is known better, and the next starts join it
-        self._run("all other starts of the grid", left, points)
+        self._run("all other starts of the grid", waiting, points)
         places.kicks = len(points)
         judge(places, search)
         name(places)
 
     def _run(self, title: str, numbers: Sequence[int], points: Sequence, fine: bool = False) -> None:
         """Run starts of the grid. fine: with as many samples as judged runs have."""
-        before, starts = self.starts.computed, []
+        computed_before, starts = self.starts.computed, []
         for number in numbers:
             start = self.grid.start(*points[number])
             starts.append((0, self.places.fine(0, start) if fine else start))
         for motion in self.places.run_starts(title, starts):
             if motion is not None:
                 motion.kicks += 1
-        self.computed += self.starts.computed - before
+        self.computed += self.starts.computed - computed_before
         latest = self.starts.endings[len(self.starts.endings) - len(numbers) :]
         self.endings |= dict(zip(numbers, latest, strict=True))
 
@@ -78,12 +78,12 @@ class Exploration:
 
     def runs_within(self, folder: str, title: str, jobs: list[Job]) -> list:
         """Do runs in a folder beside that of the starts; their Trajectories, None for one that ended early."""
-        how = replace(self.plan.how, out=self.plan.how.out / folder)
-        with claimed(how.out):
-            timing, summary = run(replace(self.plan, how=how, said=title), jobs)
+        running = replace(self.plan.how, out=self.plan.how.out / folder)
+        with claimed(running.out):
+            timing, summary = run(replace(self.plan, how=running, said=title), jobs)
         self.places.times.update(timing)
         rows = {row["run_key"]: row for row in summary.rows}
-        return [run_of(how.out, rows[job.key]) if job.key in rows else None for job in jobs]
+        return [run_of(running.out, rows[job.key]) if job.key in rows else None for job in jobs]
 
     def rows(self) -> Iterator[dict[str, object]]:
         """The rows of COLUMNS."""

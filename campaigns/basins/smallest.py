@@ -27,7 +27,7 @@ def smallest(leads: Callable[[Sequence[tuple[float, float]]], list[bool]], first
     """
     best, width = first, round_
     while True:
-        before = best.size
+        previous_size = best.size
         turns = [best.turn + width * (k / RAYS - 0.5) for k in range(RAYS)]  # the best one among them
         rays = _rays(leads, best, [turn for turn in turns if turn != best.turn])
         while wide := [ray for ray in rays if ray.size - ray.below > SHARP * ray.size]:
@@ -36,7 +36,7 @@ def smallest(leads: Callable[[Sequence[tuple[float, float]]], list[bool]], first
             rays = [ray for ray in rays if ray.below < least]
         best = min(rays, key=lambda ray: ray.size)
         near = width / RAYS <= LEAST_TURN
-        if near or (width < round_ and best.size > (1.0 - SHARP) * before):
+        if near or (width < round_ and best.size > (1.0 - SHARP) * previous_size):
             return best
         width /= NARROWER
 

@@ -18,8 +18,8 @@ from engine.views import in_regular_waves
 PEAK, ERROR = "tension_top_max_N", "tension_top_max_error_N"
 HEIGHT = "max_buoy_height_above_water_m"
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
-MOST_ENDS = 4  # that are told
-TOLD = 3  # jumps beside the largest that are told
+MOST_ENDS = 4  # that are named
+NAMED = 3  # jumps beside the largest that are named
 SMALLER = "Smaller jumps of the largest tension between"
 FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
 LOOPS = "loops were released (motion.dimensions)"
@@ -41,68 +41,81 @@ def sentences(
     good.sort(key=lambda row: known(row, key))
     first = [row for row in good if from_rest(row)]
     regular, rest = regimes(first, symbol, [known(row, key) for row in first], scene)
-    many = [*coexisting(good, key, symbol, ends)]
-    said = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular] if many else regular
-    found = [*said, *jumps(first, key, symbol), *rest, *many, *use(good, key, symbol, scene, companions)]
-    return [line for line in found if len(found) <= MOST_LINES or not line.startswith(SMALLER)]
+    several = [*coexisting(good, key, symbol), *_ends(good, key, ends)]
+    if several:
+        regular = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular]
+    lines = [*regular, *jumps(first, key, symbol), *rest, *several, *use(good, key, symbol, scene, companions)]
+    return [line for line in lines if len(lines) <= MOST_LINES or not line.startswith(SMALLER)]
 
 
 def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """The largest jump in numbers, and where the next ones are. rows: sorted."""
-    pairs = [(abs(math.log(known(b, PEAK) / known(a, PEAK))), a, b) for a, b in pairwise(rows) if _pull(a) and _pull(b)]
+    pairs = []
+    for below, above in pairwise(rows):
+        if known(below, PEAK) > 0.0 and known(above, PEAK) > 0.0:
+            pairs.append((abs(math.log(known(above, PEAK) / known(below, PEAK))), below, above))
     least = max(LEAST_JUMP, TYPICAL * median(size for size, *_ in pairs)) if pairs else math.inf
-    found = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
-    for _, a, b in found[:1]:
-        before, after = (known(row, "radius_max_m") - known(row, "radius_min_m") for row in (a, b))
-        slack = (100.0 * known(row, "slack_fraction") for row in (a, b))
+    large = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
+    for _, below, above in large[:1]:
+        swing_below, swing_above = (known(row, "radius_max_m") - known(row, "radius_min_m") for row in (below, above))
+        slack = (100.0 * known(row, "slack_fraction") for row in (below, above))
+        growth = swing_above / swing_below if swing_below else math.inf
         yield (
-            f"Between {symbol} = {known(a, key):.4g} and {known(b, key):.4g} the motion jumps to one "
-            f"{after / before if before else math.inf:.2g} times as large: peak tension {_change(a, b)}, "
-            f"swing of r {before:.2f} -> {after:.2f} m, "
+            f"Between {symbol} = {known(below, key):.4g} and {known(above, key):.4g} the motion jumps to one "
+            f"{growth:.2g} times as large: peak tension {_change(below, above)}, "
+            f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, "
             "time with less than 5 % of the static tension {:.0f} -> {:.0f} %.".format(*slack)
         )
-    if more := sorted((known(a, key), known(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
-        yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
+    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: known(pair[1], key))
+    if smaller:
+        places = []
+        for _, below, above in smaller:
+            places.append(f"{known(below, key):.4g} and {known(above, key):.4g} ({_change(below, above)})")
+        yield f"{SMALLER} {symbol} = {listed(places)}."
 
 
-def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> Iterator[str]:
-    """Where one value has several motions, the one that pulls hardest there, and where motions end."""
-    values = list(dict.fromkeys(known(row, key) for row in rows))
-    at = {value: [row for row in rows if known(row, key) == value] for value in values}
-    several = [value for value in values if len(at[value]) > 1]
-    if not several:
+def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
+    """Where one value has several motions, and that of them which pulls most beyond the usual one."""
+    by_value: dict[float, list[Row]] = {}
+    for row in rows:
+        by_value.setdefault(known(row, key), []).append(row)
+    worst, usual, largest_ratio = None, None, -math.inf
+    for motions in by_value.values():
+        if len(motions) > 1:
+            hardest = greatest(motions, PEAK)
+            base = min(motions, key=lambda row: (not from_rest(row), known(row, PEAK)))
+            ratio = known(hardest, PEAK) / max(known(base, PEAK), 1e-9)
+            if ratio > largest_ratio:
+                worst, usual, largest_ratio = hardest, base, ratio
+    if worst is None:
         return
-    worst, usual = max(
-        (
-            (greatest(at[value], PEAK), min(at[value], key=lambda row: (not from_rest(row), known(row, PEAK))))
-            for value in several
-        ),
-        key=lambda pair: known(pair[0], PEAK) / max(known(pair[1], PEAK), 1e-9),
-    )
-    said = f"One wave has several motions at {symbol} = {spans([value in several for value in values], values)}"
+    several = spans([len(motions) > 1 for motions in by_value.values()], [*by_value])
+    sentence = f"One wave has several motions at {symbol} = {several}"
     if worst is not usual:
         rest = "the one from rest" if from_rest(usual) else f"motion {usual['motion']}"
-        counted = of_kicks(worst)
-        share = f", and {counted} kicks end in it (95 % interval of the share: {between(worst)})" if counted else ""
-        said += (
+        sentence += (
             f"; at {symbol} = {known(worst, key):.4g} motion {worst['motion']} pulls {kilonewton(known(worst, PEAK))}, "
-            f"{rest} {kilonewton(known(usual, PEAK))}{share}"
+            f"{rest} {kilonewton(known(usual, PEAK))}"
         )
-    yield f"{said}."
+        kicks = of_kicks(worst)
+        if kicks:
+            sentence += f", and {kicks} kicks end in it (95 % interval of the share: {between(worst)})"
+    yield f"{sentence}."
+
+
+def _ends(rows: Sequence[Row], key: str, ends: Sequence[Row]) -> Iterator[str]:
+    """Where motions end, if a value has several. ends: rows of ends/table.csv."""
+    if not ends or len({known(row, key) for row in rows}) == len(rows):
+        return
     words = []
     for end in ends:
         exact, inside, outside = (known(end, f"{key}_{side}") for side in ("end", "with", "without"))
-        told = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
-        becomes = f", into {end['leads_to']}" if end.get("leads_to") else ""
-        words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {told}{becomes}")
-    if words:
-        more = len(words) - MOST_ENDS
-        told = f"{listed(words[:MOST_ENDS])}{f'; {more} more in ends/table.csv' if more > 0 else ''}"
-        yield f"Motions end: {told}."
-
-
-def _pull(row: Row) -> bool:
-    return known(row, PEAK) > 0.0
+        value = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
+        successor = f", into {end['leads_to']}" if end.get("leads_to") else ""
+        words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {value}{successor}")
+    unnamed = len(words) - MOST_ENDS
+    rest = f"; {unnamed} more in ends/table.csv" if unnamed > 0 else ""
+    yield f"Motions end: {listed(words[:MOST_ENDS])}{rest}."
 
 
 def _change(before: Row, after: Row) -> str:
@@ -115,25 +128,25 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
     times = f" ({known(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
     motion = "" if from_rest(peak) else f", motion {peak['motion']}"
-    said = f"Largest tension {largest(peak)} at {symbol} = {known(peak, key):.4g}{motion}{times}"
+    sentence = f"Largest tension {largest(peak)} at {symbol} = {known(peak, key):.4g}{motion}{times}"
     sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
     for row in sound:
-        if _of(row, key) == _of(peak, key):
-            said += f"; with the {CAPPED} {kilonewton(known(row, PEAK))}"
-    yield f"{said}."
-    searched = any(math.isfinite(known(row, "share")) for row in rows)
+        if known(row, key) == known(peak, key) and str(row.get("motion") or "") == str(peak.get("motion") or ""):
+            sentence += f"; with the {CAPPED} {kilonewton(known(row, PEAK))}"
+    yield f"{sentence}."
     if scene is None:
         return
+    searched = any(math.isfinite(known(row, "share")) for row in rows)
     yield use_of(peak, scene, searched)
-    free = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
-    if free is None or free is peak:
+    usable = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
+    if usable is None or usable is peak:
         return
-    which = f"With the {CAPPED} the largest tension is" if free in sound else "Largest tension without that:"
-    yield f"{which} {largest(free)} at {symbol} = {known(free, key):.4g}. {use_of(free, scene, searched)}"
+    head = f"With the {CAPPED} the largest tension is" if usable in sound else "Largest tension without that:"
+    yield f"{head} {largest(usable)} at {symbol} = {known(usable, key):.4g}. {use_of(usable, scene, searched)}"
 
 
 def use_of(row: Row, scene, searched: bool) -> str:
-    """What speaks against using the tension of a row; else what was checked of it, and what was not.
+    """The reasons against using the tension of a row; without any, the checks that were made of it, and those not made.
 
     searched: whether other motions were looked for.
     """
@@ -142,9 +155,8 @@ def use_of(row: Row, scene, searched: bool) -> str:
 
 
 def _checks(row: Row, scene, searched: bool) -> str:
-    """What was checked of the tension of a row, and what was not, by what the row knows and the scene has."""
+    """The checks that the tension of a row has passed, and those that were not made."""
     error, waves = known(row, ERROR) / known(row, PEAK), scene.waves
-    room = 3 in (known(row, "dimensions"), scene.motion.dimensions)
     grid = f"grid and steps (± {100.0 * error:.2g} %)" if math.isfinite(error) else "grid and steps"
     checks = {grid: math.isfinite(error), "loops": math.isfinite(known(row, "loop_releases"))}
     if scene.buoy is not None and waves is not None:
@@ -157,19 +169,16 @@ def _checks(row: Row, scene, searched: bool) -> str:
         checks[f"a sea longer than its {known(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
     if scene.water is not None:
         checks["the sea bed"] = scene.floor is not None
-    checks["motion out of the plane"] = room
-    lists = (listed(name for name, made in checks.items() if made is wanted) for wanted in (True, False))
-    return "Checked: {}; not checked: {}".format(*lists)
+    checks["motion out of the plane"] = 3 in (known(row, "dimensions"), scene.motion.dimensions)
+    passed = listed(name for name, checked in checks.items() if checked)
+    missing = listed(name for name, checked in checks.items() if not checked)
+    return f"Checked: {passed}; not checked: {missing}"
 
 
 def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
     error = known(row, ERROR)
     return f"{kilonewton(known(row, PEAK))}{f' (± {error / 1e3:.2g} kN)' if math.isfinite(error) else ''}"
-
-
-def _of(row: Row, key: str) -> tuple:
-    return known(row, key), str(row.get("motion") or "")
 
 
 def reasons(row: Row, scene) -> Iterator[str]:

@@ -184,7 +184,7 @@ def confirm(motions: Motions) -> None:
         motion = max(branch, key=lambda motion: motion.tension_N)
         if motion.state is None:
             continue
-        scene, known = motions.jobs[motion.place].scene, tuple(other.settled for other in motions.at[motion.place])
+        scene, known = motions.jobs[motion.place].scene, tuple(known.settled for known in motions.at[motion.place])
         changed = {TIGHTER: finer(scene, steps=10), FINER.format(2 * scene.tether.nodes - 1): finer(scene, elements=2)}
         for change, changed_scene in changed.items():
             start = motions.fine(motion.place, Start(change, state=motion.state.at_zero()))

@@ -71,11 +71,11 @@ def errors(plan: Plan, summary: Summary) -> float:
         return analysis_s
     ended = {row["of_run"]: row for row in read_rows(plan.how.out / FOLDER / "table.csv")}
     for companion in compared:
-        row, again = companion.row, ended.get(companion.row["run_key"])
-        if again is not None:
-            error, words = error_N(row, companion.usual_N, again)
+        row, result = companion.row, ended.get(companion.row["run_key"])
+        if result is not None:
+            error, words = error_N(row, companion.usual_N, result)
             row[ERROR.name] = number(error)
-            error, words_of_slack = slack_error(companion.slack, again)
+            error, words_of_slack = slack_error(companion.slack, result)
             row[SLACK_ERROR.name] = number(error)
             row["message"] = "; ".join(filter(None, (row.get("message"), *words, *words_of_slack))) or None
     write_table(plan.how.out / "table.csv", plan.columns, summary.rows)

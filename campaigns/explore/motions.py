@@ -172,14 +172,14 @@ class Motions:
 
     def run_starts(self, title: str, starts: Sequence[tuple[int, Start]]) -> list[Motion | None]:
         """Run starts at places; returns the motion in which each ended, None where it did not settle."""
-        before = [list(motions) for motions in self.at]
+        motions_before = [list(motions) for motions in self.at]
         settled = [tuple(motion.settled for motion in motions) for motions in self.at]
         requests = [
             Request(self.name_of(place), self.jobs[place].scene, start, settled[place]) for place, start in starts
         ]
         for (place, start), ending in zip(starts, endings := self.starts.run(title, requests), strict=True):
             if ending.joins is not None:
-                ending.motion = before[place][ending.joins]
+                ending.motion = motions_before[place][ending.joins]
             elif ending.settled is not None:
                 ending.motion = self._motion_of(place, start, ending)
         return [ending.motion for ending in endings]
@@ -231,8 +231,8 @@ class Motions:
         write_table(self.folder / "table.csv", self.plan.columns, rows)
         if self.starts.endings:
             self.starts.write()
-        kept = sum(row.get("run_key") not in self.computed for row in rows)
-        return Summary(rows, kept, len(rows) - kept, self.times["analysis_s"])
+        reused = sum(row.get("run_key") not in self.computed for row in rows)
+        return Summary(rows, reused, len(rows) - reused, self.times["analysis_s"])
 
     def timing(self) -> dict[str, float]:
         """Seconds of all runs, those of the starts among them."""

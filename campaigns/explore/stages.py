@@ -161,11 +161,11 @@ def merge(motions: Motions, settled: Mapping[Motion, object], grouped: Callable 
         from analysis import grouped
 
     merged: dict[Motion, Motion] = {}
-    for place, found in enumerate(motions.at):
-        for motion in found:
+    for place, motions_here in enumerate(motions.at):
+        for motion in motions_here:
             motion.settled = settled.get(motion, motion.settled)
         first: dict[int, Motion] = {}
-        for label, motion in zip(grouped([motion.settled for motion in found]), found, strict=True):
+        for label, motion in zip(grouped([motion.settled for motion in motions_here]), motions_here, strict=True):
             merged[motion] = first.setdefault(int(label), motion)
             if merged[motion] is not motion:
                 merged[motion].kicks += motion.kicks
@@ -187,8 +187,8 @@ def name(motions: Motions, matched: Callable | None = None) -> None:
         from analysis import matched
 
     ordered = []
-    for found in motions.at:
-        ordered += sorted(found, key=lambda motion: motion.found_by != FROM_REST)
+    for motions_here in motions.at:
+        ordered += sorted(motions_here, key=lambda motion: motion.found_by != FROM_REST)
     branches = {motion: {motion.place: motion} for motion in ordered}  # by motion its branch: a motion by place
     for place in range(len(motions.at)):
         for neighbour in sorted(motions.neighbours(place)):
@@ -205,22 +205,22 @@ def name(motions: Motions, matched: Callable | None = None) -> None:
 
 def _continue_unsettled(motions: Motions, place: int, neighbour: int, matched: Callable) -> None:
     """Say how motions continue that did not settle when they were carried from a place to a neighbour, or back."""
-    here, there = motions.at[place], motions.at[neighbour]
-    _follow_back(here, there, place, neighbour)
-    _follow_back(there, here, neighbour, place)
-    open_here = [motion for motion in here if motion.becomes.get(neighbour) is None]
-    open_there = [motion for motion in there if motion.becomes.get(place) is None]
-    numbers = matched([motion.settled for motion in open_here], [motion.settled for motion in open_there])
-    for motion, number in zip(open_here, numbers, strict=True):
+    own_motions, neighbours = motions.at[place], motions.at[neighbour]
+    _follow_back(own_motions, neighbours, place, neighbour)
+    _follow_back(neighbours, own_motions, neighbour, place)
+    unsettled = [motion for motion in own_motions if motion.becomes.get(neighbour) is None]
+    candidates = [motion for motion in neighbours if motion.becomes.get(place) is None]
+    numbers = matched([motion.settled for motion in unsettled], [motion.settled for motion in candidates])
+    for motion, number in zip(unsettled, numbers, strict=True):
         if number is not None:
-            motion.becomes[neighbour] = open_there[number]
-            open_there[number].becomes[place] = motion
+            motion.becomes[neighbour] = candidates[number]
+            candidates[number].becomes[place] = motion
 
 
-def _follow_back(motions: Sequence[Motion], others: Sequence[Motion], place: int, neighbour: int) -> None:
+def _follow_back(motions: Sequence[Motion], candidates: Sequence[Motion], place: int, neighbour: int) -> None:
     """A motion that did not settle at a neighbour becomes the one there that becomes it, if there is but one."""
     for motion in motions:
-        back = [other for other in others if other.becomes.get(place) is motion]
+        back = [candidate for candidate in candidates if candidate.becomes.get(place) is motion]
         if motion.becomes.get(neighbour) is None and len(back) == 1:
             motion.becomes[neighbour] = back[0]
 

@@ -150,10 +150,11 @@ def start_row(trajectory, checks=None, known: Sequence = (), settles: bool = Tru
     if trajectory.status != "ok":
         return row
     strobed, measures, scale = section_of(trajectory)
-    if (which := joins(strobed, measures, known)) is not None:
-        return row | {"outcome": JOINED, "joins": which}
-    own = settled(strobed, measures, scale=scale) if settles else None
-    return row | {"outcome": UNSETTLED if own is None else SETTLED}
+    number = joins(strobed, measures, known)
+    if number is not None:
+        return row | {"outcome": JOINED, "joins": number}
+    motion = settled(strobed, measures, scale=scale) if settles else None
+    return row | {"outcome": UNSETTLED if motion is None else SETTLED}
 
 
 def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
@@ -221,8 +222,8 @@ class Ending:
 
         if not known:
             return None
-        *labels, own = grouped([*known, self.settled])
-        return labels.index(own) if own in labels else None
+        *labels, label = grouped([*known, self.settled])
+        return labels.index(label) if label in labels else None
 
 
 class Starts:
@@ -230,8 +231,8 @@ class Starts:
 
     def __init__(self, plan: Plan, keys: tuple[Column, ...]):
         columns = (*keys, FOUND_BY, *OF_A_START)
-        how = replace(plan.how, out=plan.how.out / "starts")
-        self.plan = replace(plan, how=how, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
+        running = replace(plan.how, out=plan.how.out / "starts")
+        self.plan = replace(plan, how=running, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
         self.endings: list[Ending] = []
         self.times: Counter = Counter()
         self.computed = 0

@@ -22,8 +22,8 @@ MOST_KICKS = 10_000
 
 def add_options(group) -> None:
     """--starts, --kick-speed, --seed, --start-from."""
-    beside = "beside motions of a massless tether and those carried from its neighbours"
-    usual = f"kicks of the buoy at each value, {beside}; rest: one run from rest only"
+    sources = "beside motions of a massless tether and those carried from its neighbours"
+    usual = f"kicks of the buoy at each value, {sources}; rest: one run from rest only"
     usual += f" (default: {KICKS}; with --periods: rest)"
     allowed = cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
     cli.add(group, "--starts", "rest|N", usual, allowed)

@@ -176,14 +176,14 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
+    options = order.own
     return {
-        "vary": {key.key: [key.values[0], key.values[-1]] for key in own.grid.keys},
-        "motion": own.motion,
-        "start_from": own.start_from,
+        "vary": {key.key: [key.values[0], key.values[-1]] for key in options.grid.keys},
+        "motion": options.motion,
+        "start_from": options.start_from,
         "tolerance": TOLERANCE,
-        "orbits": own.orbits,
-        "branches": own.branches,
+        "orbits": options.orbits,
+        "branches": options.branches,
     }
 
 

@@ -158,12 +158,12 @@ class Tree:
         tasks, branches = [], []
         for branch in self.branches:
             for place in _crossings(branch, value):
-                before, behind = branch.orbits[place], branch.orbits[place + 1]
-                if before["period"] != behind["period"]:
+                ahead, behind = branch.orbits[place], branch.orbits[place + 1]
+                if ahead["period"] != behind["period"]:
                     continue
-                share = (value - before["value"]) / (behind["value"] - before["value"])
+                share = (value - ahead["value"]) / (behind["value"] - ahead["value"])
                 guess = (1.0 - share) * branch.points[place] + share * branch.points[place + 1]
-                tasks.append(Task(under, self.line, (value, before["period"], guess)))
+                tasks.append(Task(under, self.line, (value, ahead["period"], guess)))
                 branches.append(branch)
         known = [orbit for orbit in self.chosen if orbit["value"] == value]
         for branch, (result, _) in zip(branches, self.work("all orbits of one value", tasks), strict=True):
@@ -206,8 +206,8 @@ class Tree:
 def _crossings(branch: Branch, value: float) -> list[int]:
     """The numbers of the orbits of a branch between which and the next one a value lies."""
     places = []
-    for place, (orbit, other) in enumerate(pairwise(branch.orbits)):
-        low, high = sorted((orbit["value"], other["value"]))
+    for place, (orbit, following) in enumerate(pairwise(branch.orbits)):
+        low, high = sorted((orbit["value"], following["value"]))
         if low <= value < high:
             places.append(place)
     return places
@@ -221,12 +221,12 @@ def _apart(orbit: dict, event: dict, size: float) -> float:
     return float(np.hypot(distance, (orbit["value"] - event["value"]) / size))
 
 
-def _same(seen, other) -> bool:
+def _same(seen, candidate) -> bool:
     """Whether two orbits are one, begun at any strobe."""
-    seen, other = np.array(seen), np.array(other)
-    if seen.shape != other.shape:
+    seen, candidate = np.array(seen), np.array(candidate)
+    if seen.shape != candidate.shape:
         return False
-    return any(np.abs(np.roll(seen, k, axis=0) - other).max() < NEAR_M for k in range(len(seen)))
+    return any(np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M for k in range(len(seen)))
 
 
 def _on(chord, value: float, seen: np.ndarray, size: float) -> bool:

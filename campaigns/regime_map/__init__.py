@@ -52,8 +52,8 @@ def read(options, faults: list[str]) -> None:
     axes, pages = [varied(words[:4], faults), varied(words[4:], faults)], []
     if options.pages is not None:
         if len(options.pages) < 2:
-            given = " ".join(options.pages) or "nothing"
-            faults.append(f"--pages: given {given}; allowed: KEY LO HI COUNT, or KEY WORDS")
+            words_given = " ".join(options.pages) or "nothing"
+            faults.append(f"--pages: given {words_given}; allowed: KEY LO HI COUNT, or KEY WORDS")
             return
         pages = [varied(options.pages, faults, "--pages", of_words=True)]
     keys = (*pages, *axes)
@@ -85,8 +85,8 @@ def cases(order: Order) -> Iterator[Job]:
         order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {allowed}"])
         return
     for cell in grid.coarse():
-        before, job = len(order.faults), grid.job_at(order, cell)
-        if job is None or len(order.faults) > before:  # hundreds of others may be at fault in the same way
+        fault_count, job = len(order.faults), grid.job_at(order, cell)
+        if job is None or len(order.faults) > fault_count:  # hundreds of others may be at fault in the same way
             place = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
             order.tell([f"--vary: that is at {place}, the first cell of the map that cannot be"])
             return
@@ -122,12 +122,17 @@ def runs(order: Order) -> Callable:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
-    parameters: dict[str, object] = {"vary": {key.key: list(key.values) for key in own.grid.axes}}
-    if own.grid.page is not None:
-        parameters["pages"] = {own.grid.page.key: list(own.grid.page.values)}
-    parameters |= {"starts": own.starts, "kick_speed_mps": own.kick_speed, "seed": own.seed, "budget": own.budget}
-    return parameters | {"refine": own.refine, "screen": own.screen}
+    options = order.own
+    parameters: dict[str, object] = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
+    if options.grid.page is not None:
+        parameters["pages"] = {options.grid.page.key: list(options.grid.page.values)}
+    parameters |= {
+        "starts": options.starts,
+        "kick_speed_mps": options.kick_speed,
+        "seed": options.seed,
+        "budget": options.budget,
+    }
+    return parameters | {"refine": options.refine, "screen": options.screen}
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:

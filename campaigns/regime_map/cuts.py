@@ -36,9 +36,9 @@ def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> 
 
 def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     """Do the sweep of the key that is left; returns its exit code. argv, simulate: as of `Study.conduct`."""
-    chosen, how = order.own.cut, order.how
+    chosen = order.own.cut
     places = ",".join(f"{name}={value}" for name, value in chosen.items())
-    out = how.out / "cuts" / places
+    out = order.how.out / "cuts" / places
     _share_runs(order, out)
     changes = dict(order.changes)
     for key in order.own.grid.keys:
@@ -46,7 +46,7 @@ def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
             order.tell(key.put(chosen[key.key], order.base(), changes))
     study, options = _sweep_of(order)
     options |= {"seed": order.own.seed, "kick_speed": order.own.kick_speed}
-    sweep = study.order(replace(how, out=out), order.name, changes, **options)
+    sweep = study.order(replace(order.how, out=out), order.name, changes, **options)
     if faults := [*order.faults, *sweep.faults]:
         raise CampaignStopped("; ".join(faults))
     print(f"cut      {' and '.join(f'{name} = {value}' for name, value in chosen.items())}, in {out}")
@@ -67,12 +67,12 @@ def _sweep_of(order: Order) -> tuple[Study, dict[str, object]]:
 
 def _share_runs(order: Order, out: Path) -> None:
     """Give the folder of a cut the judged runs of its cells."""
-    chosen, how = order.own.cut, order.how
+    chosen, folder = order.own.cut, order.how.out
     keys = {case.key for case in order.cases if _lies_on(case.labels, chosen)}
-    keys |= {row["run_key"] for row in tables_of(how.out, ".")["."] if _lies_on(row, chosen)}
+    keys |= {row["run_key"] for row in tables_of(folder, ".")["."] if _lies_on(row, chosen)}
     with claimed(out):
         for key in sorted(keys):
-            source, target = trajectory_path(how.out, key), trajectory_path(out, key)
+            source, target = trajectory_path(folder, key), trajectory_path(out, key)
             if source.exists() and not target.exists():
                 _link(source, target)
 

@@ -63,17 +63,18 @@ class Map:
 
     def run_screen(self, coarse: Sequence[Job]) -> None:
         """Let a massless tether do the coarse grid, of which these are the runs from rest. Raises OSError."""
-        own, began = self.order.own, time.perf_counter()
-        self.screen = screened(self.plan, [job.scene for job in coarse], own.kick_speed, own.seed)
-        self.motions.times["run_s"] += time.perf_counter() - began
+        options, start_s = self.order.own, time.perf_counter()
+        self.screen = screened(self.plan, [job.scene for job in coarse], options.kick_speed, options.seed)
+        self.motions.times["run_s"] += time.perf_counter() - start_s
         tables.write_screen(self.plan.how.out, self.grid, coarse, self.screen)
         self._show()
 
     def compute(self, cells: list[Cell], jobs: list[Job]) -> Summary:
         """Compute the motions of cells, whose runs from rest these are. Raises as `runner.run`."""
-        own = self.order.own
+        options = self.order.own
+        search = Search(self.order, options.starts - 1, options.kick_speed, options.seed, options.budget)
         self.tree.add(cells)
-        explore(self.motions, jobs, Search(self.order, own.starts - 1, own.kick_speed, own.seed, own.budget))
+        explore(self.motions, jobs, search)
         summary = self.motions.write()
         tables.write_strobes(self.plan.how.out, self)
         self._show()
@@ -81,18 +82,18 @@ class Map:
 
     def refine(self, summary: Summary) -> Summary:
         """Bisect cells at borders, coarse ones first, into --refine more of them. Raises as `runner.run`."""
-        left = self.order.own.refine
-        while left >= 4:
+        room = self.order.own.refine
+        while room >= 4:
             cells, jobs = [], []
             for cell in self.borders():
                 parts = cell.parts()
                 jobs_of_parts = [self.grid.job_at(self.order, part) for part in parts]
-                if None not in jobs_of_parts and len(cells) + 4 <= left:
+                if None not in jobs_of_parts and len(cells) + 4 <= room:
                     cells += parts
                     jobs += jobs_of_parts
             if not cells:
                 break
-            left -= len(cells)
+            room -= len(cells)
             summary = self.compute(cells, jobs)
         return summary
 
