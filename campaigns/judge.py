@@ -4,27 +4,13 @@ import math
 from functools import partial
 
 import engine.scene
+from campaigns.finer import finer
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
 
 LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
 OPEN = ("undecided", "transient")  # regimes that decide nothing
 LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS, LATERAL = "output.tangent_vectors", "output.lateral_growth"
-
-
-def finer(scene, elements: int = 1, steps: int = 1, changes: dict | None = None):
-    """The same scene, finer: with `elements` times the elements, and at 1/steps of its tolerance.
-
-    Where the step is fixed, it is the step that is divided. changes: of other keys.
-    """
-    changes = dict(changes or {})
-    if elements > 1:
-        changes["tether.nodes"] = elements * (scene.tether.nodes - 1) + 1
-    if steps > 1:
-        step_s = scene.solver.step_s
-        key, value = ("solver.step_s", step_s) if step_s else ("solver.rtol", scene.solver.rtol)
-        changes[key] = value / steps
-    return engine.scene.scene_from_toml(scene.to_toml(), changes)
 
 
 def tangent_of(trajectory, transient_periods: int):

@@ -8,7 +8,7 @@ from campaigns.basins.smallest import Shock, smallest
 from campaigns.columns import MESSAGE, STATUS, Column
 from campaigns.explore.motions import MOTION, Motion, subfolder
 from campaigns.explore.starts import KICKS
-from campaigns.judge import finer
+from campaigns.finer import finer
 from campaigns.machinery.folder import write_table
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from campaigns.columns import MESSAGE, RUN_KEY, STATUS, Column
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import JOINED, Ending, Request, Start
-from campaigns.judge import finer
+from campaigns.finer import finer
 from campaigns.machinery.folder import write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep

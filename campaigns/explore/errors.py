@@ -37,7 +37,8 @@ from campaigns.explore.approach import orbit_ahead
 from campaigns.explore.batches import UNFOLLOWED, Batch
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.explore.starts import JOINED, OUTCOME, UNSETTLED, as_it_is, section_of, settled_of
-from campaigns.judge import finer, job_from
+from campaigns.finer import finer
+from campaigns.judge import job_from
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from engine import goes_in_lanes, simulate

@@ -24,7 +24,7 @@ from campaigns.machinery.folder import claimed, made_by, run_of, write_table
 from campaigns.machinery.plan import Further, Job, Plan
 from campaigns.machinery.runner import run
 from engine.scene import scene_from_toml
-from engine.views import state_of
+from engine.views import strobed_states
 
 LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
@@ -162,20 +162,17 @@ def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
     what counts as 1 in the states. r is taken OFTEN times a period, so that runs of more samples compare. States are
     those at phase 0 of the wave, so that runs that begin at other phases compare too.
     """
-    from analysis import poincare_section
-
     columns, waves, step_s = trajectory.columns, trajectory.scene.waves, trajectory.scene.sample_step_s()
     period_s, share = waves.period_s, strobed_at(waves.phase_rad)
     passed_s = np.arange(len(columns["time_s"])) * step_s
     periods = int(passed_s[-1] / period_s - share + 1e-6)
-    coordinates, scale = state_of(columns, step_s, period_s, periods // 2)
-    strobed = poincare_section(coordinates, step_s, period_s, share).points[: periods + 1]
+    strobed, scale = strobed_states(trajectory, periods // 2, share)
     marks = (np.arange(periods * OFTEN) / OFTEN + share) * period_s
     radius = np.interp(marks, passed_s, columns["radius_m"]).reshape(periods, OFTEN)
     begin = np.searchsorted(passed_s, (np.arange(periods) + share) * period_s + 1e-6 * step_s)
     end = round((periods + share) * period_s / step_s) + 1
     tension = np.maximum.reduceat(columns["tension_top_high_N"][:end], begin)
-    return strobed, np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
+    return strobed[: periods + 1], np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
 
 
 def settled_of(trajectory):

@@ -8,8 +8,9 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from engine.views import strobed_radius
+
 from ..buoy_sweep.motions import MARKS
-from ..buoy_sweep.runs import strobed
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN, Column, orbit_diagram
 from ..parts.columns import Quantity, table_of, value
@@ -69,7 +70,7 @@ def _diagram(folder: Folder, key: Quantity, branches: Sequence[Branch], motions:
     colours, part, columns, simulated, named = colours_of(motions), part_of(folder, "motions"), [], [], {}
     for row in in_order(motions, [key.name]):
         run, _ = part.trajectory(row)
-        points = strobed(run, int(row.get("transient_periods") or 0))[:, 0] if run is not None else np.empty(0)
+        points = strobed_radius(run, int(row.get("transient_periods") or 0))[:, 0] if run is not None else np.empty(0)
         columns.append(Column(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
     for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
         own = [row for row in motions if not colours or row["motion"] == letter]
