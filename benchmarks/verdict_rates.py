@@ -24,7 +24,7 @@ from analysis.oscillator import SnapOscillator
 from analysis.oscillator.growth import random_starts
 from analysis.oscillator.strobing import growth_over_values
 from benchmarks.known_records import GOLDEN
-from campaigns.judge import LEAST_CHECK, SURE
+from campaigns.machinery.long_runs import LEAST_CHECK, SURE
 from engine import load_scene, simulate_each
 from engine.views import state_of
 

@@ -80,7 +80,7 @@ class Exploration:
         """Do runs in a folder beside that of the starts; their Trajectories, None for one that ended early."""
         running = replace(self.plan.how, out=self.plan.how.out / folder)
         with claimed(running.out):
-            timing, summary = run(replace(self.plan, how=running, said=title), jobs)
+            timing, summary = run(replace(self.plan, how=running, title=title), jobs)
         self.places.times.update(timing)
         rows = {row["run_key"]: row for row in summary.rows}
         return [run_of(running.out, rows[job.key]) if job.key in rows else None for job in jobs]

@@ -16,6 +16,7 @@ import numpy as np
 from campaigns.answers import greatest
 from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
 from campaigns.explore.answer import CAPPED
+from campaigns.explore.judgement import Judgement
 from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.judge import LATERAL, TANGENTS, job_from
@@ -62,17 +63,13 @@ class Batch:
             plan,
             how=replace(plan.how, out=out),
             columns=self.columns,
-            said=self.title,
-            describe=partial(unchecked, row=self.row),
+            title=self.title,
+            describe=self.row,
+            judge=None,
             simulate_each=plan.simulate_each if self.together else None,
         )
         with claimed(out):
             return run(batch, self.jobs)[1].analysis_s
-
-
-def unchecked(trajectory, row: Callable, checks=None) -> dict[str, object]:
-    """row(trajectory). checks: of a run that begins in the state of another one; no run of a batch has any."""
-    return row(trajectory)
 
 
 def changed(scene, *changes: dict):
@@ -82,7 +79,7 @@ def changed(scene, *changes: dict):
 
 def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
     """What a run fills of these columns without a verdict."""
-    row = buoy_row(trajectory, transient_periods) | {"nodes": trajectory.scene.tether.nodes}
+    row = buoy_row(trajectory, Judgement(transient_periods)) | {"nodes": trajectory.scene.tether.nodes}
     return {name: row[name] for name in names(columns) if name in row}
 
 

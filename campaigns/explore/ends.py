@@ -151,7 +151,7 @@ def by_orbits(motions: Motions, ends: Sequence[_End], scene_at: Callable) -> dic
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
     from campaigns.explore.orbit_tasks import lost
-    from campaigns.explore.tracing import Line, Task, work
+    from campaigns.explore.tracing import Line, line_task, work
 
     (key,) = motions.keys
     values = _values(motions)
@@ -162,7 +162,7 @@ def by_orbits(motions: Motions, ends: Sequence[_End], scene_at: Callable) -> dic
             value, state = values[end.motion.place], end.motion.state
             low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
             line = Line(scene_at, low, high, span, state, value)
-            tasks[end] = Task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
+            tasks[end] = line_task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
     title, folder = "ends of ranges by their orbits", motions.plan.how.out / FOLDER
     results, _ = work(motions.plan, folder, title, list(tasks.values()))
     exact = {}

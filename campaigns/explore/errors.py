@@ -41,6 +41,7 @@ from campaigns.finer import finer
 from campaigns.judge import job_from
 from campaigns.machinery.folder import read_rows, run_of, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.store import orbits_in
 from engine import goes_in_lanes, simulate
 from engine.at_rest import static_tension_N
 
@@ -97,20 +98,21 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     run = None if row.get("transient_periods") is None else run_of(plan.how.out, row)
     if run is None:
         return None
+    orbits = orbits_in(plan.how.out)
     scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)
     if period and "approach: " in (row.get("evidence") or ""):
-        run = orbit_ahead(run)[0].run
+        run = orbit_ahead(run, orbits)[0].run
     if run.final_state is None or not goes_in_lanes(scene):
         return None
     length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
-    motion = (settled_of(run) or as_it_is(run)) if row.get("regime") else None
+    motion = (settled_of(run, orbits) or as_it_is(run)) if row.get("regime") else None
     job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
     job = replace(job, describe=partial(companion_row, period=period, motion=motion))
     usual_N = usual_max_N(run, row["transient_periods"], period)
     return _Companion(job, row, usual_N, slack_shares(run, row["transient_periods"], period))
 
 
-def companion_row(trajectory, checks=None, period: int | None = None, motion=None) -> dict[str, object]:
+def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
     """The columns of COLUMNS that a companion fills. period, motion (`analysis.Settled`): of its row, where known."""
     from analysis import joins
 

@@ -16,6 +16,7 @@ from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts
 from campaigns.machinery.folder import claimed, run_of, write_table
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
+from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
 
 MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
@@ -123,6 +124,7 @@ class Motions:
     ):
         self.plan, self.keys, self.neighbours, self.match_distance = plan, tuple(keys), neighbours, match_distance
         self.folder = plan.how.out / folder if folder else plan.how.out
+        self.orbits = orbits_in(self.folder)
         self.starts = Starts(plan, (*self.keys, MOTION))
         self.kicks = 0  # at each place
         self.jobs: list[Job] = []  # the runs from rest, by place
@@ -155,7 +157,7 @@ class Motions:
             return
         own_folder = self.folder == self.plan.how.out
         with contextlib.nullcontext() if own_folder else claimed(self.folder):
-            plan = replace(self.plan, how=replace(self.plan.how, out=self.folder), said=title)
+            plan = replace(self.plan, how=replace(self.plan.how, out=self.folder), title=title)
             timing, summary = run(plan, list(jobs), ahead)
         self.times.update(timing)
         self.computed |= summary.made

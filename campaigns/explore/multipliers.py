@@ -8,16 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import TYPE_CHECKING
 
+import engine
 from campaigns.columns import Column
+from campaigns.machinery.folder import made_by
+from campaigns.machinery.store import Store, key_of
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from analysis.orbits import Orbit
     from engine.trajectory import Trajectory
+
+SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipliers.py"
 
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
@@ -45,59 +50,93 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)
 
 
-class OrbitUnder(NamedTuple):
-    """The periodic orbit under a run (`analysis.orbits.Orbit`), the errors of its multipliers, and a run on it that is
-    long enough to be judged."""
+@dataclass(frozen=True)
+class OrbitUnder:
+    """The periodic orbit under a run, as its computation is kept.
 
-    orbit: Orbit
+    multipliers (k,)    complex, the largest first
+    errors (k,)         of the multipliers
+    run                 on the orbit, long enough to be judged
+    """
+
+    period: int
+    multipliers: np.ndarray
     errors: np.ndarray
     run: Trajectory
 
-    def row(self) -> tuple[dict[str, float | None], str]:
-        """The columns MULTIPLIERS, and the leading multiplier in words."""
-        first, error = complex(self.orbit.multipliers[0]), float(self.errors[0])
-        modulus, angle = abs(first), abs(math.atan2(first.imag, first.real))
+    def row(self) -> dict[str, float | None]:
+        """The columns MULTIPLIERS."""
+        modulus, angle, error = self._leading()
         values = modulus, angle, error if math.isfinite(error) else None
-        said = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees" if first.imag else f"{first.real:.4f}"
-        doubt = ", not known to be stable" if modulus - error < 1.0 else ": NOT stable, the run lies beside it"
-        words = f"leading multiplier {said}, ± {error:.2g}{doubt if modulus >= 1.0 else ''}"
-        return dict(zip((column.name for column in MULTIPLIERS), values, strict=True)), words
+        return dict(zip((column.name for column in MULTIPLIERS), values, strict=True))
+
+    def words(self) -> str:
+        """The leading multiplier, and whether the orbit is stable."""
+        first = self.multipliers[0]
+        modulus, angle, error = self._leading()
+        size = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees" if first.imag else f"{first.real:.4f}"
+        doubt = ""
+        if modulus >= 1.0:
+            doubt = ", not known to be stable" if modulus - error < 1.0 else ": NOT stable, the run lies beside it"
+        return f"leading multiplier {size}, ± {error:.2g}{doubt}"
+
+    def _leading(self) -> tuple[float, float, float]:
+        """Modulus, angle and error of the leading multiplier."""
+        first = complex(self.multipliers[0])
+        return abs(first), abs(math.atan2(first.imag, first.real)), float(self.errors[0])
 
 
-def orbit_under(trajectory: Trajectory, period: int, iterations: int = 20) -> OrbitUnder:
+def orbit_under(trajectory: Trajectory, period: int, orbits: Store, iterations: int = 20) -> OrbitUnder:
     """The orbit under a run that repeats, or comes to repeat, after `period` wave periods or a divisor of them.
 
-    Raises ArithmeticError, with the end of a sentence, where Newton's method finds none in so many iterations.
+    orbits: where its computation is kept. Raises ArithmeticError, with the end of a sentence, where Newton's method
+    finds none in so many iterations.
     """
     import numpy as np
 
-    from analysis.orbits import NoImage, find_orbit, scatter_of
+    from engine.final_state import state_of_file
+
+    scene = trajectory.scene
+    key = key_of(trajectory.final_state, scene.key(), period, iterations, engine.source_hash(), _maker())
+    result = orbits.finished(key, partial(_computed, trajectory, period, iterations))
+    if result["reason"]:
+        raise ArithmeticError(result["reason"])
+    arrays = {name: np.array(values) for name, values in result["state"].items()}
+    samples = max(LONG, 8 * result["period"]) * (len(result["history"]["time_s"]) // result["period"]) + 1
+    columns = {name: np.resize(np.array(values), samples) for name, values in result["history"].items()}
+    columns["time_s"] = np.arange(samples) * scene.sample_step_s()
+    run = replace(trajectory, columns=columns, final_state=state_of_file(scene, arrays))
+    multipliers = np.array([complex(*parts) for parts in result["multipliers"]])
+    return OrbitUnder(result["period"], multipliers, np.array(result["errors"]), run)
+
+
+@cache
+def _maker() -> str:
+    return made_by({}, *SOURCES)
+
+
+def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
+    """The orbit under a run: `reason` why there is none, or its period, multipliers, errors, history and state."""
+    from analysis.orbits import find_orbit, scatter_of
     from engine.scene import scene_from_toml
 
-    own = trajectory.scene
-    scene = scene_from_toml(own.to_toml(), {"solver.rtol": min(QUICK, own.solver.rtol)})
-    cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
-    orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations)
-    if not orbit.found:
-        raise NoImage(orbit.reason)
-    once = cable.history(orbit.points, 0.0)
-    samples = max(LONG, 8 * orbit.period) * cable.samples_of(scene) + 1
-    columns = {name: np.resize(values, samples) for name, values in once.items()}
-    columns["time_s"] = np.arange(samples) * own.sample_step_s()
-    state = replace(cable.state_of(orbit.points[0], 0.0), scene=own)
-    run = replace(trajectory, columns=columns, final_state=state)
-    return OrbitUnder(orbit, scatter_of(system, orbit).multipliers, run)
-
-
-def orbit_row(trajectory: Trajectory, period: int) -> tuple[dict[str, float | None], str]:
-    """The columns MULTIPLIERS of the orbit under a run that repeats after `period` wave periods; the same in words.
-
-    Where there is none, or one of another period than the run's, the words say why.
-    """
+    scene = trajectory.scene
+    scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
-        under = orbit_under(trajectory, period)
+        cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
+        orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations)
+        if not orbit.found:
+            return {"reason": orbit.reason}
+        history = cable.history(orbit.points, 0.0)
+        state = cable.state_of(orbit.points[0], 0.0)
+        errors = scatter_of(system, orbit).multipliers
     except (ArithmeticError, ValueError) as why:
-        return {}, f"no multipliers: {why}"
-    if under.orbit.period != period:
-        return {}, f"no multipliers: the orbit under it has period {under.orbit.period}"
-    return under.row()
+        return {"reason": str(why)}
+    return {
+        "reason": "",
+        "period": orbit.period,
+        "multipliers": orbit.multipliers,
+        "errors": errors,
+        "history": history,
+        "state": {name: values for name, _, values, *_ in state.variables()},
+    }

@@ -16,6 +16,7 @@ STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what 
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
 ACCURACY = 1e-2  # of a chord, to which an event is located: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
+HISTORY = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
 
 
@@ -30,42 +31,50 @@ def under(line: Line, value: float, period: int, state: object) -> tuple[dict, l
         return {"reason": orbit.reason}, []
     orbit, errors = middle_of(system, orbit)
     history = cable.history(orbit.points, value)
-    kept = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
-    history_lists = {name: [*map(float, history[name])] for name in kept}
-    return _row(cable, orbit, history, errors) | {"history": history_lists}, [orbit.points]
+    row = _row(cable, orbit, history, errors)
+    row["history"] = {name: history[name] for name in HISTORY}
+    return row, [orbit.points]
 
 
 def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[dict, list[np.ndarray]]:
     """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
-    from analysis.orbits import doubled_orbit, find_orbit, follow_branch, middle_of
+    from analysis.orbits import find_orbit, follow_branch, middle_of
 
     cable, system = line.maps
     orbit = find_orbit(system, points, value, len(points), count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
     branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, count=COUNT, accuracy=ACCURACY)
-    rows, found, events = [], [], []
+    rows, points_of, events = [], [], []
     for followed_orbit in branch.orbits:
         middle, errors = middle_of(system, followed_orbit)
         rows.append(_row(cable, middle, cable.history(middle.points, middle.parameter), errors))
-        found.append(middle.points)
+        points_of.append(middle.points)
     for event in branch.events:
         history = cable.history(event.orbit.points, event.orbit.parameter)
-        told = _row(cable, event.orbit, history, event.orbit.residuals)
-        told |= {"kind": event.kind, "angle_rad": event.angle_rad}
-        told |= {"value": event.parameter, "error": event.error if math.isfinite(event.error) else None}
-        told["at"] = len(found)
-        found.append(event.orbit.points)
-        if event.kind == "flip":
-            tried = (doubled_orbit(system, event, amplitude=m, count=COUNT) for m in AMPLITUDE)
-            doubled = next((one for one in tried if one.found), None)
-            if doubled is not None:
-                told |= {"doubled": len(found), "doubled_value": doubled.parameter}
-                told["doubled_seen"] = (doubled.points @ cable.seen).tolist()
-                found.append(doubled.points)
-        events.append(told)
+        row = _row(cable, event.orbit, history, event.orbit.residuals)
+        row |= {"kind": event.kind, "angle_rad": event.angle_rad, "at": len(points_of)}
+        row |= {"value": event.parameter, "error": _finite(event.error)}
+        points_of.append(event.orbit.points)
+        doubled = _doubled(system, event) if event.kind == "flip" else None
+        if doubled is not None:
+            row |= {"doubled": len(points_of), "doubled_value": doubled.parameter}
+            row["doubled_seen"] = doubled.points @ cable.seen
+            points_of.append(doubled.points)
+        events.append(row)
     ends = {"closed": branch.closed, "begins": branch.ends[0], "ends": branch.ends[1]}
-    return {"orbits": rows, "events": events, **ends}, found
+    return {"orbits": rows, "events": events, **ends}, points_of
+
+
+def _doubled(system, event):
+    """The orbit of twice the period that begins at a flip; None where none is found."""
+    from analysis.orbits import doubled_orbit
+
+    for amplitude_m in AMPLITUDE:
+        orbit = doubled_orbit(system, event, amplitude=amplitude_m, count=COUNT)
+        if orbit.found:
+            return orbit
+    return None
 
 
 def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, list[np.ndarray]]:
@@ -88,35 +97,36 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, 
         why = orbit.reason or why
     else:
         return {"reason": why}, []
-    how = {"most": MOST_SHORT, "count": COUNT, "accuracy": ACCURACY, "told": lambda one: not one.stable}
-    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **how)
+    limits = {"most": MOST_SHORT, "count": COUNT, "accuracy": ACCURACY, "told": lambda orbit: not orbit.stable}
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **limits)
     events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
     if not events:
         return {"reason": "the orbit stays stable"}, []
     first = min(events, key=lambda event: abs(event.parameter - value))
-    error = first.error if math.isfinite(first.error) else None
-    return {"reason": "", "kind": first.kind, "value": first.parameter, "error": error}, []
+    return {"reason": "", "kind": first.kind, "value": first.parameter, "error": _finite(first.error)}, []
 
 
 def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
     """Where an event is at the tolerance of the line, from an orbit near it, at `value`; it was found at `at`."""
-    return _again(line, kind, at, value, points)
+    return _event_near(line, kind, at, value, points)
 
 
 def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
     """The same on 2n - 1 nodes."""
     cable, _ = line.maps
-    more = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
+    fine_line = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
     # rates between nodes are no rates of the finer line: a run makes them, and leads to the strobe after the next
-    later = [engine.simulate(more.scene(value), periods=1, start=cable.state_of(z, value)) for z in points]
+    later = [engine.simulate(fine_line.scene(value), periods=1, start=cable.state_of(z, value)) for z in points]
     if failed := [run for run in later if run.final_state is None]:
-        return {"reason": f"on {more.nodes} nodes: {failed[0].message or failed[0].status}"}, []
-    more = replace(more, state=later[-1].final_state, value=value)
-    fine = more.maps[0]
-    return _again(more, kind, at, value, np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0))
+        return {"reason": f"on {fine_line.nodes} nodes: {failed[0].message or failed[0].status}"}, []
+    fine_line = replace(fine_line, state=later[-1].final_state, value=value)
+    fine = fine_line.maps[0]
+    return _event_near(
+        fine_line, kind, at, value, np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0)
+    )
 
 
-def _again(line, kind, at, value, points):
+def _event_near(line, kind, at, value, points):
     """An event near `at` on the branch of the orbit near these points."""
     from analysis.orbits import find_orbit, follow_branch
 
@@ -128,11 +138,11 @@ def _again(line, kind, at, value, points):
     low, high = max(at - wide, line.low), min(at + wide, line.high)
     ends = min(low, value), max(high, value)
     branch = follow_branch(system, orbit, *ends, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
-    same = [one for one in branch.events if one.kind == kind]
-    if not same:
+    events = [event for event in branch.events if event.kind == kind]
+    if not events:
         return {"reason": f"no {kind} from {low:.5g} to {high:.5g}"}, []
-    event = min(same, key=lambda one: abs(one.parameter - at))
-    return {"reason": "", "value": event.parameter, "error": event.error if math.isfinite(event.error) else None}, []
+    event = min(events, key=lambda event: abs(event.parameter - at))
+    return {"reason": "", "value": event.parameter, "error": _finite(event.error)}, []
 
 
 def _row(cable, orbit, history, errors) -> dict:
@@ -142,12 +152,16 @@ def _row(cable, orbit, history, errors) -> dict:
         "reason": "",
         "value": orbit.parameter,
         "period": orbit.period,
-        "multipliers": [[float(one.real), float(one.imag)] for one in orbit.multipliers],
-        "errors": [float(error) if math.isfinite(error) else None for error in errors],
+        "multipliers": orbit.multipliers,
+        "errors": [_finite(error) for error in errors],
         "gap": orbit.gap,
         "settled": orbit.settled,
-        "strobes": [float(one) for one in history["radius_m"][::per_period]],
-        "seen": (orbit.points @ cable.seen).tolist(),
-        "radius_m": [float(history["radius_m"].min()), float(history["radius_m"].max())],
-        "tension_N": [float(history["tension_top_low_N"].min()), float(history["tension_top_high_N"].max())],
+        "strobes": history["radius_m"][::per_period],
+        "seen": orbit.points @ cable.seen,
+        "radius_m": [history["radius_m"].min(), history["radius_m"].max()],
+        "tension_N": [history["tension_top_low_N"].min(), history["tension_top_high_N"].max()],
     }
+
+
+def _finite(error: float) -> float | None:
+    return error if math.isfinite(error) else None

@@ -1,6 +1,5 @@
 """Starts that the massless model proposes: one on each of its motions, found by many kicks in a moment."""
 
-import hashlib
 from collections.abc import Sequence
 from functools import cache, partial
 
@@ -8,13 +7,14 @@ import numpy as np
 
 import engine
 from campaigns.explore.starts import Start
-from campaigns.machinery.folder import keep_json, kept_json, made_by
+from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Plan
-from campaigns.machinery.pools import opened
-from campaigns.machinery.progress import stage
+from campaigns.machinery.store import Store, key_of
+from campaigns.machinery.tasks import Task, results
 from engine.scales import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
+SCENES = 8  # that a worker is given at once
 LONGER = 320  # wave periods of the start from rest and of kicks that come nearer to a period, if 80 do not settle them
 DIFFERENCE = 1e-5  # of a state, for the derivative of the map over a wave period
 
@@ -37,90 +37,83 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     starts that have not settled count as one more, which has no start and no period. What was found is kept in the
     folder. Raises OSError.
     """
-    path = plan.how.out / "proposals.json"
-    keys = [_key_of(scene, speed_mps, seed) for scene in scenes]
-    known = kept_json(path)
-    missing = [(key, scene) for key, scene in zip(keys, scenes, strict=True) if key not in known]
-    if missing:
-        from scipy.stats import qmc
+    from scipy.stats import qmc
 
-        count = len(missing)
-        spread = speed_mps * (2.0 * qmc.Halton(2, seed=seed).random(SCREENED) - 1.0)
-        kicked = np.vstack([spread, np.zeros(2)])
-        done = 0
-        with (
-            opened(plan.how.backend, min(plan.how.jobs, count), plan.how.dask_address) as execute,
-            stage("massless tethers", float(count), "values", lambda: float(done)),
-        ):
-            for task, found in execute(partial(_proposed, kicked), [missing[at : at + 8] for at in range(0, count, 8)]):
-                known |= dict(zip((key for key, _ in task), found, strict=True))
-                done += len(task)
-        keep_json(path, known)
-    return [known[key] for key in keys]
+    spread = speed_mps * (2.0 * qmc.Halton(2, seed=seed).random(SCREENED) - 1.0)
+    kicked = np.vstack([spread, np.zeros(2)])
+    tasks = []
+    for scene in scenes:
+        key = key_of(scene.key(), speed_mps, seed, engine.source_hash(), _maker())
+        tasks.append(Task(key, partial(_motions, kicked, scene)))
+    store = Store(plan.how.out / "proposals")
+    return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 
 def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
     """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
-    found = screened(plan, scenes, speed_mps, seed)
-    told = ([one for one in some if one["kick"] and one["share"]] for some in found)
-    return [[Start("massless", tuple(one["kick"]), tuple(one["moved"])) for one in some] for some in told]
-
-
-def _key_of(scene, *settings) -> str:
-    return hashlib.sha256(repr((scene.key(), engine.source_hash(), _made(), *settings)).encode()).hexdigest()
+    starts = []
+    for motions in screened(plan, scenes, speed_mps, seed):
+        begun = [motion for motion in motions if motion["kick"] and motion["share"]]
+        starts.append([Start("massless", tuple(motion["kick"]), tuple(motion["moved"])) for motion in begun])
+    return starts
 
 
 @cache
-def _made() -> str:
+def _maker() -> str:
     return made_by({}, "analysis", "campaigns/explore/proposals.py")
 
 
-def _proposed(kicked: np.ndarray, task: list[tuple]) -> list[list[dict]]:
-    """`screened` of scenes, with their keys."""
-    return [_motions(kicked, scene) for _, scene in task]
-
-
-def _motions(kicked: np.ndarray, scene) -> list[dict]:
+def _motions(kicked: np.ndarray, scene) -> dict:
+    """`screened` of a scene."""
     from analysis import approached_period, joins
 
     try:
         rest = np.array(engine.massless_rest(scene))
     except ValueError:  # not covered
-        return []
+        return {"motions": []}
     starts = np.column_stack([*map(partial(np.full, len(kicked)), rest), kicked])
-    known, found, numbers = [], [], range(len(kicked))
+    known, motions, numbers = [], [], range(len(kicked))
     unknown = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
     loose = dict(unknown)
     for periods in (PERIODS, LONGER):
-        runs, ringing = engine.massless_runs(scene, starts[numbers], periods), []
+        runs = engine.massless_runs(scene, starts[numbers], periods)
+        ringing = []
         for number, strobed, measures in zip(numbers, runs.strobed, runs.measures, strict=True):
             if not np.isfinite(strobed).all():
                 continue
-            which = joins(strobed, measures, known)
-            if which is not None:
-                one = found[which]
-            elif (motion := _settled(scene, strobed, measures, number == SCREENED and periods == LONGER)) is not None:
-                known.append(motion)
+            from_rest = number == SCREENED
+            joined = joins(strobed, measures, known)
+            settled = None
+            if joined is None:
+                settled = _settled(scene, strobed, measures, from_rest and periods == LONGER)
+            if joined is not None:
+                motion = motions[joined]
+            elif settled is not None:
+                known.append(settled)
                 x, z, u, w = map(float, strobed[-1])
-                one = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": motion.period}
-                one["tension_N"] = float(motion.measures[:, 2].max())
-                found.append(one)
-            elif periods < LONGER and (number == SCREENED or approached_period(strobed, np.ptp(strobed, axis=0))):
+                motion = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": settled.period}
+                motion["tension_N"] = float(settled.measures[:, 2].max())
+                motions.append(motion)
+            elif periods < LONGER and (from_rest or approached_period(strobed, np.ptp(strobed, axis=0))):
                 ringing.append(number)
                 continue
             else:
-                one, later = loose, float(measures[len(measures) // 2 :, 2].max())
-                one["tension_N"] = max(one["tension_N"], later)
-            if number < SCREENED:
-                one["share"] += 1.0 / SCREENED
+                motion = loose
+                largest_N = float(measures[len(measures) // 2 :, 2].max())
+                motion["tension_N"] = max(motion["tension_N"], largest_N)
+            if from_rest:
+                motion["rest"] = True
             else:
-                one["rest"] = True
+                motion["share"] += 1.0 / SCREENED
         if not ringing:
             break
         numbers = ringing[::-1]  # the one from rest first: others join what it comes to
-    found += [loose] if loose["tension_N"] else []
+    if loose["tension_N"]:
+        motions.append(loose)
     static_N = tension_at(float(np.hypot(*rest)) / scene.tether.length_m - 1.0, scene.tether.tension)
-    return [one | {"static_N": max(float(static_N), 0.0)} for one in found]
+    for motion in motions:
+        motion["static_N"] = max(float(static_N), 0.0)
+    return {"motions": motions}
 
 
 def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):

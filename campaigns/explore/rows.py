@@ -4,12 +4,14 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
+from __future__ import annotations
+
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from analysis.evidence import evidence_text
-from analysis.looks import CLOSE, next_look
 from campaigns.columns import (
     LINE_COUNTS,
     MESSAGE,
@@ -22,12 +24,13 @@ from campaigns.columns import (
     names,
     number,
 )
-from campaigns.explore.approach import judged_by_orbit
 from campaigns.explore.motions import MOTIONS
-from campaigns.explore.multipliers import MULTIPLIERS, orbit_row
-from campaigns.judge import LEAST_JUDGED, OPEN, motion_of, record_regime, tangent_of
+from campaigns.explore.multipliers import MULTIPLIERS
 from engine.at_rest import static_tension_N
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, state_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, state_of
+
+if TYPE_CHECKING:
+    from campaigns.explore.judgement import Judgement
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0)
@@ -110,64 +113,53 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, transient_periods: int | None, checks=None, full: int | None = None) -> dict[str, object]:
+def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
-    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not.
-    transient_periods: wave periods left out; a record that does not outlast them by one has statistics only. None:
-    those that the verdict has found; a periodic motion then has the multipliers of its orbit, and one that only comes
-    nearer to its orbit has the extremes and the slack of the orbit.
-    checks: how it went on at a tighter tolerance (`campaigns.judge.motion_of`), for a run that is chaotic.
-    full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
-    origin are asked for too; the verdict does not rest on them. None: they are not made.
-    A run gets a verdict (`campaigns.judge`) if it reached its end and lasts for two looks; in three dimensions, where
-    no perturbations are carried, for 40 periods. A loop release after the transient leaves offplane_growth unknown,
-    because across the plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
+    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. A record that does not
+    outlast the transient of its judgement by a wave period has statistics only. A loop release after the transient
+    leaves offplane_growth unknown, because across the plane a loop has no rate of its own. `campaigns.explore.space`
+    fills the columns planar_.
     """
-    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
-    row[HEIGHT.name] = height_m(scene, columns)
+    columns, scene = sound_part(trajectory.columns), trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    periods = (len(columns["time_s"]) - 1) * step_s / period_s
-    if periods >= 0.0:
-        row["periods"] = periods
-    verdict, wolf = judged(trajectory, periods, transient_periods, checks)
-    orbit, ahead = "", None
-    if transient_periods is None:
-        if verdict is not None and verdict.regime in (*OPEN, "quasi-periodic"):
-            verdict, ahead = judged_by_orbit(trajectory, verdict)
-        if ahead is not None:
-            row |= ahead.row()[0]
-        elif verdict is not None and verdict.period and trajectory.final_state is not None:
-            multipliers, orbit = orbit_row(trajectory, verdict.period)
-            row |= multipliers
-            loose = any(test.name == CLOSE and not test.passed for test in verdict.evidence)
-            if loose and not multipliers:
-                reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
-                verdict = replace(verdict, regime="undecided", reason=reason)
-        transient_periods = 0 if verdict is None else verdict.transient
-    if measured := after_transient(trajectory, columns, transient_periods):
-        if ahead is not None:
-            measured |= settled(scene, ahead.run.columns, 0.0) | {STROBED.name: verdict.period}
+    row = counted(trajectory)
+    row[HEIGHT.name] = height_m(scene, columns)
+    if len(columns["time_s"]):
+        row["periods"] = (len(columns["time_s"]) - 1) * step_s / period_s
+    if judgement.orbit is not None:
+        row |= judgement.orbit.row()
+    transient_periods = judgement.transient
+    measured = after_transient(trajectory, columns, transient_periods)
+    if measured:
+        if judgement.limit:
+            measured |= settled(scene, judgement.orbit.run.columns, 0.0) | {STROBED.name: judgement.verdict.period}
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
             first = round(transient_periods * period_s / step_s)  # sample after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
-    if verdict is not None:
-        evidence, tangent, tighter = [verdict], tangent_of(trajectory, transient_periods), _tighter(verdict)
-        goes_on = verdict.regime in OPEN or (verdict.regime == "chaotic" and tighter is None)
-        if full is not None and wolf is None and (periods > full - 0.5 or not goes_on):
-            record, wolf = record_regime(trajectory, transient_periods, tangent)
-            alone = tuple(replace(test, name=f"samples alone, {test.name}") for test in record.evidence)
-            evidence.append(replace(record, evidence=alone))
-        row |= {
-            "regime": verdict.regime,
-            "regime_tighter": tighter,
-            "regime_reason": f"{verdict.reason}; {orbit}" if orbit else verdict.reason,
-            "evidence": "; ".join(map(evidence_text, evidence)),
-            **exponents(TANGENT, tangent),
-            **(exponents(WOLF, wolf) if wolf is not None else {}),
-        }
+    if judgement.verdict is not None:
+        row |= regime_of(judgement)
+    return row
+
+
+def regime_of(judgement: Judgement) -> dict[str, object]:
+    """The columns of the verdict and of the exponents."""
+    verdict, record = judgement.verdict, judgement.record
+    evidence = evidence_text(verdict)
+    if record is not None:
+        alone = tuple(replace(test, name=f"samples alone, {test.name}") for test in record.evidence)
+        evidence = f"{evidence}; {evidence_text(replace(record, evidence=alone))}"
+    row = {
+        "regime": verdict.regime,
+        "regime_tighter": judgement.tighter,
+        "regime_reason": f"{verdict.reason}; {judgement.note}" if judgement.note else verdict.reason,
+        "evidence": evidence,
+    }
+    row |= exponents(TANGENT, judgement.tangent)
+    if judgement.wolf is not None:
+        row |= exponents(WOLF, judgement.wolf)
     return row
 
 
@@ -179,47 +171,39 @@ def height_m(scene, columns) -> float | None:
     return top_m - scene.water.depth_m
 
 
-def judged(trajectory, periods: float, transient_periods: int | None, checks=None):
-    """The Verdict on a run, and where its samples alone were judged Wolf's exponent; None where there is none."""
-    scene, enough = trajectory.scene, periods - (transient_periods or 0)
-    if trajectory.status != "ok":
-        return None, None
-    if carries_tangents(scene):
-        asked = transient_periods is None or (carried(trajectory) and periods >= next_look(next_look()))
-        return (motion_of(trajectory, checks) if asked else None), None
-    if scene.motion.dimensions == 3 and enough >= LEAST_JUDGED:
-        return record_regime(trajectory, transient_periods or 0)
-    return None, None
-
-
-def _tighter(verdict):
-    """What a motion is where it went on at a tighter tolerance; None where it did not."""
-    passed = next((test.passed for test in verdict.evidence if test.name == "tighter tolerance"), None)
-    return None if passed is None else verdict.regime
-
-
 def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
     """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
     """
-    from analysis import detect_period, poincare_section, transverse_lyapunov
+    scene = trajectory.scene
+    if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * scene.waves.period_s):
+        return {}
+    row = settled(scene, columns, transient_periods * scene.waves.period_s)
+    row |= strobed_period(trajectory, columns, transient_periods)
+    return row | lateral_growth(trajectory, transient_periods)
+
+
+def strobed_period(trajectory, columns, transient_periods: int) -> dict[str, object]:
+    """The column STROBED. Only the period goes into the table: the report strobes the radius again."""
+    from analysis import detect_period, poincare_section
 
     step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-    if not lasts(columns, step_s, (transient_periods + 1) * period_s):
-        return {}
-    row = settled(trajectory.scene, columns, transient_periods * period_s)
-    # Its state once a period has to repeat. Only the period goes into the table: the report strobes the radius again.
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
     section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
-    row["strobed_period"] = detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+    return {STROBED.name: detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period}
+
+
+def lateral_growth(trajectory, transient_periods: int) -> dict[str, object]:
+    """The columns OFFPLANE; none for a run that ended early or carried no perturbation across the plane."""
+    from analysis import transverse_lyapunov
+
     growth = trajectory.tangent
-    if trajectory.status == "ok" and growth is not None and growth.lateral_nats is not None:
-        # nan: periods before perturbations were carried
-        told = np.isfinite(growth.lateral_nats) & (np.arange(len(growth.released)) >= transient_periods)
-        found = transverse_lyapunov(growth.lateral_nats[told], 0, growth.released[told])
-        row |= exponents(OFFPLANE, found)
-    return row
+    if trajectory.status != "ok" or growth is None or growth.lateral_nats is None:
+        return {}
+    # nan: periods before perturbations were carried
+    judged = np.isfinite(growth.lateral_nats) & (np.arange(len(growth.released)) >= transient_periods)
+    return exponents(OFFPLANE, transverse_lyapunov(growth.lateral_nats[judged], 0, growth.released[judged]))
 
 
 def lasts(columns, step_s: float, length_s: float) -> bool:
@@ -227,9 +211,9 @@ def lasts(columns, step_s: float, length_s: float) -> bool:
     return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
 
 
-def exponents(columns: tuple[Column, Column], found) -> dict[str, object]:
+def exponents(columns: tuple[Column, Column], exponent) -> dict[str, object]:
     """An Exponent in the two columns of its value and its standard error."""
-    return dict(zip(names(columns), (number(found.value), number(found.error)), strict=True))
+    return dict(zip(names(columns), (number(exponent.value), number(exponent.error)), strict=True))
 
 
 def settled(scene, columns, transient_s: float) -> dict[str, object]:

@@ -11,11 +11,12 @@ PAPER_STEEPNESS = (0.016, 0.13)  # the two waves of section 4.2
 
 
 def measures_of(order: Order, columns: tuple[Column, ...], full: bool = False) -> Measures:
-    """The rows of a buoy in regular waves. full: as of `rows.buoy_row`, after all wave periods of the order."""
+    """The rows of a buoy in regular waves. full: as of `judgement_of`, after all wave periods of the order."""
+    from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row
 
     settings = {"transient_periods": order.transient, "full": order.periods if full else None}
-    return Measures(columns, partial(buoy_row, **settings), ROW_SOURCES, settings)
+    return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
 
 
 def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:

@@ -52,7 +52,9 @@ def run_from_rest(motions: Motions, jobs: Sequence[Job]) -> range:
     for place in places:
         run = motions.judged_run(motions.jobs[place].key)
         if run is not None:
-            motions.at[place].append(Motion(place, settled_of(run) or as_it_is(run), run.final_state, FROM_REST))
+            motions.at[place].append(
+                Motion(place, settled_of(run, motions.orbits) or as_it_is(run), run.final_state, FROM_REST)
+            )
     return places
 
 
@@ -140,7 +142,7 @@ def judge(motions: Motions, search: Search) -> None:
         motions.job_keys[motion] = job.key
         run = motions.judged_run(job.key)
         if run is not None:
-            settled[motion] = settled_of(run) or as_it_is(run)
+            settled[motion] = settled_of(run, motions.orbits) or as_it_is(run)
     merge(motions, settled)
 
 

@@ -21,8 +21,10 @@ from campaigns.columns import LOOPS, MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, WALL
 from campaigns.explore.approach import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of, write_table
-from campaigns.machinery.plan import Further, Job, Plan
+from campaigns.machinery.long_runs import UNSETTLED, until_settled
+from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run
+from campaigns.machinery.store import Store, orbits_in
 from engine.scene import scene_from_toml
 from engine.views import strobed_states
 
@@ -31,7 +33,7 @@ OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strob
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
 FOUND_BY = Column("found_by", symbol="found by", meaning="rest, massless (model), kick, or carried from a neighbour")
-SETTLED, JOINED, UNSETTLED = "settled", "joined", "unsettled"
+SETTLED, JOINED = "settled", "joined"
 KICKS = (
     Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),
@@ -123,23 +125,12 @@ def start_job(request: Request) -> Job:
         start.scene(scene),
         ends[-1],
         describe=partial(start_row, known=tuple(request.known), settles=request.settles),
-        going=partial(_until_settled, start=start.state, ends=ends),
+        going=partial(until_settled, start=start.state, ends=ends),
         made=f"start {digest.hexdigest()}{'' if request.settles else ' joins'}",
     )
 
 
-def _until_settled(scene, trajectory, row, checks, start, ends):
-    """What the run of a start does next (`campaigns.machinery.plan.Further`)."""
-    if row is None:
-        return Further(scene, ends[0], start)
-    done = row.get("periods")
-    ahead = next((end for end in ends if done is not None and end > done + 1e-6), None)
-    if row["status"] != "ok" or row.get("outcome") != UNSETTLED or ahead is None:
-        return None
-    return Further(scene, ahead - done, trajectory)
-
-
-def start_row(trajectory, checks=None, known: Sequence = (), settles: bool = True) -> dict[str, object]:
+def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[str, object]:
     """The columns of OF_A_START that the run of a start fills."""
     from analysis import joins, settled
 
@@ -175,15 +166,21 @@ def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
     return strobed[: periods + 1], np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
 
 
-def settled_of(trajectory):
-    """The motion to which a run has settled, or comes nearer (`analysis.Settled`); None where it does neither."""
+def settled_of(trajectory, orbits: Store):
+    """The motion to which a run has settled, or comes nearer (`analysis.Settled`); None where it does neither.
+
+    orbits: of its campaign.
+    """
     from analysis import settled
 
     strobed, measures, scale = section_of(trajectory)
     motion = settled(strobed, measures, scale=scale)
-    if motion is None and (ahead := orbit_ahead(trajectory)) and ahead[1].passed:
-        return settled_of(ahead[0].run)
-    return motion
+    if motion is not None:
+        return motion
+    near = orbit_ahead(trajectory, orbits)
+    if near is None or not near[1].passed:
+        return None
+    return settled_of(near[0].run, orbits)
 
 
 def as_it_is(trajectory):
@@ -229,7 +226,8 @@ class Starts:
     def __init__(self, plan: Plan, keys: tuple[Column, ...]):
         columns = (*keys, FOUND_BY, *OF_A_START)
         running = replace(plan.how, out=plan.how.out / "starts")
-        self.plan = replace(plan, how=running, columns=columns, describe=start_row, row_maker=made_by({}, *SOURCES))
+        maker = made_by({}, *SOURCES)
+        self.plan = replace(plan, how=running, columns=columns, describe=start_row, judge=None, row_maker=maker)
         self.endings: list[Ending] = []
         self.times: Counter = Counter()
         self.computed = 0
@@ -243,7 +241,7 @@ class Starts:
         if not jobs:
             return []
         with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, said=title), jobs)
+            timing, summary = run(replace(self.plan, title=title), jobs)
         self.times.update(timing)
         self.computed += summary.computed
         rows = {row["run_key"]: row for row in summary.rows}
@@ -257,7 +255,9 @@ class Starts:
         if row.get("outcome") == JOINED:
             return Ending(row, round(row["joins"]))
         run = run_of(self.plan.how.out, row) if row.get("outcome") == SETTLED else None
-        return Ending(row) if run is None else Ending(row, None, settled_of(run), run.final_state)
+        if run is None:
+            return Ending(row)
+        return Ending(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
 
     def write(self) -> None:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""

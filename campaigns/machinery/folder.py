@@ -87,10 +87,9 @@ def claimed(directory: Path) -> Iterator[None]:
 def _drop_temporaries(directory: Path) -> None:
     for path in directory.glob(f"{PROGRESS}*"):
         shutil.rmtree(path, ignore_errors=True)
-    for place in (directory, directory / "trajectories"):
-        for path in place.glob(".*.tmp"):
-            with contextlib.suppress(OSError):
-                path.unlink()
+    for path in directory.rglob(".*.tmp"):
+        with contextlib.suppress(OSError):
+            path.unlink()
 
 
 class Table:
@@ -237,30 +236,3 @@ def of_the_page() -> tuple[str, ...]:
     place = "reports/templates"
     found = (Path(__file__).resolve().parents[2] / place).iterdir()
     return tuple(sorted(f"{place}/{path.name}" for path in found if path.is_file()))
-
-
-def kept_row(directory: Path, key: str, maker: str, content: bytes = b"") -> dict | None:
-    """The row that `maker` made of a run whose file has this content; None where there is none, or a damaged one.
-
-    content: empty of what has no file beside its row.
-    """
-    found = kept_json(_row_path(directory, key))
-    return found["row"] if found.get("made_by") == maker and found.get("run") == _digest(content) else None
-
-
-def keep_row(directory: Path, key: str, maker: str, row: dict, content: bytes = b"") -> None:
-    """Store a row for `kept_row`, unless it has no maker or its analysis failed.
-
-    A full disk loses only the time to make it again.
-    """
-    if maker and row.get("status") != "analysis-failed":
-        with contextlib.suppress(OSError):
-            keep_json(_row_path(directory, key), {"made_by": maker, "run": _digest(content), "row": row})
-
-
-def _digest(content: bytes) -> str:
-    return hashlib.sha256(content).hexdigest()
-
-
-def _row_path(directory: Path, key: str) -> Path:
-    return directory / "trajectories" / f"{key}.row.json"

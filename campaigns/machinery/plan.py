@@ -1,7 +1,7 @@
 """What a campaign is to do, as records: its runs (`Job`), how and where they run (`Plan`), what came of them.
 
 `trajectories/<key>.nc` is written whole or not at all, and a run is finished when its file is there. table.csv can be
-lost at no cost: its rows come from these files, or from the copies of rows beside them (`folder.keep_row`).
+lost at no cost: its rows come from these files, or from the copies of rows beside them.
 """
 
 import hashlib
@@ -10,36 +10,23 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import engine
 from campaigns.columns import Column
 from campaigns.machinery.cli import Running
 
 
-class Further(NamedTuple):
-    """What a run does next: scene, wave periods, the Trajectory it goes on from (None: from rest), and what for.
-
-    check: the run stays as it is, and what is computed, or what follows such a check, is handed to its row, with all
-    before it: describe(trajectory, checks={periods of the run: Trajectory}).
-    """
-
-    scene: object
-    periods: float
-    start: object = None
-    check: bool = False
-
-
 @dataclass(frozen=True)
 class Job:
     """One run to do: the columns that name it, its scene, and its length in wave periods or in seconds.
 
-    simulate, describe: in place of the plan's, for campaigns whose runs are not all made or described alike.
-    going(scene, trajectory, row, checks): for a run as long as it needs: what it does next (`Further`), None when it is
-    done; trajectory and row are those so far, None before its first. `periods` is then the most that it may take.
-    carrying: whether it may go on with perturbations that its scene does not carry.
-    made: what else the result depends on, where the run is not the engine's own or not the only one of its scene.
-    engine: hash of the engine's sources with which the campaign began.
+    simulate    in place of the plan's, for campaigns whose runs are not all made alike
+    describe    describe(trajectory) -> row, in place of the plan's
+    going       for a run that takes as long as it needs: what it does next (`campaigns.machinery.long_runs`). `periods`
+                is then the most that it may take
+    carrying    whether it may go on with perturbations that its scene does not carry
+    made        what else the result depends on, where the run is not the engine's own or not the only one of its scene
+    engine      hash of the engine's sources with which the campaign began
     """
 
     labels: Mapping[str, object]
@@ -59,9 +46,8 @@ class Job:
 
         Runs of one campaign take about as long as their sizes say; the speed itself is not known before they run.
         """
-        waves, tether = self.scene.waves, self.scene.tether
-        length_s = (self.periods or 0.0) * waves.period_s if self.duration_s is None else self.duration_s
-        return length_s * tether.nodes ** (2 if self.scene.solver.courant else 1)
+        length_s = (self.periods or 0.0) * self.scene.waves.period_s if self.duration_s is None else self.duration_s
+        return length_s * self.scene.tether.nodes ** (2 if self.scene.solver.courant else 1)
 
     @cached_property
     def key(self) -> str:
@@ -76,21 +62,23 @@ class Job:
 class Outcome:
     """What a worker hands back: the row of a run, but for its labels and key, and the seconds that it took to make.
 
-    content: the run's file, from a worker that does not see the folder.
+    content    the run's file, from a worker that does not see the folder
+    orbits     results of the store of orbits, from the same worker
     """
 
     key: str
     row: dict[str, object]
     analysis_s: float = 0.0
     content: bytes = b""
+    orbits: Mapping[str, dict] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class Summary:
     """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers.
 
-    whole: whether nothing was done, and the report that is there stays as it is. made: keys of the runs that were
-    computed, or went on.
+    whole    whether nothing was done, and the report that is there stays as it is
+    made     keys of the runs that were computed, or went on
     """
 
     rows: list[dict[str, object]]
@@ -103,16 +91,20 @@ class Summary:
 
 @dataclass(frozen=True)
 class Plan:
-    """How to run: where, with which functions, and on what.
+    """How to run: where, with which functions, and on what. Functions go to workers (importable, or by cloudpickle).
 
-    simulate(scene, periods=, duration_s=) -> Trajectory, and describe(trajectory) -> row, have to be
-    importable or picklable by cloudpickle. columns: of the table, among them run_key, status and message.
-    row_maker: hash of whatever shapes a row (`campaigns.machinery.folder.made_by`); empty: rows are not kept.
-    simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
-    given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`). Both are also given
-    progress=, where they take it. said, then: what the runs are called, and what follows them (`progress.Stage`); told:
-    folder where workers say how far they are. heard(row): told of every row as it comes.
-    how.out: None in the plan that a worker gets which does not see the folder.
+    how             `how.out` is None in the plan that a worker gets which does not see the folder
+    simulate        simulate(scene, periods=, duration_s=) -> Trajectory
+    describe        describe(trajectory) -> row; with `judge`: describe(trajectory, judgement)
+    columns         of the table, among them run_key, status and message
+    row_maker       hash of everything that shapes a row (`folder.made_by`); empty: rows are not kept
+    judge           judge(trajectory, checks, orbits) -> what a row reads beside its run. checks: runs that went on from
+                    it at a tighter tolerance, None where none ever does; orbits: the Store of what is computed for it
+    simulate_each   simulate_each(scenes, periods=, duration_s=) yields (number of the scene, Trajectory) as runs end.
+                    Where it is given, runs that can go side by side share a worker (`runner.groups_of`)
+    title           what the runs are called
+    reports         folder where workers say how far they are
+    on_row          called with every row as it comes
     """
 
     how: Running
@@ -120,11 +112,11 @@ class Plan:
     describe: Callable
     columns: tuple[Column, ...]
     row_maker: str = ""
+    judge: Callable | None = None
     simulate_each: Callable | None = None
-    said: str = "runs"
-    then: Callable[[float], float] | None = None
-    told: Path | None = None
-    heard: Callable[[dict], None] | None = None
+    title: str = "runs"
+    reports: Path | None = None
+    on_row: Callable[[dict], None] | None = None
 
     @property
     def sends(self) -> bool:
@@ -135,14 +127,3 @@ class Plan:
 def name_of(task: Sequence[Job]) -> str:
     """The name of the file in which a worker says how far it is with these jobs."""
     return f"{len(task)}-{task[0].key}"
-
-
-def length_of(jobs: Sequence[Job]) -> tuple[float, str]:
-    """The length of all runs together, in wave periods where all have waves, and what it is counted in."""
-    in_waves = all(job.scene.waves is not None for job in jobs)
-    lengths = (
-        job.periods if job.periods is not None else job.duration_s / (job.scene.waves.period_s if in_waves else 1.0)
-        for job in jobs
-    )
-    most = " at most" if any(job.going is not None for job in jobs) else ""
-    return sum(lengths), f"{'wave periods' if in_waves else 's'}{most} in {len(jobs)} runs"

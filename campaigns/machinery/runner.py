@@ -8,24 +8,26 @@ import contextlib
 import math
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import engine
-from campaigns.machinery.folder import PROGRESS, Table, keep_row, trajectory_path
-from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
+from campaigns.machinery.folder import PROGRESS, Table, trajectory_path
+from campaigns.machinery.long_runs import LongRun
+from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import in_time, shares, stage, tell, teller, ticking
-from campaigns.machinery.worker import failed, reuse, run_jobs
+from campaigns.machinery.progress import shares, stage, tell
+from campaigns.machinery.store import orbits_in
+from campaigns.machinery.tasks import as_completed
+from campaigns.machinery.worker import failed, keep_row, reuse, run_jobs
 from engine.atomic import write_atomic
 
 ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
-LANES = 8  # of a worker, as `engine.simd.vector.COUNT`, which is slow to import: for the time left only
 FEWEST = 4  # jobs for each worker below which they are not put together
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
@@ -73,43 +75,49 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     return groups
 
 
+def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
+    return {job.key for group in groups for job in group}
+
+
 def _mixed(jobs: list[Job]) -> list[Job]:
     """The jobs in an order in which any part of them is like the whole: what some took says what the rest takes.
 
     Not the first one leads, which in a sweep is often the fastest: a slow one that begins late would end alone.
     """
-    return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0, reverse=True)]
+    order = sorted(range(len(jobs)), key=lambda place: place * GOLDEN % 1.0, reverse=True)
+    return [jobs[place] for place in order]
 
 
 def _compile(plan: Plan, missing: list[Job]) -> None:
     """Compile what the runs may call: what has kernels in common in one process, the rest in others meanwhile."""
-    together = {job.key for group in groups_of(plan, missing) for job in group}
-    ours = [job for job in missing if plan.simulate is engine.simulate and job.simulate is None]
-    wanted = [(job.scene, job.key in together, job.carrying) for job in ours]
-    wanted += [(job.scene, False, True) for job in ours if job.carrying]  # its last part may go alone
-    pieces = engine.shares_of(wanted)
-    tasks = [{key: scene for key, scene in task.items() if key not in _ready} for task in pieces]
-    if not (tasks := [task for task in tasks if task]):
+    if plan.simulate is not engine.simulate:
         return
-    costs = [engine.seconds_of(task) for task in tasks]
-    where = "loky", min(plan.how.jobs, max(2, len(missing)))
+    together = _keys(groups_of(plan, missing))
+    wanted = []
+    for job in missing:
+        if job.simulate is None:
+            wanted.append((job.scene, job.key in together, job.carrying))
+            if job.carrying:
+                wanted.append((job.scene, False, True))  # its last part may go alone
+    tasks = []
+    for part in engine.shares_of(wanted):
+        task = {key: scene for key, scene in part.items() if key not in _ready}
+        if task:
+            tasks.append(task)
+    if not tasks:
+        return
+    pool = "loky", min(plan.how.jobs, max(2, len(missing)))
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
-        where = "threading", 1
-    ended: set[str] = set()
-
-    def far() -> float:
-        told = shares(Path(place)) | dict.fromkeys(ended, 1.0)
-        return sum(costs[int(number)] * share for number, share in told.items())
-
+        pool = "threading", 1
+    ended: list[dict] = []
     with (
-        _progress(plan) as place,
-        opened(*where) as execute,
-        stage(ENGINE, sum(costs), "s of one processor", far),
+        opened(*pool) as execute,
+        stage(ENGINE, len(tasks), "parts", lambda: len(ended)),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
-        for (number, _), _ in execute(partial(_compiled, Path(place)), list(enumerate(tasks))):
-            ended.add(str(number))
-            _ready.update(tasks[number])
+        for task, _ in execute(_compiled, tasks):
+            ended.append(task)
+            _ready.update(task)
 
 
 def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
@@ -120,12 +128,10 @@ def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
     return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=None if plan.sends else plan.how.out.absolute())
 
 
-def _compiled(place: Path, task: tuple[int, dict]) -> None:
-    number, pieces = task
-    with ticking(teller(place, str(number)), engine.seconds_of(pieces)):
-        for key, scene in pieces.items():
-            with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
-                engine.compile_piece(key, scene)
+def _compiled(pieces: dict) -> None:
+    for key, scene in pieces.items():
+        with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
+            engine.compile_piece(key, scene)
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -135,87 +141,77 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     """
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
+    finished: dict[str, Outcome] = {}
     with stage("looking for finished runs"):
-        there = {key: reuse(plan, job, tell) for key, job in by_key.items()}
-        found = {key: outcome for key, outcome in there.items() if outcome is not None and _ended(by_key[key], outcome)}
-    table.rows = {key: _row(by_key[key], outcome) for key, outcome in found.items()}
+        for key, job in by_key.items():
+            outcome = reuse(plan, job, tell)
+            if outcome is not None and _ended(job, outcome):
+                finished[key] = outcome
+                table.rows[key] = _row(job, outcome)
     table.write()
-    analysis_s = sum(outcome.analysis_s for outcome in found.values())
-    missing = {key: job for key, job in by_key.items() if key not in found}
+    analysis_s = sum(outcome.analysis_s for outcome in finished.values())
+    missing = [job for key, job in by_key.items() if key not in finished]
     try:
-        for outcome in _computed(plan, missing, list(by_key.values())):
+        for key, outcome in _computed(plan, missing, len(finished)):
             if outcome.content:
-                write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
-                keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row, outcome.content)
+                write_atomic(trajectory_path(plan.how.out, key), outcome.content)
+                keep_row(plan, outcome, outcome.content)
+                orbits_in(plan.how.out).add(outcome.orbits)
             analysis_s += outcome.analysis_s
-            table.add(outcome.key, row := _row(by_key[outcome.key], outcome))
-            if plan.heard is not None:
-                plan.heard(row)
+            row = _row(by_key[key], outcome)
+            table.add(key, row)
+            if plan.on_row is not None:
+                plan.on_row(row)
     except BaseException:
         with contextlib.suppress(OSError):
             table.write()
         raise
     table.write()
-    return Summary(table.in_order(), len(found), len(missing), analysis_s, made=frozenset(missing))
+    computed = frozenset(job.key for job in missing)
+    return Summary(table.in_order(), len(finished), len(missing), analysis_s, made=computed)
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
-    return job.going is None or job.going(job.scene, None, outcome.row, {}) is None
+    return job.going is None or LongRun(job, row=outcome.row).next_part() is None
 
 
 def _row(job: Job, outcome: Outcome) -> dict[str, object]:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iterator[Outcome]:
-    """Outcomes of the jobs, by key, as they come: those that can share a worker first, then what these leave undone.
+def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[str, Outcome]]:
+    """Key and outcome of the jobs, as they come: those that can share a worker first, then what these leave undone.
 
-    A run that kills its worker twice, the second time alone, is given up. all_jobs: with those that were found, which
-    count as done from the start.
+    A run that kills its worker twice, the second time alone, is given up. reused: runs that were there before.
     """
     if not jobs:
         return
-    left, tasks = dict(jobs), {}
     # A worker kept from an earlier campaign of this process may stand in another folder.
     how = replace(plan.how, out=None if plan.sends else plan.how.out.absolute())
-    groups = groups_of(plan, list(jobs.values()))
-    sizes = {job.key: job.size for job in all_jobs}
-    total, unit = length_of(all_jobs)
+    groups = groups_of(plan, jobs)
+    total = reused + len(jobs)
+    unfinished = {job.key for job in jobs}
+    singles = {job.key: (job,) for job in jobs}
+    together = _keys(groups)
+    for key, single in singles.items():
+        if key not in together:
+            groups.append(single)
 
-    def far() -> float:
-        told = {name: share for name, share in shares(Path(place)).items() if name in tasks}
-        told = {
-            name: share if tasks[name][0].going is not None else in_time(share, len(tasks[name]), LANES)
-            for name, share in told.items()
-        }
-        begun = sum(share * sizes[job.key] for name, share in told.items() for job in tasks[name] if job.key in left)
-        return total * (1.0 - (sum(sizes[key] for key in [*left]) - begun) / sum(sizes.values()))
+    def count() -> float:
+        """Runs that have ended; of groups and of a single run under way, what their workers tell."""
+        ended = total - len(unfinished)
+        for name, runs in shares(Path(place)).items():
+            if all(job.key in unfinished for job in by_name[name]):
+                ended += runs
+        return ended
 
-    with (
-        _progress(plan) as place,
-        opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute,
-        stage(plan.said, total, unit, far, plan.then),
-    ):
-        call = partial(run_jobs, replace(plan, how=how, told=Path(place), then=None, heard=None))
-        while left:
-            tasks = {name_of(task): task for task in groups or [(job,) for job in left.values()]}
-            try:
-                for task, outcomes in execute(call, [*tasks.values()]):
-                    groups = [group for group in groups if group is not task]
-                    Path(place, name_of(task)).unlink(missing_ok=True)
-                    for outcome in outcomes:
-                        del left[outcome.key]
-                        yield outcome
-            except PoolBroken as broken:
-                for task in broken.suspects:
-                    if len(task) == 1:
-                        yield _alone(execute, call, left.pop(task[0].key))
-                groups = [group for group in groups if not any(group is task for task in broken.suspects)]
+    by_name = {name_of(group): group for group in [*groups, *singles.values()]}
+    with _progress(plan) as place, stage(plan.title, total, "runs", count):
+        call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
+        for key, outcome in as_completed(plan.how, groups, call, _given_up):
+            unfinished.discard(key)
+            yield key, outcome
 
 
-def _alone(execute: Callable, call: Callable, job: Job) -> Outcome:
-    try:
-        ((_, outcomes),) = execute(call, [(job,)], alone=True)
-        return outcomes[0]
-    except PoolBroken as broken:
-        return failed(job, "worker-died", f"its process ended twice, the second time running alone: {broken}")
+def _given_up(job: Job, reason: str) -> Outcome:
+    return failed(job, "worker-died", f"its process ended twice, the second time running alone: {reason}")

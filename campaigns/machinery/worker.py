@@ -8,172 +8,126 @@ import socket
 import time
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
 import engine
-from campaigns.machinery.folder import (
-    CampaignStopped,
-    is_full,
-    keep_row,
-    kept_row,
-    stored_run,
-    trajectory_path,
-    write_failure,
-)
-from campaigns.machinery.plan import Further, Job, Outcome, Plan, name_of
+from campaigns.machinery.folder import CampaignStopped, is_full, stored_run, trajectory_path, write_failure
+from campaigns.machinery.long_runs import LongRun
+from campaigns.machinery.plan import Job, Outcome, Plan, name_of
 from campaigns.machinery.progress import heard, teller
+from campaigns.machinery.store import Store, orbits_in
 from engine.atomic import write_atomic
 
-SAVED_S = 10.0  # of work that a killed campaign may lose of a run, beside the part at which it is
-# of runs that take as long as they need (measured): share with another part after each of theirs, how much longer they
-# are then, and what a period costs that carries a perturbation
-GO_ON, GROWTH, CARRYING = 0.75, 1.4, 1.7
+SAVED_S = 10.0  # of work that a killed campaign may lose of a long run, beside the part that is under way
 
 
-def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
-    """The outcome of one job, whatever goes wrong in its run; of several jobs, those that came to an end.
+def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
+    """Key and outcome of one job, whatever goes wrong in its run; of several jobs, of those that came to an end.
 
     Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
     """
-    first = jobs[0]
-    if engine.source_hash() != first.engine:
+    if engine.source_hash() != jobs[0].engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
-    told = teller(plan.told, name_of(jobs))
-    if first.going is not None:
-        return _carried_on(plan, jobs, told)
-    if len(jobs) == 1:
-        return [_run_one(plan, first, told)]
-    outcomes, length = [], {"periods": first.periods, "duration_s": first.duration_s}
+    report = teller(plan.reports, name_of(jobs))
+    outcomes: dict[str, Outcome] = {}
     try:
-        scenes = [job.scene for job in jobs]
-        for i, trajectory in plan.simulate_each(scenes, **length, **heard(plan.simulate_each, told)):
-            outcomes.append(_kept(plan, jobs[i], trajectory))
-    except CampaignStopped:
-        raise
-    except (Exception, SystemExit):
-        pass  # run again one by one, each of the jobs left says for itself what is wrong
-    return outcomes
-
-
-@dataclass
-class _Standing:
-    """How far a run has come that takes as long as it needs: its Trajectory and Outcome, the runs that went on from it
-    at a tighter tolerance, by its periods then, what it does at present (`Further`), and when it was last saved (None:
-    it has not been looked at).
-    """
-
-    trajectory: object = None
-    outcome: Outcome | None = None
-    checks: dict[int, object] = field(default_factory=dict)
-    further: Further | None = None
-    periods: float = 0.0  # of `further`
-    cost: float = 0.0  # of these
-    saved_s: float | None = None
-
-    def still_expected(self, most: float) -> float:
-        """Wave periods after the present part: after each, GO_ON of the runs go on, by GROWTH; none beyond `most`."""
-        if self.further is None or self.further.check:
-            return 0.0
-        reached = self.further.periods + (0.0 if self.outcome is None else self.outcome.row.get("periods") or 0.0)
-        ahead, share = 0.0, GO_ON
-        while reached < most:
-            further = min(GROWTH * reached, most)
-            ahead, share, reached = ahead + share * (further - reached), share * GO_ON, further
-        return ahead
-
-
-def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
-    """As `run_jobs`, of jobs that take as long as they need: each goes on when it has been judged, among the others.
-
-    What a run has done is on disk when it ends, and every SAVED_S at a look: a killed campaign goes on from there.
-    """
-    runs = [_so_far(plan, job) for job in jobs]
-    ended = ended_cost = 0.0  # of the parts that have ended: wave periods, and the same by what each costs
-
-    def next_of(i: int) -> Further | None:
-        nonlocal ended, ended_cost
-        run, job = runs[i], jobs[i]
-        ended, ended_cost = ended + run.periods, ended_cost + run.cost
-        row = None if run.outcome is None else run.outcome.row
-        run.further = further = job.going(job.scene, run.trajectory, row, run.checks)
-        run.periods = 0.0 if further is None else further.periods
-        run.cost = 0.0 if further is None else further.periods * _cost(further.scene, job.scene)
-        return further
-
-    def judged(i: int, part) -> tuple | None:
-        run, job = runs[i], jobs[i]
-        if run.further.check:
-            periods = round(run.outcome.row["periods"])
-            run.checks[periods] = run.checks[periods].followed_by(part) if periods in run.checks else part
+        if jobs[0].going is not None:
+            _run_long(plan, jobs, outcomes, report)
+        elif len(jobs) > 1:
+            _run_together(plan, jobs, outcomes, report)
         else:
-            run.trajectory = part if run.trajectory is None else run.trajectory.followed_by(part)
-        run.outcome = _described(plan, job, run.trajectory, run.checks)
-        further, now = next_of(i), time.monotonic()
-        run.saved_s = now if run.saved_s is None else run.saved_s  # it may have waited long for its lane
-        # not between the parts of a check, which are not kept: a run that was killed there would go on otherwise
-        if further is None or (not further.check and now - run.saved_s > SAVED_S):
-            run.outcome, run.saved_s = _kept(plan, job, run.trajectory, run.outcome), time.monotonic()
-        return None if further is None else (further.scene, further.periods, further.start)
-
-    def hear(share: float) -> None:
-        periods, cost = sum(run.periods for run in runs), sum(run.cost for run in runs)
-        done = ended_cost + cost * (share * (ended + periods) - ended) / max(periods, 1e-9)
-        told(done / (ended_cost + cost + CARRYING * sum(run.still_expected(jobs[0].periods) for run in runs)))
-
-    try:
-        asked = [i for i in range(len(jobs)) if next_of(i) is not None]
-        first = [runs[i].further for i in asked]
-        if plan.simulate_each is None:
-            for i in asked:
-                while (further := runs[i].further) is not None:
-                    start = {} if further.start is None else {"start": further.start}
-                    judged(i, plan.simulate(further.scene, periods=further.periods, **start))
-        elif asked:
-            lengths, starts = [further.periods for further in first], [further.start for further in first]
-            scenes, then = [further.scene for further in first], lambda number, part: judged(asked[number], part)
-            more = heard(plan.simulate_each, hear)
-            for _ in plan.simulate_each(scenes, periods=lengths, starts=starts, then=then, **more):
-                pass
+            _run_alone(plan, jobs[0], outcomes, report)
     except CampaignStopped:
         raise
     except (Exception, SystemExit) as error:
         if is_full(error):
             raise _stopped(plan, error) from error
-        if len(jobs) == 1:  # alone it says what is wrong; the others are run again one by one
-            return [failed(jobs[0], "error", _reason(error))]
-    return [run.outcome for run in runs if run.further is None]
+        if len(jobs) == 1:  # of several, those that are left are run again, one by one
+            outcomes[jobs[0].key] = failed(jobs[0], "error", _reason(error))
+    return list(outcomes.items())
 
 
-def _cost(scene, usual) -> float:
-    """What a wave period of a scene costs, in those of the usual one without perturbations."""
-    tighter = (usual.solver.rtol / scene.solver.rtol) ** 0.25  # the length of a step goes as the root
-    return tighter * (CARRYING if scene.output.tangent_vectors else 1.0)
-
-
-def _so_far(plan: Plan, job: Job) -> _Standing:
-    """As much of a run as is there."""
+def _run_alone(plan: Plan, job: Job, outcomes: dict[str, Outcome], report: Callable[[float], None]) -> None:
     outcome = reuse(plan, job)
-    if outcome is None or outcome.row.get("status") not in ("ok", None):
-        return _Standing(outcome=outcome)
-    return _Standing(stored_run(plan.how.out, job.key), outcome)
+    if outcome is None:
+        simulate = job.simulate or plan.simulate
+        trajectory = simulate(job.scene, periods=job.periods, duration_s=job.duration_s, **heard(simulate, report))
+        outcome = _saved(plan, job, trajectory)
+    outcomes[job.key] = outcome
 
 
-def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
-    if (outcome := reuse(plan, job)) is not None:
-        return outcome
-    simulate = job.simulate or plan.simulate
-    try:
-        length = {"periods": job.periods, "duration_s": job.duration_s}
-        trajectory = simulate(job.scene, **length, **heard(simulate, told))
-    except (Exception, SystemExit) as error:
-        if is_full(error):
-            raise _stopped(plan, error) from error
-        return failed(job, "error", _reason(error))
-    return _kept(plan, job, trajectory)
+def _run_together(
+    plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[[float], None]
+) -> None:
+    first = jobs[0]
+    scenes = [job.scene for job in jobs]
+    runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s)
+    for number, trajectory in runs:
+        outcomes[jobs[number].key] = _saved(plan, jobs[number], trajectory)
+        report(len(outcomes))
 
 
-def _kept(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> Outcome:
+def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[[float], None]) -> None:
+    """Runs that take as long as they need (`campaigns.machinery.long_runs`), side by side.
+
+    A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
+    goes on from there.
+    """
+    under_way: list[LongRun] = []
+    for job in jobs:
+        run, outcome = _resumed(plan, job)
+        if run.next_part() is None:
+            outcomes[job.key] = outcome
+        else:
+            under_way.append(run)
+    saved_s: dict[int, float] = {}
+
+    def go_on(number: int, trajectory) -> tuple | None:
+        """Take a part that has ended; what the run does next, as `engine.simulate_each` asks for it."""
+        run = under_way[number]
+        run.take(trajectory)
+        outcome = _described(plan, run.job, run.trajectory, run.checks)
+        run.row = outcome.row
+        part = run.next_part()
+        now = time.monotonic()
+        # its first part may have waited long for a lane
+        late = now - saved_s.setdefault(number, now) > SAVED_S
+        # not between the parts of a check: checks are not kept, so a run that is killed there would go on otherwise
+        if part is None or (late and not part.check):
+            outcome = _saved(plan, run.job, run.trajectory, outcome)
+            saved_s[number] = time.monotonic()
+        if part is None:
+            outcomes[run.job.key] = outcome
+            report(len(outcomes))
+            return None
+        return part.scene, part.periods, part.start
+
+    if plan.simulate_each is not None and under_way:
+        first = [run.part for run in under_way]
+        scenes, periods, starts = ([getattr(part, name) for part in first] for name in ("scene", "periods", "start"))
+        for _ in plan.simulate_each(scenes, periods=periods, starts=starts, then=go_on):
+            pass
+        return
+    for number, run in enumerate(under_way):
+        part = run.part
+        while part is not None:
+            start = {} if part.start is None else {"start": part.start}
+            go_on(number, plan.simulate(part.scene, periods=part.periods, **start))
+            part = run.part
+
+
+def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
+    """A run as far as it is on disk."""
+    outcome = reuse(plan, job)
+    if outcome is None:
+        return LongRun(job), None
+    complete = outcome.row.get("status") in ("ok", None)
+    return LongRun(job, stored_run(plan.how.out, job.key) if complete else None, outcome.row), outcome
+
+
+def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> Outcome:
     """Save a run that has been computed, or get it ready to be sent, and its row; outcome: where that is made."""
     try:
         content = trajectory.to_bytes({"run_key": job.key})
@@ -186,17 +140,20 @@ def _kept(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> O
     outcome = _described(plan, job, trajectory) if outcome is None else outcome
     if plan.how.out is None:
         return replace(outcome, content=content)
-    keep_row(plan.how.out, job.key, plan.row_maker, outcome.row, content)
+    keep_row(plan, outcome, content)
     return outcome
 
 
-def reuse(plan: Plan, job: Job, said: Callable[[str], None] = lambda _: None) -> Outcome | None:
+def reuse(plan: Plan, job: Job, report: Callable[[str], None] = lambda _: None) -> Outcome | None:
     """The outcome of a run that is there already; None where it has to be computed.
 
-    A file that is damaged, or not of the run that its name and the order say, is as good as none; said: hears of it.
+    A file that is damaged, or not of the run that its name and the order say, is as good as none; report(why).
     """
     out = plan.how.out
-    if out is None or not (path := trajectory_path(out, job.key)).exists():
+    if out is None:
+        return None
+    path = trajectory_path(out, job.key)
+    if not path.exists():
         return None
     try:
         content = path.read_bytes()
@@ -204,22 +161,48 @@ def reuse(plan: Plan, job: Job, said: Callable[[str], None] = lambda _: None) ->
         if trajectory.scene.model_copy(update={"output": job.scene.output}) != job.scene:  # it may carry perturbations
             raise ValueError("another run: its scene is not the one of its key")
     except Exception as error:  # whatever it is, from a foreign hand or cut short, the cure is the same
-        said(f"{path}: {str(error).removeprefix(': ')}; computed again")
+        report(f"{path}: {str(error).removeprefix(': ')}; computed again")
         return None
-    if (row := kept_row(out, job.key, plan.row_maker, content)) is not None:
+    row = kept_row(plan, job.key, content)
+    if row is not None:
         return Outcome(job.key, row)
     outcome = _described(plan, job, trajectory)
-    keep_row(out, job.key, plan.row_maker, outcome.row, content)
+    keep_row(plan, outcome, content)
     return outcome
 
 
+def keep_row(plan: Plan, outcome: Outcome, content: bytes) -> None:
+    """Save the row of a run whose file has this content, unless it has no maker or its analysis failed."""
+    if plan.row_maker and outcome.row.get("status") != "analysis-failed":
+        copy = {"made_by": plan.row_maker, "run": sha256(content).hexdigest(), "row": outcome.row}
+        _rows(plan).put(outcome.key, copy)
+
+
+def kept_row(plan: Plan, key: str, content: bytes) -> dict | None:
+    """The row of a run whose file has this content, if the maker of today made it."""
+    copy = _rows(plan).get(key) or {}
+    is_current = copy.get("made_by") == plan.row_maker and copy.get("run") == sha256(content).hexdigest()
+    return copy["row"] if is_current else None
+
+
+def _rows(plan: Plan) -> Store:
+    return Store(trajectory_path(plan.how.out, "").parent, ".row.json")
+
+
 def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
-    start, more = time.perf_counter(), {} if job.going is None else {"checks": checks or {}}
+    """The row of a run. What a row needs beside its run is computed here, and kept (`Plan.judge`); a row reads it."""
+    start_s = time.perf_counter()
+    orbits = orbits_in(plan.how.out)
     try:
-        row = (job.describe or plan.describe)(trajectory, **more)
+        if job.describe is not None or plan.judge is None:
+            row = (job.describe or plan.describe)(trajectory)
+        else:
+            if job.going is not None and checks is None:
+                checks = {}
+            row = plan.describe(trajectory, plan.judge(trajectory, checks, orbits))
     except Exception as error:
         row = {"status": "analysis-failed", "message": _reason(error)}
-    return Outcome(job.key, row, time.perf_counter() - start)
+    return Outcome(job.key, row, time.perf_counter() - start_s, orbits=orbits.unsaved)
 
 
 def _reason(error: BaseException) -> str:

@@ -9,8 +9,9 @@ from string import ascii_lowercase
 import numpy as np
 
 from campaigns.explore.orbit_tasks import finer, followed, sharper, under
-from campaigns.explore.tracing import Line, Task, work
+from campaigns.explore.tracing import Line, line_task, work
 from campaigns.machinery.plan import Plan
+from campaigns.machinery.tasks import Task
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
@@ -78,7 +79,7 @@ class Tree:
         while seeds and len(self.branches) < self.room:
             seeds = [seed for seed in seeds if not self._is_known(seed)]
             following, seeds = seeds[: self.plan.how.jobs], seeds[self.plan.how.jobs :]
-            tasks = [Task(followed, self.line, (seed.value, seed.points, self.most)) for seed in following]
+            tasks = [line_task(followed, self.line, (seed.value, seed.points, self.most)) for seed in following]
             for seed, (result, points) in zip(following, self.work("branches", tasks), strict=True):
                 if result.get("reason"):
                     self._fail(seed, result["reason"])
@@ -91,7 +92,7 @@ class Tree:
 
     def _seeds(self, starts: Sequence[tuple[str, float, int, object]]) -> list[Seed]:
         """The orbits under runs."""
-        tasks, seeds = [Task(under, self.line, start[1:]) for start in starts], []
+        tasks, seeds = [line_task(under, self.line, start[1:]) for start in starts], []
         results = self.work("orbits under motions", tasks)
         for (motion, value, period, _), (result, points) in zip(starts, results, strict=True):
             if result["reason"] or result["period"] > LONGEST_PERIOD:
@@ -163,7 +164,7 @@ class Tree:
                     continue
                 share = (value - ahead["value"]) / (behind["value"] - ahead["value"])
                 guess = (1.0 - share) * branch.points[place] + share * branch.points[place + 1]
-                tasks.append(Task(under, self.line, (value, ahead["period"], guess)))
+                tasks.append(line_task(under, self.line, (value, ahead["period"], guess)))
                 branches.append(branch)
         known = [orbit for orbit in self.chosen if orbit["value"] == value]
         for branch, (result, _) in zip(branches, self.work("all orbits of one value", tasks), strict=True):
@@ -189,14 +190,14 @@ class Tree:
                 place = int(np.argmin(distances))
                 near.append((event, branch.orbits[place]["value"], branch.points[place]))
         unsure = [entry for entry in near if entry[0]["error"] is None or entry[0]["error"] > rough]
-        tasks = [Task(sharper, sharp_line, (event["kind"], event["value"], *orbit)) for event, *orbit in unsure]
+        tasks = [line_task(sharper, sharp_line, (event["kind"], event["value"], *orbit)) for event, *orbit in unsure]
         for (event, *_), (result, _) in zip(unsure, self.work("events at a tighter tolerance", tasks), strict=True):
             if not result["reason"]:
                 event |= {"value": result["value"], "error": result["error"], "sharp": True}
         tasks = []
         for event, *orbit in near:
             line = sharp_line if event.get("sharp") else self.line
-            tasks.append(Task(finer, line, (event["kind"], event["value"], *orbit)))
+            tasks.append(line_task(finer, line, (event["kind"], event["value"], *orbit)))
         for (event, *_), (result, _) in zip(near, self.work("events on a finer grid", tasks), strict=True):
             event |= {"finer": result.get("value"), "doubt": result["reason"]}
             if event["finer"] is not None and event["error"] is not None:

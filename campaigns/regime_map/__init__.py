@@ -13,6 +13,7 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
@@ -98,11 +99,13 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The row of a motion."""
+    from campaigns.explore.judgement import judgement_of
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
     columns = motion_columns(order.own.grid.columns)
-    return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), {})
+    judge = partial(judgement_of, transient_periods=None)
+    return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), judge=judge)
 
 
 def runs(order: Order) -> Callable:

@@ -31,13 +31,13 @@ MATCH_DISTANCE = 0.2  # of motions of neighbours
 CHEAP, FULL = "cheap", "full"
 
 
-def cell_row(trajectory, checks=None) -> dict[str, object]:
+def cell_row(trajectory, judgement) -> dict[str, object]:
     """The row of a judged run of a cell, and which evidence its regime has.
 
     A run that repeats at its last look counts as periodic after this one look, where it repeats closely, or where its
     perturbations do not grow.
     """
-    row = buoy_row(trajectory, None, checks)
+    row = buoy_row(trajectory, judgement)
     period = row.get("strobed_period")
     passed = {name for name, *_, met in read_evidence(row.get("evidence") or "") if met == "yes"}
     if row.get("regime") == "undecided" and period and passed & {CLOSE, NO_GROWTH}:
@@ -55,7 +55,7 @@ class Map:
 
     def __init__(self, plan: Plan, order: Order):
         self.order, self.grid, self.tree = order, order.own.grid, Quadtree()
-        plan = replace(plan, heard=self._hear)
+        plan = replace(plan, on_row=self._hear)
         self.motions = Motions(plan, self.grid.columns, self.tree.neighbours, MATCH_DISTANCE)
         self.plan, self.rows = plan, self.motions.rows
         self.screen: list[list[dict]] = []

@@ -1,13 +1,12 @@
-"""Stiff and extreme scenes, and random scenes, each run to a verdict: a table and a report.
+"""Stiff and extreme scenes, each run to a verdict: a table and a report.
 
-    python -m campaigns.stability                     everything, in about eight minutes on two cores
-    python -m campaigns.stability --quick             the cases that matter most, a few random scenes: half a minute
-    python -m campaigns.stability --fuzz 2000         as many random valid scenes, and as many invalid ones
+    python -m campaigns.stability                     every case, in about seven minutes on two cores
+    python -m campaigns.stability --quick             the cases that matter most: half a minute
     python -m campaigns.stability --drift-periods 0   leave out the long run
 
 Protocol: every case is run to a verdict (ok, refused with a reason, a known limit, unexplained) in a process of its own
-with a time limit, and says how its verdict is known: energy, refinement, closed form. Random scenes come from a fixed
-seed. A verdict "unexplained" ends the campaign with exit code 1.
+with a time limit, and says how its verdict is known: energy, refinement, closed form. A verdict "unexplained" ends the
+campaign with exit code 1.
 """
 
 import math
@@ -20,23 +19,17 @@ from campaigns.machinery import cli
 from campaigns.machinery.plan import Summary
 from campaigns.study import Order, Study
 
-FUZZ, QUICK_FUZZ = 1000, 40
 DRIFT_PERIODS = 100_000
 
 
 def options(group) -> None:
-    group.add_argument("--quick", action="store_true", help="fewer cases, fewer random scenes, no long run")
-    scenes = f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)"
-    cli.add(group, "--fuzz", "N", scenes, cli.whole(0))
-    cli.add(group, "--seed", "N", "seed of the random scenes", cli.whole(0), 0)
+    group.add_argument("--quick", action="store_true", help="fewer cases, no long run")
     periods = f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)"
     cli.add(group, "--drift-periods", "N", periods, cli.whole(0))
 
 
 def read(options: Namespace, faults: list[str]) -> None:
     """What is usual depends on --quick."""
-    if options.fuzz is None:
-        options.fuzz = QUICK_FUZZ if options.quick else FUZZ
     if options.drift_periods is None:
         options.drift_periods = 0 if options.quick else DRIFT_PERIODS
     if 0 < options.drift_periods < 1000:
@@ -44,26 +37,24 @@ def read(options: Namespace, faults: list[str]) -> None:
 
 
 def done(order: Order) -> tuple[dict[str, float], Summary]:
-    """Tasks and tables."""
+    """Tasks and table."""
     from campaigns.stability import tasks
 
-    return tasks.done(order.own)
+    return tasks.judge_cases(order.own)
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
-    """How the cases ended, and the random scenes; what nobody can explain by name."""
+    """How the cases ended; what nobody can explain by name."""
     from engine.excursions import own_words
 
-    cases = [row for row in rows if row["part"] == "case"]
-    counts = Counter(str(row["verdict"]) for row in cases)
-    yield f"{len(cases)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
-    judged = [row for row in cases if row["verdict"] == "ok" and math.isfinite(known(row, "measured_tension"))]
+    counts = Counter(str(row["verdict"]) for row in rows)
+    yield f"{len(rows)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
+    judged = [row for row in rows if row["verdict"] == "ok" and math.isfinite(known(row, "measured_tension"))]
     silent = [known(row, "measured_tension") for row in judged if not own_words(row.get("message") or "")]
     if silent:
         said = f"Largest tensions are off by {100.0 * max(silent):.2g} % at most in {len(silent)} runs that say nothing"
         yield f"{said}; {len(judged) - len(silent)} more say how far theirs hold."
-    yield from (f"Random: {row['case']}: {row['message'][:100]}." for row in rows if row["part"] == "fuzz")
-    strange = [str(row["case"]) for row in cases if row["verdict"] == "unexplained"]
+    strange = [str(row["case"]) for row in rows if row["verdict"] == "unexplained"]
     if strange:
         yield f"Unexplained: {'; '.join(strange)[:200]}."
 
@@ -73,7 +64,7 @@ STUDY = Study(
     protocol=__doc__,
     options=options,
     read=read,
-    parameters=lambda order: {name: getattr(order.own, name) for name in ("seed", "quick", "fuzz", "drift_periods")},
+    parameters=lambda order: {name: getattr(order.own, name) for name in ("quick", "drift_periods")},
     done=done,
     answer=answer,
     backends=False,

@@ -19,7 +19,7 @@ import numpy as np
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
 from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
-from campaigns.stability.fuzz import DONE, limited, outcome_of
+from campaigns.stability.limits import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
 from engine.excursions import own_words
 
@@ -31,7 +31,7 @@ _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
 FILE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 COLUMNS = (
-    Column("part", symbol="part", meaning="case: one run that is judged; fuzz: all random scenes of one kind"),
+    Column("part", symbol="part", meaning="case: one run that is judged"),
     Column("group", symbol="group", meaning="what is extreme in the case"),
     Column("about", symbol="about", meaning="the group in words"),
     Column("case", symbol="case", meaning="the case within its group"),
@@ -94,17 +94,25 @@ def all_cases() -> list[Case]:
 def _cases(group: str, row: dict) -> Iterator[Case]:
     """The cases of a row of cases.toml: one, or one for each place in the lists of `vary`."""
     row = copy.deepcopy(row)
-    fixed = {key: value for name in row.pop("sets", ()) for key, value in FILE["sets"][name].items()}
+    fixed = {}
+    for name in row.pop("sets", ()):
+        fixed |= FILE["sets"][name]
     fixed |= row.pop("changes", {})
-    row |= FILE["endings"][row.pop("ending")] if "ending" in row else {}
-    varied, quick, length_s = (row.pop(name, None) for name in ("vary", "quick", "length_s"))
+    if "ending" in row:
+        row |= FILE["endings"][row.pop("ending")]
+    varied = row.pop("vary", {})
+    quick = row.pop("quick", False)
+    length_s = row.pop("length_s", Case.length_s)
     name = row.pop("name")
-    for place, values in enumerate(zip(*varied.values(), strict=True) if varied else [()]):
-        changes = fixed | dict(zip(varied or (), values, strict=True))
-        changes = {key: None if value == "none" else value for key, value in changes.items()}
-        length = {} if length_s is None else {"length_s": length_s[place] if isinstance(length_s, list) else length_s}
-        chosen = quick is True or (quick is not None and place in quick)
-        yield Case(group, name.format(*values), changes, **length, **row, quick=chosen)
+    places = list(zip(*varied.values(), strict=True)) or [()]
+    for place, values in enumerate(places):
+        changes = fixed | dict(zip(varied, values, strict=True))
+        for key, value in changes.items():
+            if value == "none":
+                changes[key] = None
+        is_quick = quick if isinstance(quick, bool) else place in quick
+        seconds = length_s[place] if isinstance(length_s, list) else length_s
+        yield Case(group, name.format(*values), changes, seconds, **row, quick=is_quick)
 
 
 def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
@@ -120,8 +128,10 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
     row |= {"about": FILE["about"].get(case.group, case.group)}
     row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
-    row |= {"bar_tension": case.bar_tension} if row.get("measured_tension") is not None else {}
-    return row | {"status": UNEXPLAINED if answer["verdict"] == UNEXPLAINED else "ok"}
+    if row.get("measured_tension") is not None:
+        row["bar_tension"] = case.bar_tension
+    row["status"] = UNEXPLAINED if row["verdict"] == UNEXPLAINED else "ok"
+    return row
 
 
 def _judged(case: Case, path: Path | None) -> dict[str, object]:
@@ -142,19 +152,26 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
             return {_NOT_SAVED: write_failure(path.parents[1], error)}
     row = {name: run.statistics.get(name) for name in names(STATISTICS)}
     row |= {"run_status": run.status, "message": run.message}
-    outcome, _, _ = outcome_of(run, case.length_s)
+    outcome = outcome_of(run, case.length_s)
     if outcome not in ("ok", "ended"):
         return row | {"verdict": UNEXPLAINED, "run_status": outcome}
     if run.status != "ok":
-        known = run.status in case.statuses
-        verdict = UNEXPLAINED if not known else REFUSED if run.status == "statics-failed" else LIMIT
+        verdict = REFUSED if run.status == "statics-failed" else LIMIT
+        if run.status not in case.statuses:
+            verdict = UNEXPLAINED
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
-    measured, how, *tensions = getattr(checks, case.check)(run, case)
+    measured, way, *tensions = getattr(checks, case.check)(run, case)
+    tension = tensions[0] if tensions else None
     warned = own_words(run.message)
-    right = measured <= case.bar and (warned or all(tension <= case.bar_tension for tension in tensions))
-    verdict = OK if right else LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
-    found = {"measured": measured, "stiffness_N": getattr(scene.tether.tension, "stiffness_N", None)}
-    found["measured_tension"] = tensions[0] if tensions else None
-    row |= {name: number if number is not None and math.isfinite(number) else None for name, number in found.items()}
-    row |= {"verdict": verdict, "how": how}
-    return row | ({"limit": case.why} if verdict == LIMIT else {})
+    row |= {"verdict": OK, "how": way}
+    holds = warned or tension is None or tension <= case.bar_tension
+    right = measured <= case.bar and holds  # neither where a number is nan
+    if not right:
+        row["verdict"] = LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
+        if row["verdict"] == LIMIT:
+            row["limit"] = case.why
+    numbers = {"measured": measured, "measured_tension": tension}
+    numbers["stiffness_N"] = getattr(scene.tether.tension, "stiffness_N", None)
+    for name, number in numbers.items():
+        row[name] = number if number is not None and math.isfinite(number) else None
+    return row

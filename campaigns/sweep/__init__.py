@@ -109,11 +109,20 @@ def measures(order: Order) -> Measures:
         "transient_periods": order.own.transient if waves is not None and waves.irregular else order.transient,
         "full": order.periods if order.own.evidence == "full" else None,
     }
-    return Measures(columns, partial(sweep_row, **settings), (*ROW_SOURCES, "campaigns/sweep/__init__.py"), settings)
+    row = partial(sweep_row, transient_periods=settings["transient_periods"])
+    sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
+    return Measures(columns, row, sources, settings, partial(judge, **settings))
 
 
-def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int | None = None) -> dict[str, object]:
-    """The columns of `measures` that a trajectory fills; those left out are unknown. Arguments: `buoy_row`.
+def judge(trajectory, checks, orbits, **settings):
+    """`judgement_of` of a buoy in regular waves; None of any other line."""
+    from campaigns.explore.judgement import judgement_of
+
+    return judgement_of(trajectory, checks, orbits, **settings) if in_regular_waves(trajectory.scene) else None
+
+
+def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str, object]:
+    """The columns of `measures` that a trajectory fills; those left out are unknown.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
     of an irregular sea its ramp at least.
@@ -121,8 +130,8 @@ def sweep_row(trajectory, transient_periods: int | None, checks=None, full: int 
     from campaigns.explore.rows import HEIGHT, buoy_row, height_m, settled, sound_part
 
     scene = trajectory.scene
-    if in_regular_waves(scene):
-        return buoy_row(trajectory, transient_periods, checks, full)
+    if judgement is not None:
+        return buoy_row(trajectory, judgement)
     row, columns = counted(trajectory), sound_part(trajectory.columns)
     row[HEIGHT.name] = height_m(scene, columns)
     transient_s = 0.0

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import median
 
 import numpy as np
 
@@ -14,11 +13,11 @@ from engine.excursions import own_words
 
 from ..figures.stability import stiffness
 from ..parts.columns import Quantity, table_of, value
-from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, heads
+from ..parts.content import Figure, Heading, Item, Notice, Report, Text
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
-from ..parts.wording import EMPTY, count, number
+from ..parts.wording import count, number
 
 
 def report(directory: str | Path) -> Report:
@@ -30,7 +29,6 @@ def report(directory: str | Path) -> Report:
         *stiffness_items(study),
         *case_items(study),
         *limit_items(study),
-        *random_items(study),
         *appendix(*timing_items(study), *provenance_items(study)),
     ]
     kind = "quick selection" if study.provenance.get("quick") else "all cases"
@@ -40,10 +38,8 @@ def report(directory: str | Path) -> Report:
 FILES = {
     "table.csv": "one row a case",
     "columns.csv": "what its columns are",
-    "fuzz.csv": "one row a random scene",
     "provenance.json": "what ran, where and for how long",
 }
-SOUND = ("ok", "ended", "refused")  # outcomes of random scenes; any other is a fault of the program
 HOW = (
     "Checks. Closed form: the largest distance from it. Refinement, or a run on other nodes: rms difference of r "
     "from a run with twice the elements and a tenth of the tolerance (or the nodes named), over its range. "
@@ -61,30 +57,25 @@ DEFAULT = "EA", "EA = 50000 N, regular wave"  # whose cost is the unit
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What the campaign left: `cases` and `random`, rows of text by column."""
+    """What the campaign left: `cases`, rows of text by column. Older tables have rows of random scenes as well."""
 
     provenance: dict
     columns: dict[str, Quantity]
     cases: list[dict[str, str]]
-    random: list[dict[str, str]]
 
     def judged(self, verdict: str) -> list[dict[str, str]]:
         """The cases with that verdict."""
         return [row for row in self.cases if row["verdict"] == verdict]
 
-    def unsound(self) -> list[dict[str, str]]:
-        """The random scenes in which the program is at fault."""
-        return [row for row in self.random if row["outcome"] not in SOUND]
-
 
 def read_study(directory: str | Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     files = read_files(directory, FILES)
-    table, columns, random, provenance = (files[name] for name in FILES)
+    table, columns, provenance = (files[name] for name in FILES)
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
         raise FolderError(Path(directory), ["table.csv cannot be read: it has no rows, or not those of this campaign"])
     cases = [row for row in table if row["part"] == "case"]
-    return Study(provenance, columns, cases, random)
+    return Study(provenance, columns, cases)
 
 
 def case_items(study: Study) -> list[Item]:
@@ -142,36 +133,11 @@ def limit_items(study: Study) -> Iterator[Item]:
         yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", cells) if rows else Text("None.")
 
 
-def random_items(study: Study) -> Iterator[Item]:
-    """Counts of outcomes and statuses, and the times."""
-    yield Heading("Random scenes")
-    if not study.random:
-        yield Text("None were asked for (`--fuzz 0`).")
-        return
-    yield Text(
-        "Valid scenes are drawn section by section, and drawn again where a rule between their values is broken; in "
-        "about half of them up to three numbers are replaced by extreme ones that the engine still accepts. Invalid "
-        "scenes are valid ones with up to three faults put in. Each scene runs in a process of its own, for up to 40 "
-        "samples, with a limit of 60 s of computing. The same seed gives the same scenes."
-    )
-    walls: dict[tuple[str, ...], list[float]] = {}
-    for row in sorted(study.random, key=lambda row: (row["kind"] != "valid", row["outcome"] != "ok")):
-        named = row["kind"], row["outcome"], row["status"] or EMPTY, row["meaning"]
-        walls.setdefault(named, []).append(value(row, "wall_s"))
-    rows = []
-    for named, values in walls.items():
-        rows.append((*named, str(len(values)), number(median(values), 2), number(max(values), 3)))
-    columns = heads("scenes", "outcome", "ended", "meaning", ("count", ""), ("median", "s"), ("slowest", "s"))
-    yield Table(columns, tuple(rows), "Outcomes of random scenes. From `fuzz.csv`.", small=True)
-
-
 def unexplained_items(study: Study) -> list[Item]:
     """A warning with all that nobody expected, or a note that there is nothing of the kind."""
     lines = []
     for row in study.judged("unexplained"):
         lines.append(f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip())
-    for row in study.unsound():
-        lines.append(f"random {row['kind']} scene {row['number']}: {row['outcome']}, {row['message'][:300]}")
     if lines:
         return [Notice("warning", "Unexplained", tuple(lines))]
     return [Notice("note", "Nothing unexplained", ("Every case ended as expected, or with a reason given below.",))]

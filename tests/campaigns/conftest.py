@@ -12,6 +12,9 @@ from pathlib import Path
 import pytest
 
 from campaigns import buoy_sweep
+from campaigns.explore.judgement import judgement_of
+from campaigns.explore.rows import buoy_row
+from campaigns.machinery.store import Store
 from engine import Trajectory
 from tests.campaigns.fake_engine import FakeEngine
 
@@ -137,6 +140,11 @@ class Apart:
         assert self.begun() == len(VALUES) - len(before)
         self.check_all_ok()
         assert not list(self.out.rglob(".*.tmp"))
+
+
+def judged_row(run, transient_periods=None, full=None, orbits=None):
+    """The row of a run, judged as in a sweep. orbits: where these are kept, nowhere by default."""
+    return buoy_row(run, judgement_of(run, None, orbits or Store(None), transient_periods, full))
 
 
 @pytest.fixture

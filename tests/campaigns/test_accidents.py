@@ -12,6 +12,7 @@ from functools import partial
 import psutil
 import pytest
 
+from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped
@@ -186,7 +187,7 @@ def together(tmp_path):
         log = tmp_path / "log"
         log.unlink(missing_ok=True)
         engine = FakeEngine(log=str(log), **fake)
-        how, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, transient_periods=2)
+        how, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, judgement=Judgement(2))
         plan = Plan(how, engine, describe, COLUMNS, simulate_each=engine.each)
         return run_campaign(plan, jobs_of(EIGHT)), engine.begun()
 

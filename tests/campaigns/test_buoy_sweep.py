@@ -14,14 +14,13 @@ from PIL import Image
 from campaigns import buoy_sweep
 from campaigns.explore import batches
 from campaigns.explore.batches import FRAMES, PERIODS, of_largest_tension
-from campaigns.explore.rows import buoy_row
 from campaigns.explore.space import SEED_MPS
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of
 from engine import Trajectory, load_scene
 from reports.parts.style import VERMILION
-from tests.campaigns.conftest import finished, forget, rows_of
+from tests.campaigns.conftest import finished, forget, judged_row, rows_of
 from tests.campaigns.fake_engine import FakeEngine, shapes, sines
 
 THREE = ("0.02", "0.05", "0.13")
@@ -182,10 +181,10 @@ def test_a_failed_run_in_space_is_a_row_of_three_dimensions(sweep):
 
 def test_a_row_in_space_is_judged_by_its_samples():
     scene = load_scene("tethered_buoy", {"motion.dimensions": 3, "start.buoy_velocity_mps": [0, 1e-5, 0]})
-    row = buoy_row(sines(scene, 120), 20)
+    row = judged_row(sines(scene, 120), 20)
     assert row["regime"] == "period-1"
     assert row["lyapunov_tangent_bits_per_period"] is None and row["regime_tighter"] is None
-    assert "regime" not in buoy_row(sines(scene, 59), 20), "too short for a verdict"
+    assert "regime" not in judged_row(sines(scene, 59), 20), "too short for a verdict"
 
 
 @pytest.mark.slow

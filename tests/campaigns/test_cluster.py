@@ -9,12 +9,12 @@ import signal
 import subprocess
 import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import pytest
 
 from campaigns import buoy_sweep
+from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery import pools
 from campaigns.machinery.cli import Running
@@ -78,6 +78,12 @@ def at(found):
     return ["--backend", "dask", "--dask-address", found.address]
 
 
+def judge(run, checks, orbits):
+    """Stands in for `judgement_of`: the orbit that it computes is kept."""
+    orbits.finished("an orbit", lambda: {"period": 2})
+    return Judgement(2)
+
+
 def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_were(tmp_path, monkeypatch):
     import cloudpickle
 
@@ -86,19 +92,19 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
         assert b"of-the-campaign" not in sent
         for task in tasks:
             outcomes = pickle.loads(sent)(pickle.loads(cloudpickle.dumps(task)))
-            assert list((place / "trajectories").iterdir()) == [] and outcomes[0].content
+            assert list((place / "trajectories").iterdir()) == [] and outcomes[0][1].content
             yield task, pickle.loads(pickle.dumps(outcomes))
 
     job = Job({"steepness": 0.05}, load_scene("tethered_buoy", {"waves.steepness": 0.05}), 6)
-    row, places = partial(buoy_row, transient_periods=2), [tmp_path / "here", tmp_path / "of-the-campaign"]
+    places = [tmp_path / "here", tmp_path / "of-the-campaign"]
     rows = []
     for place, backend in zip(places, ("threading", "dask"), strict=True):
         (place / "trajectories").mkdir(parents=True)
-        plan = Plan(Running(place, 1, backend), FakeEngine(), row, COLUMNS, "this one")
+        plan = Plan(Running(place, 1, backend), FakeEngine(), buoy_row, COLUMNS, "this one", judge)
         rows += run_campaign(plan, [job]).rows
-        monkeypatch.setattr("campaigns.machinery.runner.opened", lambda *_: contextlib.nullcontext(elsewhere))
+        monkeypatch.setattr("campaigns.machinery.tasks.opened", lambda *_: contextlib.nullcontext(elsewhere))
     assert rows[0] == rows[1]
-    for name in (f"{job.key}.nc", f"{job.key}.row.json"):
+    for name in (f"{job.key}.nc", f"{job.key}.row.json", "an orbit.orbit.json"):
         here, there = (place / "trajectories" / name for place in places)
         assert here.read_bytes() == there.read_bytes()
 

@@ -38,7 +38,7 @@ HELPS = {  # what each tells
     "campaigns.regime_map": "--vary --pages --starts --refine --budget --cut --screen",
     "campaigns.oscillator": "--effort",
     "campaigns.out_of_plane": "--periods",
-    "campaigns.stability": "--fuzz",
+    "campaigns.stability": "--drift-periods",
     "campaigns.sweep": "--vary",
     "campaigns.validation": "--only --quick",
 }

@@ -6,6 +6,7 @@ import pytest
 from campaigns.explore.answer import OTHER
 from campaigns.explore.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
 from campaigns.explore.starts import JOINED, UNSETTLED, settled_of
+from campaigns.machinery.store import Store
 from campaigns.sweep import main as sweep_command
 from engine import load_scene, simulate
 from tests.campaigns.conftest import rows_of
@@ -61,7 +62,7 @@ def test_stretches_of_a_record_have_its_slack_fraction(transient, period):
 @pytest.mark.parametrize(("swing_m", "outcome"), [(1.0, JOINED), (1.5, UNSETTLED)])
 def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome):
     scene = load_scene("tethered_buoy")
-    motion = settled_of(sines(scene, 90))
+    motion = settled_of(sines(scene, 90), Store(None))
     row = companion_row(sines(scene, REPEATING, radius=(20.0, swing_m)), period=1, motion=motion)
     assert row["outcome"] == outcome
     assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py

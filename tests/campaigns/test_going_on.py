@@ -1,11 +1,11 @@
-"""What a run does next (`campaigns.judge.going_on`): on to its next look, to a tighter tolerance, or nothing."""
+"""What a run does next (`campaigns.machinery.long_runs`): on to its next look, to a tighter tolerance, or nothing."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from campaigns.judge import LEAST_CHECK, going_on
+from campaigns.machinery.long_runs import LEAST_CHECK, until_judged
 from engine import load_scene
 
 SCENE = load_scene("tethered_buoy", steepness=0.13)
@@ -17,7 +17,7 @@ RUN = SimpleNamespace(tangent=None)
 
 
 def after(checks=None, budget=1500, looks=True, run=RUN, **row):
-    return going_on(SCENE, run, {**CHAOTIC, **row}, checks or {}, budget, looks)
+    return until_judged(SCENE, run, {**CHAOTIC, **row}, checks or {}, budget, looks)
 
 
 def checked(periods, status="ok"):
@@ -26,7 +26,7 @@ def checked(periods, status="ok"):
 
 @pytest.mark.parametrize(("looks", "periods"), [(True, 90), (False, 300)])
 def test_a_run_begins_with_its_first_look_or_its_whole_length(looks, periods):
-    assert going_on(SCENE, None, None, {}, 300, looks) == (SCENE, periods, None, False)
+    assert until_judged(SCENE, None, None, {}, 300, looks) == (SCENE, periods, None, False)
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_a_check_as_long_as_the_run_ends_though_its_periods_are_not_whole_to_the
 @pytest.mark.parametrize(("most", "ends"), [(309, True), (310, False)])
 def test_the_cell_of_a_map_is_not_looked_at_beyond_its_own_budget(most, ends):
     row = {**CHAOTIC, "regime": "undecided", "periods": 205.0}
-    assert (going_on(SCENE, RUN, row, {}, 1500, True, most=most) is None) == ends
+    assert (until_judged(SCENE, RUN, row, {}, 1500, True, most=most) is None) == ends
 
 
 @pytest.mark.parametrize(

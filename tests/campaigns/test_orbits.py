@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from campaigns.explore.tracing import Line, Scenes, Task, worked
+from campaigns.explore.tracing import Line, Scenes, line_task, work
+from campaigns.machinery.cli import Running
+from campaigns.machinery.plan import Plan
 from campaigns.orbits import main
 from campaigns.orbits.tree import _on, _same
 from engine import load_scene
@@ -22,18 +24,23 @@ def doubles(line, value):
     return {"reason": "", "value": 2.0 * value}, [np.array([[value]])]
 
 
-def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path):
+def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     scene = load_scene("tethered_buoy", {"tether.nodes": 9})
     line = Line(Scenes(scene.to_toml(), "waves.steepness", "waves.steepness"), 0.1, 0.2, 0.1, Digest(), 0.1)
-    task = Task(doubles, line, (0.3,))
-    assert worked(tmp_path, task)[0]["value"] == 0.6
-    path = tmp_path / f"{task.key}.npz"
-    before = path.stat().st_ino
-    assert worked(tmp_path, task)[1][0] == 0.3 and path.stat().st_ino == before
+    plan = Plan(Running(tmp_path, 1, "threading"), None, None, ())
+    task = line_task(doubles, line, (0.3,))
+
+    def done(task):
+        ((pair,), found) = work(plan, tmp_path / "kept", "doubling", [task])
+        return pair, found
+
+    assert done(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 0)
+    assert done(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 1)
+    path = tmp_path / "kept" / f"{task.key}.json"
     path.write_bytes(path.read_bytes()[:-7])
-    assert worked(tmp_path, task)[0]["value"] == 0.6 and path.stat().st_ino != before
-    assert worked(tmp_path, Task(loops, line, (0.3,))) == ({"reason": "a loop is released"}, [])
-    assert Task(doubles, line, (0.4,)).key != task.key
+    assert done(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
+    assert done(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
+    assert line_task(doubles, line, (0.4,)).key != task.key
 
 
 class Digest:
@@ -76,11 +83,11 @@ def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(t
     (orbit,) = rows_of(tmp_path, "orbits/table.csv")
     assert 0.0 < float(orbit["multiplier_1_error"]) < 0.02 and (tmp_path / "orbits" / "1_0.csv").exists()
     assert {row["status"] for row in rows_of(tmp_path, "motions/table.csv")} == {"ok"}
-    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.npz")}
+    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")}
     (tmp_path / "table.csv").unlink()
     capsys.readouterr()
     assert main(words) == 0 and kept == {
-        path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.npz")
+        path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")
     }
     assert rows_of(tmp_path) == rows and "0 computed" in capsys.readouterr().out
     items = report(tmp_path).items

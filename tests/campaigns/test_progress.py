@@ -13,54 +13,13 @@ from campaigns.explore.answer import sentences
 from campaigns.explore.rows import COLUMNS
 from campaigns.machinery import progress
 from campaigns.machinery.cli import Running
-from campaigns.machinery.plan import Further, Job, Plan, length_of, name_of
-from campaigns.machinery.progress import ASKED_S, Stage, heard, in_time, shares, stage, teller
-from campaigns.machinery.runner import LANES, _mixed, run_jobs
+from campaigns.machinery.plan import Job, Plan, name_of
+from campaigns.machinery.progress import ASKED_S, Stage, heard, shares, stage, teller
+from campaigns.machinery.runner import run_jobs
 from campaigns.machinery.session import MOST_LINES
-from campaigns.machinery.worker import _Standing
 from engine import load_scene, simulate, simulate_each
 from engine.natural_frequencies import natural_frequencies
 from tests.campaigns.fake_engine import FakeEngine, sines
-
-COSTS = [1.0] * 11 + [2.8] * 38  # of the default sweep's runs: 990 and 350 wave periods a second
-
-
-def history(costs):
-    """(times, share of them that is done) of runs that go in the lanes of a worker, the next as soon as one ends."""
-    begun, ended, free = [], [], [0.0] * LANES
-    for cost in costs:
-        begun.append(min(free))
-        ended.append(begun[-1] + cost)
-        free[free.index(begun[-1])] = ended[-1]
-    times, begun, ended = np.linspace(0.0, max(ended), 400), np.array(begun), np.array(ended)
-    return times, np.clip((times[:, None] - begun) / (ended - begun), 0.0, 1.0).mean(axis=1)
-
-
-@pytest.mark.parametrize("costs", [COSTS, COSTS[::-1], [1.0] * 49, list(np.linspace(1.0, 4.0, 49))])
-@pytest.mark.parametrize("since", [0.2, 0.35, 0.5, 0.7])
-def test_the_time_left_is_right_within_a_factor_of_two_from_a_fifth_on(costs, since):
-    workers = [history(_mixed(costs[first::2])) for first in (0, 1)]
-    end = max(times[-1] for times, _ in workers)
-    one = Stage("runs", 49.0)
-    for t in np.linspace(0.0, since * end, 200):
-        shares = (in_time(np.interp(t, *worker), count, LANES) for worker, count in zip(workers, (25, 24), strict=True))
-        one.seen.append((100.0 * t / end, float(np.dot((25, 24), [*shares]))))
-    assert 0.5 < one.left_s() / (100.0 * (1.0 - since)) < 2.0
-
-
-@pytest.mark.parametrize("reached", [90, 465, 1400])
-def test_a_run_that_may_go_on_is_expected_to_take_more_but_not_its_whole_budget(reached):
-    assert 0.0 < _Standing(further=Further(None, reached)).still_expected(1500) < 0.8 * (1500 - reached)
-    for last in (Further(None, 1500), Further(None, reached, check=True), None):
-        assert _Standing(further=last).still_expected(1500) == 0.0
-
-
-def test_the_lanes_of_the_engine_are_those_of_the_time_left():
-    from engine.simd.vector import COUNT
-
-    assert LANES == COUNT
-    assert in_time(1.0, 25, LANES) == in_time(1.0, 3, LANES) == 1.0
-    assert in_time(24 / 25, 25, LANES) == pytest.approx(3 / 4)  # the last run goes alone, for as long as a round
 
 
 def test_a_time_left_is_told_once_it_is_known():
@@ -110,16 +69,8 @@ def test_the_main_process_sees_the_share_of_a_run_while_it_goes(tmp_path):
     (tmp_path / "trajectories").mkdir()
     job, seen = Job({}, load_scene("tethered_buoy"), 4), {}
     engine = half_way(tmp_path / "told", seen)
-    run_jobs(Plan(Running(tmp_path), engine, lambda run: {}, COLUMNS, told=tmp_path / "told"), [job])
+    run_jobs(Plan(Running(tmp_path), engine, lambda run: {}, COLUMNS, reports=tmp_path / "told"), [job])
     assert seen == {name_of([job]): 0.5}
-
-
-def test_the_length_is_in_wave_periods_and_without_waves_in_seconds():
-    wave, none = load_scene("tethered_buoy"), load_scene("hanging_line")
-    assert length_of([Job({}, wave, 300), Job({}, wave, duration_s=50.0)]) == (310.0, "wave periods in 2 runs")
-    assert length_of([Job({}, none, duration_s=7.0)] * 2) == (14.0, "s in 2 runs")
-    finer = load_scene("tethered_buoy", {"tether.nodes": 81})
-    assert Job({}, finer, 10).size / Job({}, wave, 10).size == pytest.approx(81 / 41)
 
 
 def test_no_silence_and_the_names_of_all_stages(monkeypatch):

@@ -16,9 +16,11 @@ from campaigns import buoy_sweep
 from campaigns.columns import names
 from campaigns.explore.rows import COLUMNS
 from campaigns.machinery import session
-from campaigns.machinery.folder import CampaignStopped, keep_json, keep_row, kept_json, kept_row, made_by
-from campaigns.machinery.plan import Job
+from campaigns.machinery.cli import Running
+from campaigns.machinery.folder import CampaignStopped, keep_json, kept_json, made_by
+from campaigns.machinery.plan import Job, Outcome, Plan
 from campaigns.machinery.pools import dask_client
+from campaigns.machinery.worker import keep_row, kept_row
 from engine import Trajectory, load_scene, source_hash
 from tests.campaigns.conftest import ROOT, USUAL, finished, forget
 from tests.campaigns.fake_engine import FakeEngine
@@ -108,10 +110,8 @@ def test_a_row_that_is_not_what_was_written_is_made_again_from_its_run(sweep, da
     assert paths[0].read_text() == text
 
 
-def test_a_row_of_a_run_that_has_gone_on_since_is_made_again(tmp_path):
-    (tmp_path / "trajectories").mkdir()
-    keep_row(tmp_path, KEY, "maker", ROW, b"90 periods")  # killed between the two files of 135 periods
-    assert kept_row(tmp_path, KEY, "maker", b"135 periods") is None
+def plan_of(folder, maker="maker"):
+    return Plan(Running(folder), None, None, (), maker)
 
 
 def test_a_sealed_file_is_read_as_it_was_written_under_its_own_name_or_not_at_all(tmp_path):
@@ -173,18 +173,17 @@ def test_a_dask_scheduler_that_is_not_there_is_one_line(sweep, capfd, monkeypatc
         pass
 
 
-def test_a_row_comes_back_as_it_was_to_its_maker_alone_and_a_damaged_one_not_at_all(tmp_path):
-    keep_row(tmp_path, KEY, "maker", ROW, RUN)
-    assert kept_row(tmp_path, KEY, "maker", RUN) is None, "a folder that cannot be written to costs only the row"
-    (tmp_path / "trajectories").mkdir()
-    keep_row(tmp_path, KEY, "maker", ROW, RUN)
-    assert kept_row(tmp_path, KEY, "maker", RUN) == ROW
-    assert kept_row(tmp_path, KEY, "another maker", RUN) is None
-    assert kept_row(tmp_path, "b" * 64, "maker", RUN) is None
-    (path,) = (tmp_path / "trajectories").iterdir()
-    for text in ("", path.read_text()[:-5], json.dumps({"made_by": "maker"}), json.dumps([1])):
-        path.write_text(text)
-        assert kept_row(tmp_path, KEY, "maker", RUN) is None
+def test_a_row_comes_back_to_its_maker_alone_and_while_its_run_is_as_it_was(tmp_path):
+    plan = plan_of(tmp_path)
+    (tmp_path / "trajectories").touch()
+    keep_row(plan, Outcome(KEY, ROW), RUN)
+    (tmp_path / "trajectories").unlink()
+    assert kept_row(plan, KEY, RUN) is None, "a folder that cannot be written to costs only the row"
+    keep_row(plan, Outcome(KEY, ROW), RUN)
+    assert kept_row(plan, KEY, RUN) == ROW
+    assert kept_row(plan, KEY, b"a run that has gone on since") is None
+    assert kept_row(plan_of(tmp_path, "another maker"), KEY, RUN) is None
+    assert kept_row(plan, "b" * 64, RUN) is None
 
 
 def test_the_maker_changes_with_settings_and_sources():

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from campaigns.columns import names
-from campaigns.explore.rows import COLUMNS, buoy_row
+from campaigns.explore.rows import COLUMNS
 from engine import load_scene
 from engine.trajectory import TangentGrowth
+from tests.campaigns.conftest import judged_row
 from tests.campaigns.fake_engine import STATISTICS, sines
 
 PERIODS, TRANSIENT = 90, 10
@@ -25,7 +26,7 @@ def scene():
 
 
 def measured(scene, **run):
-    return buoy_row(sines(scene, PERIODS, **run), TRANSIENT)
+    return judged_row(sines(scene, PERIODS, **run), TRANSIENT)
 
 
 def test_extremes_of_sines_and_those_of_tension_between_the_samples(scene):
@@ -37,7 +38,7 @@ def test_extremes_of_sines_and_those_of_tension_between_the_samples(scene):
 
 
 def test_full_evidence_is_told_beside_a_verdict_that_does_not_rest_on_it(scene):
-    dynamics, full = (buoy_row(sines(scene, 135), None, full=most) for most in (None, 1500))
+    dynamics, full = (judged_row(sines(scene, 135), None, full=most) for most in (None, 1500))
     assert dynamics["regime"] == full["regime"] == "period-1" and "lyapunov_wolf_error" not in dynamics
     assert math.isfinite(full["lyapunov_wolf_error"])
     assert full["evidence"].startswith(f"{dynamics['evidence']}; samples alone, period: 1/")
@@ -49,7 +50,7 @@ def test_slack_and_compression_of_a_sine(scene, mean):
     run = sines(scene, PERIODS, tension=(mean, 500.0))
     for name in ("radius_rate_mps", "angle_rate_radps"):
         run.columns[name][0] = 0.0  # it begins at rest, at the mean, which so is its static tension
-    row = buoy_row(run, TRANSIENT)
+    row = judged_row(run, TRANSIENT)
     for name, level in (("slack_fraction", max(0.05 * mean, 0.0)), ("compression_fraction", 0.0)):
         share = math.acos(max(-1.0, min((mean - level) / 500.0, 1.0))) / math.pi
         assert row[name] == pytest.approx(share, abs=1e-3)
@@ -71,7 +72,7 @@ def test_a_turning_buoy_has_the_period_of_its_turn(scene):
     run.columns["angle_rate_radps"][:] = np.pi / scene.waves.period_s
     run.columns["x_m"][:] = run.columns["radius_m"] * np.sin(angle)
     run.columns["z_m"][:] = run.columns["radius_m"] * np.cos(angle)
-    assert buoy_row(run, TRANSIENT)["strobed_period"] == 2
+    assert judged_row(run, TRANSIENT)["strobed_period"] == 2
 
 
 def test_height_of_the_sphere_above_still_water(scene):
@@ -81,7 +82,7 @@ def test_height_of_the_sphere_above_still_water(scene):
 
 @pytest.mark.parametrize("periods", [1, TRANSIENT, TRANSIENT + 0.9])
 def test_record_within_the_transient_fills_statistics_only(scene, periods):
-    row = buoy_row(sines(scene, periods, status="newton-failed", message="why"), TRANSIENT)
+    row = judged_row(sines(scene, periods, status="newton-failed", message="why"), TRANSIENT)
     assert not SETTLED & row.keys()
     assert (row["status"], row["message"]) == ("newton-failed", "why")
     assert {name: row[name] for name in STATISTICS} == STATISTICS
@@ -89,17 +90,17 @@ def test_record_within_the_transient_fills_statistics_only(scene, periods):
 
 def test_a_failed_run_is_measured_up_to_its_end_or_its_first_sample_that_is_not_finite(scene):
     run = sines(scene, PERIODS, status="not-finite")
-    assert buoy_row(run, TRANSIENT)["radius_max_m"] == pytest.approx(21.0)
+    assert judged_row(run, TRANSIENT)["radius_max_m"] == pytest.approx(21.0)
     run.columns["radius_m"][5000:] = 1e9
     run.columns["radius_m"][5000] = math.nan
-    row = buoy_row(run, TRANSIENT)
+    row = judged_row(run, TRANSIENT)
     assert (row["status"], row["radius_max_m"]) == ("not-finite", pytest.approx(21.0))
 
 
 def test_record_without_samples(scene):
     run = sines(scene, 1, status="statics-failed")
     empty = type(run)(scene, run.status, "", {name: values[:0] for name, values in run.columns.items()}, {})
-    row = buoy_row(empty, TRANSIENT)
+    row = judged_row(empty, TRANSIENT)
     assert {name for name, entry in row.items() if entry is not None} == {"status", "message"}
 
 
@@ -109,7 +110,7 @@ def test_growth_across_the_plane_is_told_where_no_loop_was_released(scene, relea
     events[released] = 1.0
     nats[:TRANSIENT] = 3.0
     run = replace(sines(scene, PERIODS), tangent=TangentGrowth(5.0, np.empty((PERIODS, 0)), events, nats))
-    row = buoy_row(run, TRANSIENT)
+    row = judged_row(run, TRANSIENT)
     assert "regime" not in row, "nothing was carried in the plane"
     found = row["offplane_growth_bits_per_period"], row["offplane_growth_error"]
     assert found == ((None, None) if empty else pytest.approx((-0.5, 0.0), abs=1e-12))

@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from campaigns.basins.found import COLUMNS as of_basins
+from campaigns.basins.exploration import COLUMNS as of_basins
 from campaigns.columns import Column
 from campaigns.explore.rows import COLUMNS as of_sweeps
 from campaigns.out_of_plane.rows import COLUMNS as of_space

@@ -5,9 +5,10 @@ import pytest
 
 from campaigns.explore.approach import orbit_ahead
 from campaigns.explore.proposals import SCREENED, _motions
-from campaigns.explore.rows import buoy_row
 from campaigns.explore.starts import settled_of
-from engine import load_scene, simulate
+from campaigns.machinery.store import Store
+from engine import Trajectory, load_scene, simulate
+from tests.campaigns.conftest import judged_row
 
 
 def at(steepness, depth_m=21.0):
@@ -23,16 +24,26 @@ def largest_N(run, periods):
     ("steepness", "modulus", "periods", "truth"),
     [(0.02, 0.970, 135, 400), pytest.param(0.037, 0.9978, 465, 3000, marks=pytest.mark.slow)],
 )
-def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(steepness, modulus, periods, truth):
+def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(
+    steepness, modulus, periods, truth, tmp_path, monkeypatch, capsys
+):
     run = simulate(at(steepness), periods=periods)
-    row = buoy_row(run, None)
+    orbits = Store(tmp_path / "orbits")
+    row = judged_row(run, orbits=orbits)
     assert row["regime"] == "period-1" and row["strobed_period"] == 1 and "in the limit" in row["regime_reason"]
     assert row["multiplier_modulus"] == pytest.approx(modulus, abs=5e-4)
     later = simulate(run.scene, periods=truth - periods, start=run)
     exact_N = largest_N(later, 5)
     assert row["tension_top_max_N"] == pytest.approx(exact_N, rel=1e-3 if steepness == 0.037 else 1e-4)
     assert largest_N(run, periods // 3) > exact_N + 5.0 * abs(row["tension_top_max_N"] - exact_N), "the run rings"
-    motion = settled_of(run)
+    (path,) = orbits.folder.iterdir()
+    path.write_bytes(path.read_bytes()[:-9])
+    assert judged_row(run, orbits=orbits) == row and "damaged" in capsys.readouterr().err
+    run.save(tmp_path / "run.nc")
+    monkeypatch.setattr("campaigns.explore.multipliers._computed", lambda *_: pytest.fail("computed again"))
+    again = Trajectory.load(tmp_path / "run.nc")
+    assert judged_row(again, orbits=orbits) == row
+    motion = settled_of(again, orbits)
     assert motion.period == 1 and motion.measures[:, 2].max() == pytest.approx(row["tension_top_max_N"], abs=1e-6)
 
 
@@ -40,14 +51,15 @@ def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(steepness, modulus, pe
 def test_a_run_that_spirals_to_a_torus_beyond_its_birth_is_not_told_by_the_orbit_within():
     """At kA = 0.039 the multiplier is 1.007."""
     run = simulate(at(0.039), periods=465)
-    found = orbit_ahead(run)
+    found = orbit_ahead(run, Store(None))
     assert found is None or not found[1].passed
-    assert buoy_row(run, None)["regime"] != "period-1"
+    assert judged_row(run)["regime"] != "period-1"
 
 
 def from_rest(steepness, depth_m):
     """The motion to which a massless tether goes from rest."""
-    return next(one for one in _motions(np.zeros((SCREENED + 1, 2)), at(steepness, depth_m)) if one["rest"])
+    motions = _motions(np.zeros((SCREENED + 1, 2)), at(steepness, depth_m))["motions"]
+    return next(motion for motion in motions if motion["rest"])
 
 
 @pytest.mark.parametrize(("steepness", "depth_m"), [(0.012, 26.0), (0.016, 25.0), (0.037, 22.0), (0.0415, 22.0)])

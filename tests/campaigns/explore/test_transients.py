@@ -4,7 +4,7 @@ from functools import partial
 from types import SimpleNamespace
 
 from campaigns.explore.transients import TIMES, outlasting
-from campaigns.judge import going_on
+from campaigns.machinery.long_runs import until_judged
 from campaigns.machinery.plan import Job
 from engine import load_scene
 
@@ -14,7 +14,7 @@ CHAOTIC = {"status": "ok", "regime": "chaotic", "regime_tighter": "chaotic", "pe
 
 
 def asked(*rows):
-    going = partial(going_on, budget=1500, looks=True)
+    going = partial(until_judged, budget=1500, looks=True)
     jobs = [Job({}, SCENE, 1500, going=going, made=str(at), engine="") for at in range(len(rows))]
     by_key = {job.key: row for job, row in zip(jobs, rows, strict=True) if row}
     longer = outlasting(jobs, by_key, lambda at: (at - 1, at + 1))

@@ -1,24 +1,21 @@
-"""Random valid and invalid scenes for `campaigns.stability`, the same while seed, count and sources stay the same.
+"""Random valid and invalid scenes, as strategies of Hypothesis, which shrinks a scene that breaks a law.
 
 A scene starts as a shipped one on a small grid. Then parts of it are replaced (random_scenes.toml) and numbers scaled,
 extreme numbers last; a change that the engine refuses is drawn again. An invalid scene has up to three faults besides:
-values of a wrong kind or size, entries taken away, unknown keys, rules between values broken. Scenes are strategies of
-Hypothesis, which shrinks what is found unsound.
+values of a wrong kind or size, entries taken away, unknown keys, rules between values broken.
 """
 
 import copy
-import json
 import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
-from hypothesis import HealthCheck, Phase, given, reject, seed, settings
+from hypothesis import reject
 from hypothesis import strategies as st
 
 from engine.scene import SceneError, build_scene, load_scene
 
-VALID, INVALID = "valid", "invalid"
 MOST_NODES = 61
 EXTREMES = (5e-324, 1e-310, 1e-200, 1e-30, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e30, 1e150, 1e200, 1.7e308, 0.0, -0.0)
 JUNK = (None, True, False, "", "text", "1.0", "\x00", "ü" * 300, [], [1.0], [[]], {}, {"a": 1}, -1, -1e-300, 0, 1.5)
@@ -124,36 +121,3 @@ def _fault(draw, raw: dict) -> None:
         section, key, value = one_of(draw, DATA["broken_rules"])
         if isinstance(raw.setdefault(section, {}), dict):
             raw[section][key] = copy.deepcopy(value)
-
-
-SCENES = {VALID: valid_scene(), INVALID: invalid_scene()}
-
-
-def drawn(kind: str, number: int, count: int) -> list[dict]:
-    """So many scenes of a kind, from the seed `number`."""
-    found = []
-    _each(kind, number, count, found.append, Phase.generate)
-    return [json.loads(json.dumps(raw)) for raw in found[:count]]
-
-
-def smallest(kind: str, number: int, count: int, unsound: Callable[[dict], bool]) -> dict | None:
-    """The smallest scene that Hypothesis finds unsound when it shrinks the first such one among those `drawn`."""
-    last = []
-
-    def judged(raw: dict) -> None:
-        if unsound(raw):
-            last.append(raw)
-            raise AssertionError("unsound")
-
-    try:
-        _each(kind, number, count, judged, Phase.generate, Phase.shrink)
-    except AssertionError:
-        return last[-1]
-    return None
-
-
-def _each(kind: str, number: int, count: int, call: Callable[[dict], object], *phases: Phase) -> None:
-    how = settings(
-        max_examples=count, deadline=None, database=None, phases=phases, suppress_health_check=list(HealthCheck)
-    )
-    seed(number)(how(given(SCENES[kind])(lambda raw: call(raw))))()

@@ -1,0 +1,145 @@
+"""What the row of a run rests on beside the run itself: its verdict, and the periodic orbit under it.
+
+A row only reads numbers (`campaigns.explore.rows.buoy_row`). Whatever takes long is computed here: the tests of a
+record, and orbits, whose computations are kept under keys of their own (`campaigns.explore.multipliers`).
+"""
+
+from dataclasses import dataclass, replace
+
+from analysis import Exponent, Verdict, next_look
+from analysis.looks import CLOSE
+from campaigns.explore.approach import orbit_ahead
+from campaigns.explore.multipliers import OrbitUnder, orbit_under
+from campaigns.explore.rows import sound_part
+from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
+from campaigns.machinery.long_runs import OPEN
+from campaigns.machinery.store import Store
+from engine.trajectory import Trajectory
+from engine.views import carried, carries_tangents
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """How a run is judged.
+
+    transient    wave periods at its start that are left out of extremes
+    verdict      None where the run has none: it ended early, or is too short
+    record       the verdict on its samples alone, as on a record of unknown origin, where that was asked for
+    wolf         its exponent by Wolf's method, likewise
+    tangent      its exponent from tangent dynamics
+    orbit        the periodic orbit under it
+    limit        whether the run only comes nearer to its orbit: extremes and slack are then those of the orbit
+    note         in words: the multipliers of the orbit under a run that repeats, or why there are none
+    """
+
+    transient: int
+    verdict: Verdict | None = None
+    record: Verdict | None = None
+    wolf: Exponent | None = None
+    tangent: Exponent | None = None
+    orbit: OrbitUnder | None = None
+    limit: bool = False
+    note: str = ""
+
+    @property
+    def tighter(self) -> str | None:
+        """The regime of a motion that went on at a tighter tolerance; None where it did not."""
+        return _tighter(self.verdict)
+
+
+def judgement_of(
+    trajectory: Trajectory, checks: dict | None, orbits: Store, transient_periods: int | None, full: int | None = None
+) -> Judgement:
+    """How a run of the tethered buoy is judged (`campaigns.judge`).
+
+    It gets a verdict if it reached its end and lasts for two looks; in three dimensions, where no perturbations are
+    carried, for 40 periods.
+    transient_periods: wave periods left out. None: those that the verdict has found; a periodic motion then has its
+    orbit, and one that only comes nearer to its orbit is judged by that.
+    checks: how it went on at a tighter tolerance, for a run that is chaotic.
+    full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
+    origin are asked for too; the verdict does not rest on them. None: they are not made.
+    """
+    periods = periods_of(trajectory)
+    verdict, wolf = judged(trajectory, periods, transient_periods, checks)
+    if verdict is None:
+        return Judgement(transient_periods or 0)
+    judgement = Judgement(0, verdict, wolf=wolf)
+    if transient_periods is None:
+        judgement = _with_orbit(trajectory, judgement, orbits)
+        transient_periods = judgement.verdict.transient
+    verdict = judgement.verdict
+    tangent = tangent_of(trajectory, transient_periods)
+    record = None
+    goes_on = verdict.regime in OPEN or (verdict.regime == "chaotic" and _tighter(verdict) is None)
+    if full is not None and wolf is None and (periods > full - 0.5 or not goes_on):
+        record, wolf = record_regime(trajectory, transient_periods, tangent)
+    return replace(judgement, transient=transient_periods, record=record, wolf=wolf, tangent=tangent)
+
+
+def periods_of(trajectory: Trajectory) -> float:
+    """Wave periods of a run, up to the first sample that is not finite."""
+    scene = trajectory.scene
+    return (len(sound_part(trajectory.columns)["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
+
+
+def judged(trajectory: Trajectory, periods: float, transient_periods: int | None, checks: dict | None):
+    """The Verdict on a run, and where its samples alone were judged Wolf's exponent; None where there is none."""
+    scene = trajectory.scene
+    transient = transient_periods or 0
+    if trajectory.status != "ok":
+        return None, None
+    if carries_tangents(scene):
+        wanted = transient_periods is None or (carried(trajectory) and periods >= next_look(next_look()))
+        return (motion_of(trajectory, checks) if wanted else None), None
+    if scene.motion.dimensions == 3 and periods - transient >= LEAST_JUDGED:
+        return record_regime(trajectory, transient)
+    return None, None
+
+
+def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> Judgement:
+    """The judgement with the orbit under the run, and with what that orbit says of the verdict."""
+    verdict = judgement.verdict
+    if verdict.regime in (*OPEN, "quasi-periodic"):
+        verdict, orbit = judged_by_orbit(trajectory, verdict, orbits)
+        if orbit is not None:
+            return replace(judgement, verdict=verdict, orbit=orbit, limit=True)
+    if not verdict.period or trajectory.final_state is None:
+        return replace(judgement, verdict=verdict)
+    orbit, note = None, ""
+    try:
+        orbit = orbit_under(trajectory, verdict.period, orbits)
+        note = orbit.words()
+    except (ArithmeticError, ValueError) as why:
+        note = f"no multipliers: {why}"
+    if orbit is not None and orbit.period != verdict.period:
+        note = f"no multipliers: the orbit under it has period {orbit.period}"
+        orbit = None
+    loose = any(test.name == CLOSE and not test.passed for test in verdict.evidence)
+    if loose and orbit is None:
+        reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
+        verdict = replace(verdict, regime="undecided", reason=reason)
+    return replace(judgement, verdict=verdict, orbit=orbit, note=note)
+
+
+def judged_by_orbit(trajectory: Trajectory, verdict: Verdict, orbits: Store) -> tuple[Verdict, OrbitUnder | None]:
+    """The Verdict on a run that has not settled, with what the orbit near it says; the orbit where the run comes to it.
+
+    Its transient ends where the last third of the judged periods begins.
+    """
+    near = orbit_ahead(trajectory, orbits)
+    if near is None:
+        return verdict, None
+    orbit, approach = near
+    evidence = *verdict.evidence, approach
+    if not approach.passed:
+        return replace(verdict, reason=f"{verdict.reason}; {approach.sentence}", evidence=evidence), None
+    points = verdict.points // 3
+    reason = f"repeats after {orbit.period} wave period(s) in the limit: {approach.sentence}; extremes are the orbit's"
+    transient = verdict.transient + verdict.points - points
+    return Verdict(f"period-{orbit.period}", reason, evidence, orbit.period, points, verdict.seed, transient), orbit
+
+
+def _tighter(verdict: Verdict) -> str | None:
+    checked = any(test.name == "tighter tolerance" and test.passed is not None for test in verdict.evidence)
+    return verdict.regime if checked else None

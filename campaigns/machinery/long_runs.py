@@ -1,0 +1,159 @@
+"""Runs that take as long as they need: the loop of such a run, and what it does next.
+
+    run = LongRun(job)
+    while (part := run.next_part()) is not None:
+        run.take(simulate(part.scene, periods=part.periods, start=part.start))
+        run.row = row of run.trajectory and run.checks
+
+`LongRun` knows how far a run has come. Its job decides what it does next (`Job.going`), from the row of what it has
+done: a run is judged after each part (`until_judged`), a start ends when it has settled (`until_settled`), and a run
+that begins in a given state has one part (`once`). A worker does many such runs side by side
+(`campaigns.machinery.worker`): each goes on when its part has ended, while the others are under way.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import engine.scene
+from campaigns.finer import finer
+from engine.views import carried, carries_tangents
+
+OPEN = ("undecided", "transient")  # regimes that decide nothing
+UNSETTLED = "unsettled"  # outcome of a start that has not settled yet
+LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
+TANGENTS = "output.tangent_vectors"
+
+
+class Part(NamedTuple):
+    """What a run does next: scene, wave periods, and the Trajectory or state that it goes on from (None: from rest).
+
+    check: the run stays as it is. This part goes on from it at a tighter tolerance, and the row reads it (`checks`).
+    """
+
+    scene: object
+    periods: float
+    start: object = None
+    check: bool = False
+
+
+@dataclass(eq=False)
+class LongRun:
+    """A run and how far it has come.
+
+    row: of the trajectory so far, None before the first part.
+    checks: what went on from the run at a tighter tolerance, by the wave periods of the run then.
+    part: what is under way.
+    """
+
+    job: object
+    trajectory: object = None
+    row: Mapping | None = None
+    checks: dict[int, object] = field(default_factory=dict)
+    part: Part | None = None
+
+    def next_part(self) -> Part | None:
+        """What the run does next; None when it is finished."""
+        self.part = self.job.going(self.job.scene, self.trajectory, self.row, self.checks)
+        return self.part
+
+    def take(self, result) -> None:
+        """Add the Trajectory of the part that was under way."""
+        if self.part.check:
+            periods = round(self.row["periods"])
+            earlier = self.checks.get(periods)
+            self.checks[periods] = result if earlier is None else earlier.followed_by(result)
+        elif self.trajectory is None:
+            self.trajectory = result
+        else:
+            self.trajectory = self.trajectory.followed_by(result)
+
+
+def once(scene, trajectory, row, checks, periods: float, start) -> Part | None:
+    """One part from a state."""
+    return Part(scene, periods, start) if row is None else None
+
+
+def until_settled(scene, trajectory, row, checks, start, ends: Sequence[float]) -> Part | None:
+    """From look to look, at `ends` (wave periods), until the start has settled or has joined a known motion."""
+    if row is None:
+        return Part(scene, ends[0], start)
+    periods = row.get("periods")
+    if row["status"] != "ok" or row.get("outcome") != UNSETTLED or periods is None:
+        return None
+    for end in ends:
+        if end > periods + 1e-6:
+            return Part(scene, end - periods, trajectory)
+    return None
+
+
+def until_judged(
+    scene, trajectory, row, checks, budget: int, looks: bool, start=None, most: int | None = None, least: float = 0.0
+) -> Part | None:
+    """Until the regime of the run is known.
+
+    looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
+    the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
+    One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
+    judged; at first for as long as it takes to show by SURE errors.
+    start: the state of another run that it begins in; None: as the scene says. most: wave periods after which it is not
+    looked at again, though `budget` allows it. least: wave periods that chaos has to last, because transients of such a
+    length are known (`campaigns.explore.transients`).
+    """
+    from analysis.looks import looks as looks_until
+
+    ends = list(looks_until(budget)) if looks else []
+    if row is None:
+        return Part(scene, ends[0] if ends else budget, start)
+    periods = row.get("periods")
+    if row["status"] != "ok" or row.get("regime") is None or periods is None:
+        return None
+    # whole periods: samples need not add up to them to the last digit, and a check of nothing would go on for ever
+    next_end = next((end for end in ends if end > round(periods)), None)
+    may_go_on = next_end is not None and (most is None or next_end <= most)
+    chaotic = row["regime"] == "chaotic"
+    if chaotic and periods < least and may_go_on:
+        return Part(carrying(scene), next_end - periods, trajectory)
+    check = _check(scene, trajectory, row, checks.get(round(periods)))
+    if check is not None:
+        return check
+    if row["regime"] not in OPEN or not may_go_on:
+        return None
+    wanted = _unclear(row) or (trajectory is not None and carried(trajectory))
+    scene = carrying(scene) if wanted and carries_tangents(scene) else scene
+    return Part(scene, next_end - periods, trajectory)
+
+
+def _check(scene, trajectory, row, check) -> Part | None:
+    """The check of a run that looks chaotic, or its next part while chaos does not show; None: none is needed."""
+    judged = round(row["periods"]) - (row.get("transient_periods") or 0)
+    tighter = row.get("regime_tighter")
+    if row["regime"] == "chaotic" and tighter is None:
+        value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
+        enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
+        return Part(finer(carrying(scene), steps=10), min(enough, judged), trajectory, check=True)
+    if check is None or check.status != "ok" or tighter == "chaotic":
+        return None
+    ran = len(check.tangent.growth_nats)
+    if ran >= judged:
+        return None
+    return Part(check.scene, min(math.ceil(0.5 * ran), judged - ran), check, check=True)
+
+
+def _unclear(row) -> bool:
+    """Whether perturbations have to say what an open run is: no period is found, or it does not repeat closely."""
+    from analysis.evidence import read_evidence
+    from analysis.looks import CLOSE, next_look
+
+    if row["regime"] != "undecided":
+        return False
+    failed = {name for name, *_, met in read_evidence(row.get("evidence") or "") if met == "no"}
+    return row.get("strobed_period") is None or (CLOSE in failed and row["periods"] > next_look())
+
+
+def carrying(scene):
+    """The scene with a perturbation in its plane. One across it is for those who ask (`output.lateral_growth`): it
+    costs a seventh more, and large motions release loops, which leaves no rate across the plane.
+    """
+    return engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1})
