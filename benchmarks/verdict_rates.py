@@ -25,7 +25,7 @@ from analysis.oscillator.growth import random_starts
 from analysis.oscillator.strobing import growth_over_values
 from benchmarks.known_records import GOLDEN
 from benchmarks.write_tables import publish
-from campaigns.judge import LEAST_CHECK, SURE
+from campaigns.machinery.long_runs import LEAST_CHECK, SURE
 from engine import load_scene, simulate_each
 from engine.views import state_of
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from engine.views import strobed_radius
 from tables import EMPTY, Column, any_rows, count, decimals, listed, number, number_of
 
 from ..buoy_sweep.motions import MARKS
-from ..buoy_sweep.runs import strobed
 from ..figures.curves import Curve, Panel, curves
-from ..figures.orbit_diagram import NARROW_IN, Strobes, orbit_diagram
+from ..figures.orbit_diagram import NARROW_IN, orbit_diagram
 from ..parts.columns import table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
 from ..parts.folder import Folder, FolderError, part_of, read_folder
@@ -70,8 +70,8 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     colours, part, columns, simulated, named = colours_of(motions), part_of(folder, "motions"), [], [], {}
     for row in in_order(motions, [key.name]):
         run, _ = part.trajectory(row)
-        points = strobed(run, int(row.get("transient_periods") or 0))[:, 0] if run is not None else np.empty(0)
-        columns.append(Strobes(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
+        points = strobed_radius(run, int(row.get("transient_periods") or 0))[:, 0] if run is not None else np.empty(0)
+        columns.append(Column(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
     for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
         own = [row for row in motions if not colours or row["motion"] == letter]
         x, y = series(own, key.name), 1e-3 * series(own, PEAK)
