@@ -165,31 +165,49 @@ class Study:
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
         options = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
-        periods, transient, looks = None, 0, False
-        if (usual := self.lengths) is not None:
-            periods, transient = options.periods, options.transient
-            looks = usual.budget > 0 and periods is None
-            if looks and transient is not None:
-                faults.append(f"--transient: given {transient} without --periods; allowed: with --periods")
-            if looks:
-                periods, transient = options.budget, None
-            elif transient is None:
-                transient = min(usual.transient, periods // usual.share)
-            if transient is not None and transient >= periods:
-                faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
+        length = self._length(options, faults)
         if self.read is not None:
             self.read(options, faults)
         how = options.how = cli.running(options, self.name, faults)
         if self.cases is None:
             return Order(how, own=options, faults=faults)
+        changes = cli.assignments(options.set, self.taken, faults)
+        return self._with_cases(Order(how, options.scene, changes, *length, options, faults))
+
+    def order(self, how: cli.Running, scene: str, changes: dict[str, object], **options: object) -> Order:
+        """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
+
+        options: of this study by name, as `read` leaves them; the others have their usual values.
+        """
+        faults: list[str] = []
+        own = cli.split(self.parser(), [], faults)
+        vars(own).update(vars(how) | {"how": how} | options)
+        return self._with_cases(Order(how, scene, changes, *self._length(own, faults), own, faults))
+
+    def _length(self, options: Namespace, faults: list[str]) -> tuple[int | None, int | None, bool]:
+        """Wave periods of a run and of its transient, and whether it takes as long as it needs (`Order`)."""
+        if (usual := self.lengths) is None:
+            return None, 0, False
+        periods, transient = options.periods, options.transient
+        looks = usual.budget > 0 and periods is None
+        if looks:
+            if transient is not None:
+                faults.append(f"--transient: given {transient} without --periods; allowed: with --periods")
+            return options.budget, None, True
+        if transient is None:
+            transient = min(usual.transient, periods // usual.share)
+        if transient >= periods:
+            faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
+        return periods, transient, False
+
+    def _with_cases(self, order: Order) -> Order:
+        """The order with its cases; none of a scene that the study refuses."""
         from campaigns.machinery.plausible import without_waves
 
-        changes = cli.assignments(options.set, self.taken, faults)
-        order = Order(how, options.scene, changes, periods, transient, looks, options, faults)
         base = order.base() if self.in_waves else None
         refused = [] if base is None else list(without_waves(order.name, base))
         order.tell(refused)
-        order.cases = [case for case in self.cases(order) if case is not None] if not refused else []
+        order.cases = [] if refused else [case for case in self.cases(order) if case is not None]
         return order
 
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:

@@ -71,6 +71,41 @@ def state_of(
     return coordinates, [path_m, path_m, speed_mps, speed_mps]
 
 
+def strobed_states(
+    run: "Trajectory",
+    first_period: int,
+    phase: float = 0.0,
+    transient_periods: int = 0,
+    columns: "Mapping[str, numpy.ndarray] | None" = None,
+) -> "tuple[numpy.ndarray, list[float]]":
+    """States (n, 4) of the buoy once per wave period (`state_of`), and what counts as 1 in each coordinate.
+
+    first_period: wave periods that are left out of this scale. phase: of the period, at which they are taken.
+    transient_periods: left out of the states. columns: of the run, where not all samples are to be taken.
+    """
+    from analysis import poincare_section
+
+    step_s, period_s = _forcing(run)
+    coordinates, scale = state_of(run.columns if columns is None else columns, step_s, period_s, first_period)
+    return poincare_section(coordinates, step_s, period_s, phase, transient_periods).points, scale
+
+
+def strobed_radius(run: "Trajectory", transient_periods: int) -> "numpy.ndarray":
+    """r (m) and r' (m/s) of the buoy at t = k T, k >= transient_periods, as (m, 2), up to the first sample that is not
+    finite; empty for a record that ends before.
+    """
+    import numpy as np
+
+    from analysis import poincare_section
+
+    step_s, period_s = _forcing(run)
+    series = np.column_stack([run.columns["radius_m"], run.columns["radius_rate_mps"]])
+    sound = series[np.logical_and.accumulate(np.isfinite(series).all(axis=1))]
+    if (len(sound) - 1) * step_s < transient_periods * period_s - 1e-6 * step_s:
+        return np.empty((0, 2))
+    return poincare_section(sound, step_s, period_s, transient_periods=transient_periods).points
+
+
 def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "Spectrum":
     from analysis import spectrum as spectrum_of
 
@@ -107,15 +142,13 @@ def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
 
 def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) -> "Verdict":
     """`Trajectory.verdict`. tighter: as in `analysis.motion_regime`."""
-    from analysis import motion_regime, poincare_section
+    from analysis import motion_regime
 
     if not in_regular_waves(run.scene):
         raise ValueError("a verdict needs a buoy in regular waves")
     if run.status != "ok":
         raise ValueError(f"a verdict needs a run that reached its end, and this one is {run.status}: {run.message}")
-    step_s, period_s = _forcing(run)
-    coordinates, scale = state_of(run.columns, step_s, period_s, _periods(run) // 2)
-    strobed = poincare_section(coordinates, step_s, period_s).points
+    strobed, scale = strobed_states(run, _periods(run) // 2)
     growth = run.tangent.growth_nats[: len(strobed) - 1, 0] if carried(run) else None
     settings = {"scale": scale, "tolerance": STROBE_TOLERANCE, "max_period": LONGEST_PERIOD}
     result = motion_regime(strobed, growth, tighter=tighter, **settings)

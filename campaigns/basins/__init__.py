@@ -13,30 +13,29 @@ searched over its direction, and bisected in size to 1 %, on both grids. The edg
 from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.
 """
 
-import contextlib
 from collections.abc import Callable, Iterator
 
-from campaigns.basins.grid import PAIRS, Grid
-from campaigns.explore.settings import ROW_SOURCES
-from campaigns.explore.sweep import ONLY, SPEED_MPS
-from campaigns.judge import judged_scene
+from campaigns.basins.grid import PAIRS, StartGrid
+from campaigns.explore.settings import BUDGET, columns_of, measures_of
+from campaigns.explore.sweep import ONLY, SPEED_MPS, tables_of
+from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import read_table, write_table
+from tables import write_table
 
-COUNT, MOVED_M, BUDGET = 15, 2.0, 1500
+COUNT, MOVED_M = 15, 2.0
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
 REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m": [0.0, 0.0, 0.0]}
 
 
 def options(group) -> None:
-    what = "what the starts differ in: velocity or place of the buoy, phase of the wave"
-    cli.add(group, "--across", "|".join(PAIRS), what, usual=PAIRS[0])
+    differences = "what the starts differ in: velocity or place of the buoy, phase of the wave"
+    cli.add(group, "--across", "|".join(PAIRS), differences, usual=PAIRS[0])
     usual = f"starts along both, or along each of the two (default: {COUNT})"
     cli.add(group, "--grid", "N|N M", usual)
-    above = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
+    above = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
     cli.add(group, "--kick-speed", "MPS", "velocities go up to this both ways, m/s", above, SPEED_MPS)
     cli.add(group, "--displacement", "M", "places go so far from that of rest both ways, m", above, MOVED_M)
     cli.add(
@@ -50,7 +49,7 @@ def options(group) -> None:
 
 
 def read(options, faults: list[str]) -> None:
-    """The grid (`Grid`) in place of the words of --across and --grid."""
+    """The grid (`StartGrid`) in place of the words of --across and --grid."""
     across = " ".join(options.across or [PAIRS[0]])
     if across not in PAIRS:
         faults.append(f"--across: given {across or 'nothing'}; allowed: one of {', '.join(PAIRS)}")
@@ -64,11 +63,11 @@ def read(options, faults: list[str]) -> None:
         faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
         counts = [COUNT]
     size = options.displacement if across == "x z" else options.kick_speed
-    options.grid = Grid(tuple(across.split()), (counts[0], counts[-1]), size)
+    options.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
 def cases(order: Order) -> Iterator[Job]:
-    """The scene from rest, judged as long as it needs; the starts follow from it (`found.Found`)."""
+    """The scene from rest, judged as long as it needs; the starts follow from it (`exploration`)."""
     order.periods, order.looks, order.transient = BUDGET, True, None
     if order.name == STUDY.scene:
         order.changes.setdefault("water.depth_m", DEPTH_M)
@@ -78,18 +77,15 @@ def cases(order: Order) -> Iterator[Job]:
     if not carries_tangents(scene):
         order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY.removeprefix('a number for ')}"])
     elif (scene := judged_scene(order, REST)) is not None:
-        yield Job({"steepness": scene.waves.steepness}, scene, BUDGET)
+        labels = {"steepness": scene.waves.steepness, "dimensions": scene.motion.dimensions}
+        yield judged_job(order, labels, scene)
 
 
 def measures(order: Order) -> Measures:
     """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
-    from functools import partial
+    from campaigns.explore.rows import STEEPNESS
 
-    from campaigns.explore.judgement import judgement_of
-    from campaigns.explore.rows import COLUMNS, buoy_row
-
-    columns = tuple(column for column in COLUMNS if not column.name.startswith("planar_"))
-    return Measures(columns, buoy_row, ROW_SOURCES, judge=partial(judgement_of, transient_periods=None))
+    return measures_of(order, columns_of((STEEPNESS,)))
 
 
 def runs(order: Order) -> Callable:
@@ -97,42 +93,46 @@ def runs(order: Order) -> Callable:
 
     def every_start(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.basins.edge import edge_state
-        from campaigns.basins.found import COLUMNS, Found
+        from campaigns.basins.exploration import COLUMNS, Exploration
         from campaigns.basins.shocks import shocks
-        from campaigns.explore import ends
+        from campaigns.explore.ends import confirm
+        from campaigns.explore.motions import Search
 
-        found = Found(plan, jobs[0], order.own.grid)
-        found.find(order, order.own.kick_speed, order.own.seed)
-        if len(found.motions) > 1:
-            worst = max(found.motions[1:], key=lambda motion: motion.tension_N)  # beside the first, that from rest
-            shocks(found, worst)
-            edge_state(found, found.motions[0], worst)
-        ends.confirm(found.along)
-        judged = found.judge(order)
-        found.along.starts.write()
-        rows = [*found.rows(judged.rows)]
+        grid = order.own.grid
+        search = Search(order, kicks=0, speed_mps=order.own.kick_speed, seed=order.own.seed)
+        exploration = Exploration(plan, jobs[0], grid, search)
+        exploration.find()
+        rest, *kicked = exploration.motions or [None]
+        if kicked:
+            worst = max(kicked, key=lambda motion: motion.tension_N)
+            shocks(exploration, worst)
+            edge_state(exploration, rest, worst)
+        confirm(exploration.places)
+        exploration.places.write()
+        rows = [*exploration.rows()]
         write_table(plan.how.out / "table.csv", COLUMNS, rows)
-        times, computed = found.along.starts.times, found.computed
-        counts = Summary(rows, len(rows) - computed, computed, times["analysis_s"])
-        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}, counts
+        computed, timing = exploration.computed, exploration.places.timing()
+        return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
 
     return every_start
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
-    return {"across": list(own.grid.across), "grid": list(own.grid.counts), "size": own.grid.size, "seed": own.seed}
+    options = order.own
+    return {
+        "across": list(options.grid.across),
+        "grid": list(options.grid.counts),
+        "size": options.grid.size,
+        "seed": options.seed,
+    }
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
-    """What was found (`answer.sentences`)."""
+    """The findings (`answer.sentences`)."""
     from campaigns.basins.answer import sentences
 
-    parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("motions", "shock", "edge"), ())
-    for folder in parts:
-        with contextlib.suppress(OSError, ValueError):  # none, as where there is one motion
-            parts[folder] = read_table(order.how.out / folder / "table.csv")
-    return sentences(rows, order.own.grid.across, order.cases[0].scene, parts)
+    tables = tables_of(order.how.out, "motions", "shock", "edge")  # without the last two where there is one motion
+    return sentences(rows, order.own.grid.across, order.cases[0].scene, tables)
 
 
 STUDY = Study(

@@ -1,12 +1,13 @@
 """What the starts of one scene showed: its motions, which is dangerous, and how little leads to it."""
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from campaigns.answers import greatest, kilonewton
 from campaigns.basins.grid import COLUMNS, PHASE
-from campaigns.explore.along import from_rest
 from campaigns.explore.answer import use_of
+from campaigns.explore.motions import from_rest
 from tables import PEAK, UNSETTLED, Row, listed, number_of, ranges
 
 NONE_FOUND = "No start has settled, so there is no motion to name."
@@ -18,11 +19,12 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
 
     across: as `Grid.across`; scene: from rest.
     """
-    motions = [one for one in parts["motions"] if one.get("motion")]
-    if (worst := greatest(motions, PEAK)) is None:
+    motions = [row for row in parts["motions"] if row.get("motion")]
+    worst = greatest(motions, PEAK)
+    if worst is None:
         yield NONE_FOUND
         return
-    ways = listed(f"{one['motion']}{' from rest' if from_rest(one) else ''} ({_pull(one)})" for one in motions)
+    ways = listed(f"{row['motion']}{' from rest' if from_rest(row) else ''} ({_pull(row)})" for row in motions)
     at = f"kA = {number_of(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
     yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
     yield _shares(rows, motions)
@@ -37,26 +39,29 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
         yield _when(rows, across, str(parts["shock"][0]["motion"]))
     if parts["edge"]:
         yield from _edge(parts["edge"][0])
-    unsure = [one for one in motions if "NOT" in str(one["confirmed"]) or "not settled" in str(one["confirmed"])]
+    unsure = []
+    for row in motions:
+        if "NOT" in str(row["confirmed"]) or "not settled" in str(row["confirmed"]):
+            unsure.append(f"{row['motion']} is found {row['confirmed']}")
     if unsure:
-        said = (f"{one['motion']} is found {one['confirmed']}" for one in unsure)
-        yield f"It depends on how it is computed: {'; '.join(said)}."
+        yield f"It depends on how it is computed: {'; '.join(unsure)}."
     else:
         yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
     used = use_of(worst, scene, searched=True)
     yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
 
 
-def _pull(one: Row) -> str:
-    return f"{one.get('regime') or one['status']}, {kilonewton(number_of(one, PEAK))}"
+def _pull(row: Row) -> str:
+    return f"{row.get('regime') or row['status']}, {kilonewton(number_of(row, PEAK))}"
 
 
 def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
-    ends = listed(f"{sum(row['motion'] == one['motion'] for row in rows)} end in {one['motion']}" for one in motions)
+    counts = Counter(row["motion"] for row in rows)
+    ends = listed(f"{counts[motion['motion']]} end in {motion['motion']}" for motion in motions)
     unsettled = sum(row.get("outcome") == UNSETTLED for row in rows)
     failed = sum(row["status"] != "ok" for row in rows)
-    left = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""
-    return f"Of {len(rows)} starts {ends}{left}."
+    rest = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""
+    return f"Of {len(rows)} starts {ends}{rest}."
 
 
 def _way(shock: Row, across: Sequence[str]) -> str:
@@ -65,7 +70,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
         ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
         way = ways[number_of(shock, COLUMNS[across[0]]) < 0.0]
         return f"{way}, {_phase(shock):.2f} T before a crest,"
-    x, z = (number_of(shock, COLUMNS[one]) for one in across)
+    x, z = (number_of(shock, COLUMNS[axis]) for axis in across)
     angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
     ahead = "along the waves" if x >= 0.0 else "against the waves"
     if STRAIGHT < angle < 90.0 - STRAIGHT:
@@ -77,15 +82,15 @@ def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
     unit, good = "m" if "x" in across else "m/s", [row for row in rows if row["status"] == "ok"]
     if not good:
         return f"No smallest start was found: {rows[0]['message']}."
-    first, *others = good
+    first, *finer = good
     if number_of(first, "size") == 0.0:
         return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
-    said = (
+    words = (
         f"{number_of(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
     )
-    for row in others:
-        said += f"; on {number_of(row, 'nodes'):.0f} nodes {number_of(row, 'size'):.2g} {unit} {_way(row, across)}"
-    return f"{said}." if others else f"{said}; on a finer grid of the line {rows[-1]['message']}."
+    for row in finer:
+        words += f"; on {number_of(row, 'nodes'):.0f} nodes {number_of(row, 'size'):.2g} {unit} {_way(row, across)}"
+    return f"{words}." if finer else f"{words}; on a finer grid of the line {rows[-1]['message']}."
 
 
 def _phase(row: Row) -> float:
@@ -95,20 +100,22 @@ def _phase(row: Row) -> float:
 
 def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
-    least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)
-    for row in (row for row in rows if row["motion"] == letter):
-        least[_phase(row)] = min(abs(number_of(row, COLUMNS[across[0]])), least[_phase(row)])
+    least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)  # by phase
+    for row in rows:
+        if row["motion"] == letter:
+            least[_phase(row)] = min(abs(number_of(row, COLUMNS[across[0]])), least[_phase(row)])
     sizes, phases = list(least.values()), [round(phase, 3) for phase in least]
     low, high = min(sizes), max(filter(math.isfinite, sizes), default=math.inf)
-    told = {
+    words = {
         "no gust of the grid does": math.inf,
         f"it takes {high:.2g} m/s, the most": high,
         "none is needed" if low == 0.0 else f"{low:.2g} m/s are enough": low,
     }
-    found = (
-        f"at {ranges(phases, [size == of for size in sizes], 2)} T {said}" for said, of in told.items() if of in sizes
-    )
-    return f"How a gust leads to {letter}, by the time from it to a crest: {'; '.join(reversed([*found]))}."
+    parts = []
+    for text, limit in words.items():
+        if limit in sizes:
+            parts.insert(0, f"at {ranges(phases, [size == limit for size in sizes], 2)} T {text}")
+    return f"How a gust leads to {letter}, by the time from it to a crest: {'; '.join(parts)}."
 
 
 def _edge(edge: Row) -> Iterator[str]:

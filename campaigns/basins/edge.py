@@ -10,8 +10,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from campaigns.basins.found import Found
-from campaigns.explore.along import Motion
+from campaigns.basins.exploration import Exploration
+from campaigns.explore.motions import Motion, subfolder
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, section_of
 from campaigns.judge import job_from
@@ -27,7 +27,7 @@ BEYOND = 3.0  # of the way between two states: how far beyond them the border is
 SAMPLES = 40  # of a wave period: extremes of r within 0.3 % of its swing
 LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
-_EXTREMES = tuple(one for one in EXTREMES if one.name in ("radius_min_m", "radius_max_m", "tension_top_max_N"))
+_EXTREMES = EXTREMES[0], EXTREMES[1], EXTREMES[5]  # of the radius, and of the largest tension
 COLUMNS = (
     Column("motion", symbol="on one side", meaning="motion to which a run falls on one side"),
     Column("other", symbol="on the other", meaning="motion to which it falls on the other side"),
@@ -52,9 +52,10 @@ ORBIT = (
 class Edge:
     """The two states on either side of the border between two motions, and their runs, which tell that they are."""
 
-    def __init__(self, found: Found, one: Motion, other: Motion):
-        self.found, self.sides = found, (one, other)
-        self.states = [one.state.at_zero(), other.state.at_zero()]
+    def __init__(self, exploration: Exploration, first: Motion, second: Motion):
+        self.exploration, self.sides = exploration, (first, second)
+        self.scale = np.max([motion.settled.scale for motion in self.sides], axis=0)
+        self.states = [motion.state.at_zero() for motion in self.sides]
         self.runs: list = [None, None]
         self.known = True  # that they are on either side: each begins anew, by small steps, where it has gone on to
         self.rounds = 0
@@ -64,95 +65,108 @@ class Edge:
 
         None where rounds have run out, or the border has been lost.
         """
-        from engine.run.going_on import between
-
-        starts, beyond = self.found.along.starts, 0.0 if self.known else BEYOND
+        beyond = 0.0 if self.known else BEYOND
         while self.rounds < ROUNDS and beyond <= BEYOND**3:
             self.rounds += 1
-            shares = [(1.0 + 2.0 * beyond) * (k + 1) / (SHARES + 1) - beyond for k in range(SHARES)]
-            states = [between(*self.states, share) for share in shares]
-            asked = [self.found.asked(self._start(one), most=LONGEST, settles=False) for one in states]
-            ended = starts.run("states between two motions", asked)
-            told = [
-                (share, self.sides.index(motion), state, one.row)
-                for share, state, one in zip(shares, states, ended, strict=True)
-                if (motion := self.found.led(one)) in self.sides
-            ]
-            if self.known:
-                told = [(0.0, 0, self.states[0], None), *told, (1.0, 1, self.states[1], None)]
-            pairs = [pair for pair in pairwise(told) if pair[0][1] != pair[1][1]]
-            if not pairs:
+            border = self._border(beyond)
+            if border is None:
                 beyond *= BEYOND
                 continue
-            for _, side, state, row in min(pairs, key=lambda pair: abs(pair[0][0] + pair[1][0] - 1.0)):
+            for _, side, state, row in border:
                 self.states[side] = state
-                self.runs[side] = self.runs[side] if row is None else run_of(starts.plan.how.out, row)
+                if row is not None:
+                    self.runs[side] = run_of(self.exploration.starts.plan.how.out, row)
             self.known, beyond = True, 0.0
-            apart = self._apart() if None not in self.runs else np.ones(1)
-            if apart[0] <= NEAR and apart[: TOGETHER + 1].max() <= APART:
-                return apart
+            distances = self._distances() if None not in self.runs else np.ones(1)
+            if distances[0] <= NEAR and distances[: TOGETHER + 1].max() <= APART:
+                return distances
         return None
 
-    def _start(self, state) -> Start:
-        return Start("edge", state=state, often=SAMPLES)
+    def _border(self, beyond: float) -> tuple | None:
+        """Two neighbours of SHARES states, on the line through the two and `beyond` them, on either side of the border.
 
-    def _apart(self) -> np.ndarray:
-        scale = np.max([side.settled.scale for side in self.sides], axis=0)
+        Each is (share of the way, side, state, row of its run). Of several borders that nearest to the middle; None:
+        none is there.
+        """
+        from engine.going_on import between
+
+        shares = [(1.0 + 2.0 * beyond) * (k + 1) / (SHARES + 1) - beyond for k in range(SHARES)]
+        states = [between(*self.states, share) for share in shares]
+        requests = [self.exploration.request(_start(state), most=LONGEST, settles=False) for state in states]
+        endings = self.exploration.starts.run("states between two motions", requests)
+        decided = []
+        for share, state, ending in zip(shares, states, endings, strict=True):
+            motion = self.exploration.motion_of(ending)
+            if motion in self.sides:
+                decided.append((share, self.sides.index(motion), state, ending.row))
+        if self.known:
+            decided = [(0.0, 0, self.states[0], None), *decided, (1.0, 1, self.states[1], None)]
+        borders = [pair for pair in pairwise(decided) if pair[0][1] != pair[1][1]]
+        return min(borders, key=lambda pair: abs(pair[0][0] + pair[1][0] - 1.0), default=None)
+
+    def _distances(self) -> np.ndarray:
         first, second = (section_of(trajectory)[0] for trajectory in self.runs)
         count = min(len(first), len(second))
-        return np.abs((first[:count] - second[:count]) / scale).max(axis=1)
+        return np.abs((first[:count] - second[:count]) / self.scale).max(axis=1)
 
     def go_on(self, periods: int) -> tuple:
         """Let both run on for so many wave periods, and begin there: the one on the first side, and its key; None for a
         run that ended early.
         """
         # of as many samples as the runs that told them apart: a state that goes over to others begins a moment later
-        scene = self._start(self.states[0]).scene(self.found.scene)
+        scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
-        _, runs = self.found.within(FOLDER, "along the edge", jobs)
+        runs = self.exploration.runs_within(FOLDER, "along the edge", jobs)
         if None in runs:
             return None, ""
-        self.states, self.runs = [one.final_state.at_zero() for one in runs], [None, None]
+        self.states, self.runs = [run.final_state.at_zero() for run in runs], [None, None]
         self.known = False
         return runs[0], jobs[0].key
 
 
-def edge_state(found: Found, one: Motion, other: Motion) -> dict[str, object]:
+def _start(state) -> Start:
+    return Start("edge", state=state, often=SAMPLES)
+
+
+def edge_state(exploration: Exploration, first: Motion, second: Motion) -> dict[str, object]:
     """The row of COLUMNS on the edge state between two motions; writes edge/table.csv and edge/orbit.csv.
 
     Raises as `runner.run`.
     """
-    edge, runs, apart, doublings = Edge(found, one, other), [], [], 0.0
-    row: dict[str, object] = {"motion": one.branch.letter, "other": other.branch.letter}
-    while len(apart) < MOST and (now := edge.narrow()) is not None:
-        periods = int(np.argmax(now > APART)) - 1 if (now > APART).any() else len(now) - 1
+    edge = Edge(exploration, first, second)
+    runs, distances_so_far, doublings = [], [], 0.0
+    row: dict[str, object] = {"motion": first.branch.letter, "other": second.branch.letter}
+    while len(distances_so_far) < MOST and (distances := edge.narrow()) is not None:
+        parted = distances > APART
+        periods = int(np.argmax(parted)) - 1 if parted.any() else len(distances) - 1
         trajectory, row["run_key"] = edge.go_on(periods)
         if trajectory is None:
             break
         runs.append(trajectory)
-        apart += [*map(float, now[:periods])]
-        doublings += math.log2(now[periods] / now[0])
-    row |= {"periods": len(apart), "status": "ok" if len(apart) >= MOST else "lost"}
+        distances_so_far += [*map(float, distances[:periods])]
+        doublings += math.log2(distances[periods] / distances[0])
+    row |= {"periods": len(distances_so_far), "status": "ok" if len(distances_so_far) >= MOST else "lost"}
     strobed: list[np.ndarray] = []
     if runs:
-        row["growth_bits_per_period"] = doublings / len(apart)
-        scale = np.max([side.settled.scale for side in (one, other)], axis=0)
-        strobed = [state for trajectory in runs for state in section_of(trajectory)[0][:-1]]
-        row |= _later(runs) | {"strobed_period": _repeats(np.array(strobed) / scale)}
-    (folder := found.plan.how.out / FOLDER).mkdir(exist_ok=True)
+        row["growth_bits_per_period"] = doublings / len(distances_so_far)
+        for trajectory in runs:
+            strobed += [*section_of(trajectory)[0][:-1]]
+        row |= _later_extremes(runs) | {"strobed_period": _repeats(np.array(strobed) / edge.scale)}
+    folder = subfolder(exploration.plan, FOLDER)
     write_table(folder / "table.csv", COLUMNS, [row])
-    names = [column.name for column in ORBIT[1:-1]]
-    told = ({"period": k, **dict(zip(names, state, strict=True)), "apart": apart[k]} for k, state in enumerate(strobed))
-    write_table(folder / "orbit.csv", ORBIT, [*told])
+    names, orbit = [column.name for column in ORBIT[1:-1]], []
+    for period, state in enumerate(strobed):
+        orbit.append({"period": period, **dict(zip(names, state, strict=True)), "apart": distances_so_far[period]})
+    write_table(folder / "orbit.csv", ORBIT, orbit)
     return row
 
 
-def _later(runs: list) -> dict[str, float]:
+def _later_extremes(runs: list) -> dict[str, float]:
     """Extremes over the later half of what was followed."""
-    radius, tension = (np.concatenate([one.columns[name] for one in runs]) for name in ("radius_m", TOP))
+    radius, tension = (np.concatenate([run.columns[name] for run in runs]) for name in ("radius_m", TOP))
     half = len(radius) // 2
-    found = radius[half:].min(), radius[half:].max(), tension[half:].max()
-    return dict(zip((column.name for column in _EXTREMES), map(float, found), strict=True))
+    extremes = radius[half:].min(), radius[half:].max(), tension[half:].max()
+    return dict(zip((column.name for column in _EXTREMES), map(float, extremes), strict=True))
 
 
 def _repeats(states: np.ndarray) -> int | None:

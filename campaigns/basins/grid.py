@@ -22,7 +22,7 @@ GRID = "grid"  # found_by of its starts
 
 
 @dataclass(frozen=True)
-class Grid:
+class StartGrid:
     """counts of starts along the two axes `across`; each from -size to size (m/s, m), phases all round.
 
     A start is also told by a turn and a size: direction and length of its kick; with a phase, the turn is that, and the
@@ -49,9 +49,9 @@ class Grid:
         """The start with these two coordinates."""
         from campaigns.explore.starts import Start  # slow to import
 
-        given = dict(zip(self.across, (first, second), strict=True))
-        kick, moved = ((given.get(x, 0.0), given.get(z, 0.0)) for x, z in (("vx", "vz"), ("x", "z")))
-        return Start(found_by, kick, moved, given.get(PHASE))
+        coordinates = dict(zip(self.across, (first, second), strict=True))
+        kick, moved = ((coordinates.get(x, 0.0), coordinates.get(z, 0.0)) for x, z in (("vx", "vz"), ("x", "z")))
+        return Start(found_by, kick, moved, coordinates.get(PHASE))
 
     def at(self, turn: float, size: float, found_by: str) -> "Start":
         """The start of a turn and a size."""
@@ -74,10 +74,10 @@ class Grid:
         """The numbers of all points, so that any first part of them is spread over the grid (Halton's sequence)."""
         from scipy.stats import qmc
 
-        (nx, nz), left = self.counts, dict.fromkeys(range(self.counts[0] * self.counts[1]))
-        for x, z in qmc.Halton(2, seed=seed).random(2 * len(left)):
+        (nx, nz), waiting = self.counts, dict.fromkeys(range(self.counts[0] * self.counts[1]))
+        for x, z in qmc.Halton(2, seed=seed).random(2 * len(waiting)):
             number = int(z * nz) * nx + int(x * nx)
-            if number in left:
-                del left[number]
+            if number in waiting:
+                del waiting[number]
                 yield number
-        yield from left
+        yield from waiting

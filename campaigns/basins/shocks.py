@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from functools import partial
 
-from campaigns.basins.found import Found
+from campaigns.basins.exploration import Exploration
 from campaigns.basins.smallest import Shock, smallest
-from campaigns.explore.along import MOTION, Motion
+from campaigns.explore.motions import MOTION, Motion, subfolder
 from campaigns.explore.starts import KICKS
-from engine.scene import scene_from_toml
+from campaigns.finer import finer
 from tables import MESSAGE, STATUS, Column, write_table
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not
@@ -23,39 +23,39 @@ COLUMNS = (
 )
 
 
-def shocks(found: Found, target: Motion) -> list[dict[str, object]]:
+def shocks(exploration: Exploration, target: Motion) -> list[dict[str, object]]:
     """The rows of COLUMNS, which are written to shock/table.csv; a row a grid of the line. Raises as `runner.run`."""
-    nodes = found.scene.tether.nodes
-    finer = scene_from_toml(found.scene.to_toml(), {"tether.nodes": 2 * nodes - 1})
-    points = found.grid.points()
-    there = [found.grid.polar(*points[number]) for number, one in found.ended.items() if one.motion is target]
-    there.sort(key=lambda polar: polar[1])
-    rows = [_row(found, target, scene, there[:FIRST]) for scene in (found.scene, finer)]
-    (found.plan.how.out / FOLDER).mkdir(exist_ok=True)
-    write_table(found.plan.how.out / FOLDER / "table.csv", COLUMNS, rows)
+    grid, points, candidates = exploration.grid, exploration.grid.points(), []
+    for number, ending in exploration.endings.items():
+        if ending.motion is target:
+            candidates.append(grid.polar(*points[number]))
+    candidates = sorted(candidates, key=lambda polar: polar[1])[:FIRST]
+    scenes = exploration.scene, finer(exploration.scene, elements=2)
+    rows = [_row(exploration, target, scene, candidates) for scene in scenes]
+    write_table(subfolder(exploration.plan, FOLDER) / "table.csv", COLUMNS, rows)
     return rows
 
 
-def _row(found: Found, target: Motion, scene, candidates: Sequence[tuple[float, float]]) -> dict[str, object]:
-    nodes = scene.tether.nodes
-    told = {"motion": target.branch.letter, "nodes": nodes}
-    leads = partial(_leads, found, target, scene)
-    there = (
-        candidates
-        if scene is found.scene
-        else [one for one, led in zip(candidates, leads(candidates), strict=True) if led]
-    )
-    if not there:
-        return told | {"status": "none", "message": f"none of {len(candidates)} starts of the grid leads there"}
-    least = Shock(*there[0], 0.0)
+def _row(
+    exploration: Exploration, target: Motion, scene, candidates: Sequence[tuple[float, float]]
+) -> dict[str, object]:
+    row = {"motion": target.branch.letter, "nodes": scene.tether.nodes}
+    leads = partial(_leads, exploration, target, scene)
+    successful = candidates
+    if scene is not exploration.scene:
+        successful = [polar for polar, success in zip(candidates, leads(candidates), strict=True) if success]
+    if not successful:
+        return row | {"status": "none", "message": f"none of {len(candidates)} starts of the grid leads there"}
+    least = Shock(*successful[0], 0.0)
     if least.size > 0.0:
-        least = smallest(leads, least, found.grid.round)
-    start = found.grid.at(least.turn, least.size, "").labels()
+        least = smallest(leads, least, exploration.grid.round)
+    start = exploration.grid.at(least.turn, least.size, "").labels()
     del start["found_by"]
-    return told | start | {"size": least.size, "size_without": least.below, "status": "ok"}
+    return row | start | {"size": least.size, "size_without": least.below, "status": "ok"}
 
 
-def _leads(found: Found, target: Motion, scene, starts: Sequence[tuple[float, float]]) -> list[bool]:
-    said = f"smallest start, {scene.tether.nodes} nodes"
-    ended = found.along.starts.run(said, [found.asked(found.grid.at(*one, said), scene) for one in starts])
-    return [found.led(one) is target for one in ended]
+def _leads(exploration: Exploration, target: Motion, scene, starts: Sequence[tuple[float, float]]) -> list[bool]:
+    """Whether starts, each a turn and a size, lead to the target in a scene."""
+    title = f"smallest start, {scene.tether.nodes} nodes"
+    requests = [exploration.request(exploration.grid.at(*polar, title), scene) for polar in starts]
+    return [exploration.motion_of(ending) is target for ending in exploration.starts.run(title, requests)]

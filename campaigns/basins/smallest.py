@@ -27,23 +27,34 @@ def smallest(leads: Callable[[Sequence[tuple[float, float]]], list[bool]], first
     """
     best, width = first, round_
     while True:
+        previous_size = best.size
         turns = [best.turn + width * (k / RAYS - 0.5) for k in range(RAYS)]  # the best one among them
-        others = [turn for turn in turns if turn != best.turn]
-        there = leads([(turn, best.size) for turn in others])
-        rays = [best, *(Shock(turn, best.size, 0.0) for turn, led in zip(others, there, strict=True) if led)]
-        before = best.size
+        rays = _rays(leads, best, [turn for turn in turns if turn != best.turn])
         while wide := [ray for ray in rays if ray.size - ray.below > SHARP * ray.size]:
-            middles = [0.5 * (ray.size + ray.below) for ray in wide]
-            there = leads([(ray.turn, size) for ray, size in zip(wide, middles, strict=True)])
-            moved = [
-                ray._replace(size=size) if led else ray._replace(below=size)
-                for ray, size, led in zip(wide, middles, there, strict=True)
-            ]
-            rays = [ray for ray in rays if ray not in wide] + moved
+            rays = [ray for ray in rays if ray not in wide] + _bisected(leads, wide)
             least = min(ray.size for ray in rays)
             rays = [ray for ray in rays if ray.below < least]
         best = min(rays, key=lambda ray: ray.size)
         near = width / RAYS <= LEAST_TURN
-        if near or (width < round_ and best.size > (1.0 - SHARP) * before):
+        if near or (width < round_ and best.size > (1.0 - SHARP) * previous_size):
             return best
         width /= NARROWER
+
+
+def _rays(leads: Callable, best: Shock, turns: Sequence[float]) -> list[Shock]:
+    """The best ray, and those of the turns on which a start of its size leads there too."""
+    rays = [best]
+    for turn, success in zip(turns, leads([(turn, best.size) for turn in turns]), strict=True):
+        if success:
+            rays.append(Shock(turn, best.size, 0.0))
+    return rays
+
+
+def _bisected(leads: Callable, rays: Sequence[Shock]) -> list[Shock]:
+    """The rays with half the uncertainty of their sizes."""
+    middles = [0.5 * (ray.size + ray.below) for ray in rays]
+    successes = leads([(ray.turn, size) for ray, size in zip(rays, middles, strict=True)])
+    bisected = []
+    for ray, size, success in zip(rays, middles, successes, strict=True):
+        bisected.append(ray._replace(size=size) if success else ray._replace(below=size))
+    return bisected

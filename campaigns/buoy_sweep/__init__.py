@@ -12,21 +12,19 @@ In a plane a loop of slack tether cannot open; the run releases it and counts (`
 every value in three dimensions, `--dimensions auto` those whose planar run released loops.
 """
 
-import contextlib
 from collections.abc import Callable, Iterator
 from functools import partial
 
 import engine
 from campaigns.explore import sweep as motions
-from campaigns.explore.settings import ROW_SOURCES, settings_of
+from campaigns.explore.grid import Grid, Varied
+from campaigns.explore.settings import BUDGET, measures_of
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
-from campaigns.machinery.runner import run
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
-from tables import read_table
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
@@ -49,21 +47,29 @@ def options(group) -> None:
 
 
 def read(options, faults: list[str]) -> None:
-    """Put the steepnesses into the options: those of --steepness or --steepness-range, or STEEPNESS without either."""
+    """The steepnesses (`grid_of`): those of --steepness or --steepness-range, or STEEPNESS without either."""
     steepness, evenly = options.steepness, options.steepness_range
     if steepness is not None and evenly is not None:
         faults.append("--steepness and --steepness-range: given both; allowed: one of them")
     elif evenly is not None:
         steepness = cli.evenly(evenly, "--steepness-range", faults, least=0.0)
-    options.steepness = steepness or list(STEEPNESS)
+    options.grid = grid_of(steepness or STEEPNESS)
+
+
+def grid_of(values) -> Grid:
+    """The places of a sweep over the wave steepness, whose column has a short name."""
+    from campaigns.explore.rows import STEEPNESS as COLUMN
+
+    return Grid((Varied(SWEPT, SWEPT, None, tuple(values), COLUMN),))
 
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
-    dimensions = dimensions_of(order)
-    chosen, scenes = {"motion.dimensions": 3 if dimensions == "3" else 2}, []
-    for value in order.own.steepness:
-        scene = judged_scene(order, {**chosen, SWEPT: value})
+    dimensions, base = dimensions_of(order), order.base()
+    scenes = []
+    for place in order.own.grid.places():
+        changes, _ = order.own.grid.changes(place, base)
+        scene = judged_scene(order, {"motion.dimensions": 3 if dimensions == "3" else 2, **changes})
         if scene is not None and dimensions != "2":
             try:
                 spatial = in_space(scene)[0]
@@ -73,7 +79,7 @@ def cases(order: Order) -> Iterator[Job]:
             scene = spatial if dimensions == "3" else scene
         if scene is not None:
             scenes.append(scene)
-            labels = {"steepness": value, "dimensions": scene.motion.dimensions}
+            labels = place | {"dimensions": scene.motion.dimensions}
             yield judged_job(order, labels, scene, motions.start_of(order, scene))
     motions.kicks_of(order, scenes)
 
@@ -86,29 +92,21 @@ def dimensions_of(order: Order) -> str:
     return "2" if scene is None else str(scene.motion.dimensions)
 
 
-def starts_of(order: Order) -> int | None:
+def kicks_of(order: Order) -> int | None:
     """Kicks at each value; None: runs from rest only (`campaigns.explore.sweep`)."""
     return motions.kicks_of(order, [case.scene for case in order.cases])
 
 
 def runs(order: Order) -> Callable:
-    """What does the runs: in a plane, in space where needed, or with every motion."""
-    if dimensions_of(order) == "auto":
-        return run_where_needed
-    if (kicks := starts_of(order)) is None:
-        return run
-    from campaigns.explore.rows import STEEPNESS as KEY
-
-    return motions.every_motion(order, kicks, KEY, SWEPT)
+    """The runs in a plane, in space where needed, or of every motion."""
+    return run_where_needed if dimensions_of(order) == "auto" else motions.runs(order, kicks_of(order))
 
 
 def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
-    from campaigns.explore.judgement import judgement_of
-    from campaigns.explore.rows import COLUMNS, buoy_row
+    from campaigns.explore.rows import COLUMNS
 
-    settings = settings_of(order)
-    return Measures(COLUMNS, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
+    return measures_of(order, COLUMNS, full=order.own.evidence == "full")
 
 
 def parameters(order: Order) -> dict[str, object]:
@@ -122,7 +120,7 @@ def parameters(order: Order) -> dict[str, object]:
         "dimensions": dimensions,
         "push_mps": SEED_MPS if pushed else None,
         "accuracy": not order.own.no_accuracy,
-        **motions.parameters(order, starts_of(order)),
+        **motions.parameters(order, kicks_of(order)),
     }
 
 
@@ -140,22 +138,21 @@ def beside(order: Order) -> Iterator[Callable]:
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """What the sweep found (`campaigns.explore.answer`)."""
+    """The findings of the sweep (`campaigns.explore.answer`)."""
     from campaigns.explore.answer import sentences
 
-    beside = {"companions": not order.own.no_accuracy, "ends": starts_of(order) is not None}
-    found: dict[str, tuple[dict, ...]] = {}
-    for folder in (name for name, made in beside.items() if made):
-        with contextlib.suppress(OSError, ValueError):  # none, as where no run ended
-            found[folder] = read_table(order.how.out / folder / "table.csv")
-    return sentences(rows, "steepness", "kA", order.cases[0].scene, **found)
+    folders = [] if order.own.no_accuracy else ["companions"]
+    if kicks_of(order) is not None:
+        folders.append("ends")
+    tables = motions.tables_of(order.how.out, *folders)
+    return sentences(rows, "steepness", "kA", order.cases[0].scene, **tables)
 
 
 STUDY = Study(
     name="buoy_sweep",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=300, transient=100, budget=1500),
+    lengths=Lengths(periods=300, transient=100, budget=BUDGET),
     in_waves=True,
     taken={
         SWEPT: "use --steepness",

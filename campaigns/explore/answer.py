@@ -10,7 +10,7 @@ from itertools import pairwise
 from statistics import median
 
 from campaigns.answers import OPEN_WORDS, greatest, kilonewton, regimes
-from campaigns.explore.along import from_rest
+from campaigns.explore.motions import from_rest
 from campaigns.machinery.session import MOST_LINES
 from engine.views import in_regular_waves
 from tables import (
@@ -29,8 +29,8 @@ from tables import (
 )
 
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
-MOST_ENDS = 4  # that are told
-TOLD = 3  # jumps beside the largest that are told
+MOST_ENDS = 4  # that are named
+NAMED = 3  # jumps beside the largest that are named
 SMALLER = "Smaller jumps of the largest tension between"
 FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
 LOOPS = "loops were released (motion.dimensions)"
@@ -49,73 +49,84 @@ def sentences(
     good.sort(key=lambda row: number_of(row, key))
     first = [row for row in good if from_rest(row)]
     regular, rest = regimes(first, symbol, [number_of(row, key) for row in first], scene)
-    many = [*coexisting(good, key, symbol, ends)]
-    said = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular] if many else regular
-    found = [*said, *jumps(first, key, symbol), *rest, *many, *use(good, key, symbol, scene, companions)]
-    return [line for line in found if len(found) <= MOST_LINES or not line.startswith(SMALLER)]
+    several = [*coexisting(good, key, symbol), *_ends(good, key, ends)]
+    if several:
+        regular = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular]
+    lines = [*regular, *jumps(first, key, symbol), *rest, *several, *use(good, key, symbol, scene, companions)]
+    return [line for line in lines if len(lines) <= MOST_LINES or not line.startswith(SMALLER)]
 
 
 def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """The largest jump in numbers, and where the next ones are. rows: sorted."""
-    pairs = [
-        (abs(math.log(number_of(b, PEAK) / number_of(a, PEAK))), a, b)
-        for a, b in pairwise(rows)
-        if _pull(a) and _pull(b)
-    ]
+    pairs = []
+    for below, above in pairwise(rows):
+        if number_of(below, PEAK) > 0.0 and number_of(above, PEAK) > 0.0:
+            pairs.append((abs(math.log(number_of(above, PEAK) / number_of(below, PEAK))), below, above))
     least = max(LEAST_JUMP, TYPICAL * median(size for size, *_ in pairs)) if pairs else math.inf
-    found = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
-    for _, a, b in found[:1]:
-        before, after = (number_of(row, "radius_max_m") - number_of(row, "radius_min_m") for row in (a, b))
-        slack = (100.0 * number_of(row, "slack_fraction") for row in (a, b))
+    large = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
+    for _, below, above in large[:1]:
+        swing_below, swing_above = (
+            number_of(row, "radius_max_m") - number_of(row, "radius_min_m") for row in (below, above)
+        )
+        slack = (100.0 * number_of(row, "slack_fraction") for row in (below, above))
+        growth = swing_above / swing_below if swing_below else math.inf
         yield (
-            f"Between {symbol} = {number_of(a, key):.4g} and {number_of(b, key):.4g} the motion jumps to one "
-            f"{after / before if before else math.inf:.2g} times as large: peak tension {_change(a, b)}, "
-            f"swing of r {before:.2f} -> {after:.2f} m, "
+            f"Between {symbol} = {number_of(below, key):.4g} and {number_of(above, key):.4g} the motion jumps to one "
+            f"{growth:.2g} times as large: peak tension {_change(below, above)}, "
+            f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, "
             "time with less than 5 % of the static tension {:.0f} -> {:.0f} %.".format(*slack)
         )
-    if more := sorted((number_of(a, key), number_of(b, key), _change(a, b)) for _, a, b in found[1 : 1 + TOLD]):
-        yield f"{SMALLER} {symbol} = {listed(f'{a:.4g} and {b:.4g} ({change})' for a, b, change in more)}."
+    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: number_of(pair[1], key))
+    if smaller:
+        places = []
+        for _, below, above in smaller:
+            places.append(f"{number_of(below, key):.4g} and {number_of(above, key):.4g} ({_change(below, above)})")
+        yield f"{SMALLER} {symbol} = {listed(places)}."
 
 
-def coexisting(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> Iterator[str]:
-    """Where one value has several motions, the one that pulls hardest there, and where motions end."""
-    values = list(dict.fromkeys(number_of(row, key) for row in rows))
-    at = {value: [row for row in rows if number_of(row, key) == value] for value in values}
-    several = [value for value in values if len(at[value]) > 1]
-    if not several:
+def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
+    """Where one value has several motions, and that of them which pulls most beyond the usual one."""
+    by_value: dict[float, list[Row]] = {}
+    for row in rows:
+        by_value.setdefault(number_of(row, key), []).append(row)
+    worst, usual, largest_ratio = None, None, -math.inf
+    for motions in by_value.values():
+        if len(motions) > 1:
+            hardest = greatest(motions, PEAK)
+            base = min(motions, key=lambda row: (not from_rest(row), number_of(row, PEAK)))
+            ratio = number_of(hardest, PEAK) / max(number_of(base, PEAK), 1e-9)
+            if ratio > largest_ratio:
+                worst, usual, largest_ratio = hardest, base, ratio
+    if worst is None:
         return
-    worst, usual = max(
-        (
-            (greatest(at[value], PEAK), min(at[value], key=lambda row: (not from_rest(row), number_of(row, PEAK))))
-            for value in several
-        ),
-        key=lambda pair: number_of(pair[0], PEAK) / max(number_of(pair[1], PEAK), 1e-9),
-    )
-    said = f"One wave has several motions at {symbol} = {ranges(values, [value in several for value in values], 2)}"
+    several = ranges([*by_value], [len(motions) > 1 for motions in by_value.values()], 2)
+    sentence = f"One wave has several motions at {symbol} = {several}"
     if worst is not usual:
         rest = "the one from rest" if from_rest(usual) else f"motion {usual['motion']}"
-        share, counted = "", of_kicks(worst)
-        if counted != EMPTY:
+        sentence += (
+            f"; at {symbol} = {number_of(worst, key):.4g} motion {worst['motion']} pulls "
+            f"{kilonewton(number_of(worst, PEAK))}, {rest} {kilonewton(number_of(usual, PEAK))}"
+        )
+        kicks = of_kicks(worst)
+        if kicks != EMPTY:
             interval = f"{number_of(worst, 'share_low'):.2f} to {number_of(worst, 'share_high'):.2f}"
-            share = f", and {counted} kicks end in it (95 % interval of the share: {interval})"
-        pulls, usual_pulls = (kilonewton(number_of(row, PEAK)) for row in (worst, usual))
-        place = f"{symbol} = {number_of(worst, key):.4g}"
-        said += f"; at {place} motion {worst['motion']} pulls {pulls}, {rest} {usual_pulls}{share}"
-    yield f"{said}."
+            sentence += f", and {kicks} kicks end in it (95 % interval of the share: {interval})"
+    yield f"{sentence}."
+
+
+def _ends(rows: Sequence[Row], key: str, ends: Sequence[Row]) -> Iterator[str]:
+    """Where motions end, if a value has several. ends: rows of ends/table.csv."""
+    if not ends or len({number_of(row, key) for row in rows}) == len(rows):
+        return
     words = []
     for end in ends:
         exact, inside, outside = (number_of(end, f"{key}_{side}") for side in ("end", "with", "without"))
-        told = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
-        becomes = f", into {end['leads_to']}" if end.get("leads_to") else ""
-        words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {told}{becomes}")
-    if words:
-        more = len(words) - MOST_ENDS
-        told = f"{listed(words[:MOST_ENDS])}{f'; {more} more in ends/table.csv' if more > 0 else ''}"
-        yield f"Motions end: {told}."
-
-
-def _pull(row: Row) -> bool:
-    return number_of(row, PEAK) > 0.0
+        value = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
+        successor = f", into {end['leads_to']}" if end.get("leads_to") else ""
+        words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {value}{successor}")
+    unnamed = len(words) - MOST_ENDS
+    rest = f"; {unnamed} more in ends/table.csv" if unnamed > 0 else ""
+    yield f"Motions end: {listed(words[:MOST_ENDS])}{rest}."
 
 
 def _change(before: Row, after: Row) -> str:
@@ -128,25 +139,27 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
     times = f" ({number_of(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
     motion = "" if from_rest(peak) else f", motion {peak['motion']}"
-    said = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}{motion}{times}"
+    sentence = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}{motion}{times}"
     sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
     for row in sound:
-        if _of(row, key) == _of(peak, key):
-            said += f"; with the {CAPPED} {kilonewton(number_of(row, PEAK))}"
-    yield f"{said}."
-    searched = any(math.isfinite(number_of(row, "share")) for row in rows)
+        if number_of(row, key) == number_of(peak, key) and str(row.get("motion") or "") == str(
+            peak.get("motion") or ""
+        ):
+            sentence += f"; with the {CAPPED} {kilonewton(number_of(row, PEAK))}"
+    yield f"{sentence}."
     if scene is None:
         return
+    searched = any(math.isfinite(number_of(row, "share")) for row in rows)
     yield use_of(peak, scene, searched)
-    free = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
-    if free is None or free is peak:
+    usable = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
+    if usable is None or usable is peak:
         return
-    which = f"With the {CAPPED} the largest tension is" if free in sound else "Largest tension without that:"
-    yield f"{which} {largest(free)} at {symbol} = {number_of(free, key):.4g}. {use_of(free, scene, searched)}"
+    head = f"With the {CAPPED} the largest tension is" if usable in sound else "Largest tension without that:"
+    yield f"{head} {largest(usable)} at {symbol} = {number_of(usable, key):.4g}. {use_of(usable, scene, searched)}"
 
 
 def use_of(row: Row, scene, searched: bool) -> str:
-    """What speaks against using the tension of a row; else what was checked of it, and what was not.
+    """The reasons against using the tension of a row; without any, the checks that were made of it, and those not made.
 
     searched: whether other motions were looked for.
     """
@@ -155,9 +168,8 @@ def use_of(row: Row, scene, searched: bool) -> str:
 
 
 def _checks(row: Row, scene, searched: bool) -> str:
-    """What was checked of the tension of a row, and what was not, by what the row knows and the scene has."""
+    """The checks that the tension of a row has passed, and those that were not made."""
     error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
-    room = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
     grid = f"grid and steps (± {100.0 * error:.2g} %)" if math.isfinite(error) else "grid and steps"
     checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
     if scene.buoy is not None and waves is not None:
@@ -170,19 +182,16 @@ def _checks(row: Row, scene, searched: bool) -> str:
         checks[f"a sea longer than its {number_of(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
     if scene.water is not None:
         checks["the sea bed"] = scene.floor is not None
-    checks["motion out of the plane"] = room
-    lists = (listed(name for name, made in checks.items() if made is wanted) for wanted in (True, False))
-    return "Checked: {}; not checked: {}".format(*lists)
+    checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
+    passed = listed(name for name, checked in checks.items() if checked)
+    missing = listed(name for name, checked in checks.items() if not checked)
+    return f"Checked: {passed}; not checked: {missing}"
 
 
 def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
     error = number_of(row, PEAK_ERROR)
     return f"{kilonewton(number_of(row, PEAK))}{f' (± {error / 1e3:.2g} kN)' if math.isfinite(error) else ''}"
-
-
-def _of(row: Row, key: str) -> tuple:
-    return number_of(row, key), str(row.get("motion") or "")
 
 
 def reasons(row: Row, scene) -> Iterator[str]:

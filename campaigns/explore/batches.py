@@ -14,8 +14,8 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.answers import greatest
-from campaigns.explore.along import MOTION, from_rest
 from campaigns.explore.judgement import Judgement
+from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import claimed, run_of
@@ -40,39 +40,40 @@ PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first sna
 class Batch:
     """Jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
 
-    together: whether runs may share a worker, where times are not those of a run alone; said: what they are called.
+    together: whether runs may share a worker, where times are not those of a run alone; title: of the progress.
     """
 
     folder: str
-    said: str
+    title: str
     columns: tuple[Column, ...]
     row: Callable
     jobs: list[Job]
     together: bool = False
 
     def do(self, plan: Plan) -> float:
-        """Do what is not there yet; returns seconds of analysis.
+        """Do the runs that are not there yet; returns seconds of analysis.
 
         Without a job the table of an earlier batch in this folder is emptied. Raises as `runner.run`.
         """
         out = plan.how.out / self.folder
         if not self.jobs and not out.exists():
             return 0.0
-        each = plan.simulate_each if self.together else None
-        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, title=self.said)
-        own = replace(own, describe=self.row, judge=None)
+        batch = replace(
+            plan,
+            how=replace(plan.how, out=out),
+            columns=self.columns,
+            title=self.title,
+            describe=self.row,
+            judge=None,
+            simulate_each=plan.simulate_each if self.together else None,
+        )
         with claimed(out):
-            return run(replace(own, simulate_each=each), self.jobs)[1].analysis_s
+            return run(batch, self.jobs)[1].analysis_s
 
 
 def changed(scene, *changes: dict):
     """The scene with these keys changed."""
-    return scene_from_toml(scene.to_toml(), {key: value for one in changes for key, value in one.items()})
-
-
-def finer(scene) -> dict[str, int]:
-    """The key that gives the line of a scene twice the elements."""
-    return {"tether.nodes": 2 * scene.tether.nodes - 1}
+    return scene_from_toml(scene.to_toml(), {key: value for keys in changes for key, value in keys.items()})
 
 
 def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
@@ -84,13 +85,18 @@ def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) ->
 def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
-    values = sorted(scenes)
+    values, fine = sorted(scenes), []
     ends = np.linspace(0, max(LEAST_COLUMNS - len(values), 0), len(values)).round().astype(int)  # of those in the gaps
-    gaps = zip(pairwise(values), np.diff(ends), strict=True)
-    fine = [float(f"{a + (b - a) * i / (more + 1):.12g}") for (a, b), more in gaps for i in range(1, more + 1)]
-    jobs = [Job({"steepness": kA}, changed(scenes[values[0]], UNFOLLOWED, {key: kA}), BETWEEN_PERIODS) for kA in fine]
+    for (low, high), count in zip(pairwise(values), np.diff(ends), strict=True):
+        fine += [float(f"{low + (high - low) * number / (count + 1):.12g}") for number in range(1, count + 1)]
+    jobs = []
+    for value in fine:
+        scene = changed(scenes[values[0]], UNFOLLOWED, {key: value})
+        jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
+    if not groups_of(plan, jobs):
+        jobs = []
     row = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
-    return Batch("between", "values between", BETWEEN, row, jobs if groups_of(plan, jobs) else [], True).do(plan)
+    return Batch("between", "values between", BETWEEN, row, jobs, together=True).do(plan)
 
 
 def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
@@ -99,15 +105,15 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     peak = of_largest_tension(summary.rows)
     scene = None if peak is None else changed(run_of(plan.how.out, peak).scene, UNFOLLOWED)
     if scene is not None and scene.buoy.submergence == "full":
-        high = [row for row in summary.rows if (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m]
-        for row in high:
+        flying = [row for row in summary.rows if (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m]
+        for row in flying:
             labels = {"role": CAPPED, "steepness": row["steepness"], "motion": row.get("motion")}
             capped = changed(scene, {key: row["steepness"], "buoy.submergence": "spherical-cap"})
             jobs.append(job_from(labels, capped, length, start_of(plan, row)))
         if not groups_of(plan, jobs):
-            jobs = [job for job, row in zip(jobs, high, strict=True) if row is peak]
+            jobs = [job for job, row in zip(jobs, flying, strict=True) if row is peak]
     row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
-    return Batch("companions", "runs with the wetted cap", COMPANIONS, row, jobs, True).do(plan)
+    return Batch("companions", "runs with the wetted cap", COMPANIONS, row, jobs, together=True).do(plan)
 
 
 def start_of(plan: Plan, row: dict):
@@ -127,7 +133,7 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     row = of_largest_tension([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])
     if row is not None:
         scene, start = run_of(plan.how.out, row).scene, start_of(plan, row)
-        kept = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
+        profiles = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         labels = {"steepness": row["steepness"], "motion": row.get("motion"), "periods": length}
-        jobs.append(job_from(labels, changed(scene, UNFOLLOWED, kept), length, start))
+        jobs.append(job_from(labels, changed(scene, UNFOLLOWED, profiles), length, start))
     return Batch("close_up", "the close-up", CLOSE_UP, partial(counted, columns=(WALL_S,)), jobs).do(plan)

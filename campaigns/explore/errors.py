@@ -26,18 +26,19 @@ Rows whose scenes do not go in lanes stay empty.
 import math
 from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from campaigns.answers import kilonewton
 from campaigns.explore.approach import orbit_ahead
-from campaigns.explore.batches import UNFOLLOWED, Batch, changed, finer
+from campaigns.explore.batches import UNFOLLOWED, Batch
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, as_it_is, section_of, settled_of
+from campaigns.finer import finer
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
-from campaigns.machinery.long_runs import tighter_scene
-from campaigns.machinery.plan import Plan, Summary
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
 from engine import goes_in_lanes, simulate
 from engine.run.rest import static_tension_N
@@ -56,11 +57,13 @@ from tables import (
     WALL_S,
     Column,
     counted,
+    finite,
     number_of,
     read_table,
     write_table,
 )
 
+FOLDER = "errors"
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
 FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")
 USUAL = Column(
@@ -79,36 +82,52 @@ def errors(plan: Plan, summary: Summary) -> float:
 
     Rows without a transient, as of runs that ended early, stay empty. Raises as `runner.run`.
     """
-    jobs, usual, slack = [], {}, {}
-    orbits = orbits_in(plan.how.out)
-    for row in summary.rows if plan.simulate is simulate else ():
-        if row.get("transient_periods") is None or (run := run_of(plan.how.out, row)) is None:
-            continue
-        scene, period = tighter_scene(changed(run.scene, UNFOLLOWED, finer(run.scene)), TIGHTER), _period(row)
-        if period and "approach: " in (row.get("evidence") or ""):
-            run = orbit_ahead(run, orbits)[0].run
-        if run.final_state is None or not goes_in_lanes(scene):
-            continue
-        usual[row["run_key"]] = usual_max_N(run, row["transient_periods"], period)
-        slack[row["run_key"]] = slack_shares(run, row["transient_periods"], period)
-        length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
-        motion = (settled_of(run, orbits) or as_it_is(run)) if row.get("regime") else None
-        describe = partial(companion_row, period=period, motion=motion)
-        job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
-        jobs.append(replace(job, describe=describe))
-    analysis_s = Batch("errors", "errors of the largest tensions", COLUMNS, companion_row, jobs, True).do(plan)
+    rows = summary.rows if plan.simulate is simulate else []
+    compared = [companion for companion in (_companion(plan, row) for row in rows) if companion is not None]
+    jobs = [companion.job for companion in compared]
+    batch = Batch(FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs, together=True)
+    analysis_s = batch.do(plan)
     if not jobs:
         return analysis_s
-    found = {row["of_run"]: row for row in read_table(plan.how.out / "errors" / "table.csv")}
-    for row in summary.rows:
-        if (companion := found.get(row.get("run_key"))) is not None:
-            error, said = error_N(row, usual[row["run_key"]], companion)
-            row[ERROR.name] = error if math.isfinite(error) else None
-            error, said_of_slack = slack_error(slack[row["run_key"]], companion)
-            row[SLACK_ERROR.name] = error if math.isfinite(error) else None
-            row["message"] = "; ".join(filter(None, (row.get("message"), *said, *said_of_slack))) or None
+    ended = {row["of_run"]: row for row in read_table(plan.how.out / FOLDER / "table.csv")}
+    for companion in compared:
+        row, result = companion.row, ended.get(companion.row["run_key"])
+        if result is not None:
+            error, words = error_N(row, companion.usual_N, result)
+            row[ERROR.name] = finite(error)
+            error, words_of_slack = slack_error(companion.slack, result)
+            row[SLACK_ERROR.name] = finite(error)
+            row["message"] = "; ".join(filter(None, (row.get("message"), *words, *words_of_slack))) or None
     write_table(plan.how.out / "table.csv", plan.columns, summary.rows)
     return analysis_s
+
+
+class _Companion(NamedTuple):
+    """The job of a companion, with its row, and T_b (N) and the slack fractions of the stretches of that row."""
+
+    job: Job
+    row: dict
+    usual_N: float
+    slack: np.ndarray
+
+
+def _companion(plan: Plan, row: dict) -> _Companion | None:
+    """The companion of a row; None where there can be none."""
+    run = None if row.get("transient_periods") is None else run_of(plan.how.out, row)
+    if run is None:
+        return None
+    orbits = orbits_in(plan.how.out)
+    scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)
+    if period and "approach: " in (row.get("evidence") or ""):
+        run = orbit_ahead(run, orbits)[0].run
+    if run.final_state is None or not goes_in_lanes(scene):
+        return None
+    length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
+    motion = (settled_of(run, orbits) or as_it_is(run)) if row.get("regime") else None
+    job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
+    job = replace(job, describe=partial(companion_row, period=period, motion=motion))
+    usual_N = usual_max_N(run, row["transient_periods"], period)
+    return _Companion(job, row, usual_N, slack_shares(run, row["transient_periods"], period))
 
 
 def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
@@ -159,11 +178,11 @@ def slack_shares(trajectory, transient_periods: float, period: int | None) -> np
 
 def slack_error(shares: np.ndarray, companion: dict) -> tuple[float, list[str]]:
     """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
-    away = abs(number_of(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
+    difference = abs(number_of(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
     scatter = shares.std(ddof=1) if len(shares) > 1 else 0.0
-    error = float(4.0 / 3.0 * away + 3.0 * scatter / math.sqrt(max(len(shares), 1)))
-    told = error > SLACK_COARSE and away > 2.0 * scatter
-    return error, [f"the slack fraction holds to {error:.2f} only"] if told else []
+    error = float(4.0 / 3.0 * difference + 3.0 * scatter / math.sqrt(max(len(shares), 1)))
+    coarse = error > SLACK_COARSE and difference > 2.0 * scatter
+    return error, [f"the slack fraction holds to {error:.2f} only"] if coarse else []
 
 
 def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:
@@ -175,12 +194,12 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str
         return math.nan, [f"error of the largest tension not known: {CHANGED} the run ended, {companion['status']}"]
     largest_N, again_N = number_of(row, PEAK), number_of(companion, USUAL.name)
     error = largest_N - usual_N + 2.0 * abs(again_N - usual_N) + (row.get(RINGING.name) or 0.0)
-    said = []
+    words = []
     if companion[OUTCOME.name] == UNSETTLED:
-        said.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {kilonewton(usual_N)} -> {kilonewton(again_N)}")
+        words.append(f"{CHANGED} it {OTHER_MOTION}: largest tensions {kilonewton(usual_N)} -> {kilonewton(again_N)}")
     if error > COARSE * largest_N:
-        said.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
-    return error, said
+        words.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
+    return error, words
 
 
 def _period(row: dict) -> int | None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analysis.evidence import evidence_text
-from campaigns.explore.along import MOTIONS
+from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
 from engine.run.rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, state_of

@@ -23,13 +23,13 @@ DIRECTIONS = {
     "oblique": (math.sqrt(0.5), math.sqrt(0.5)),
     "along": (1.0, 0.0),
 }
-_KEPT = ("loop_releases", "regime", "radius_min_m", "radius_max_m")  # of the planar row, in the columns planar_
+_PLANAR = ("loop_releases", "regime", "radius_min_m", "radius_max_m")  # of the planar row, in the columns planar_
 
 
 def velocity(seed_mps: float, direction: str) -> list[float]:
     """The velocity (3,) in m/s of a push of that size and direction, for waves along x."""
-    along, across = DIRECTIONS[direction]
-    return [seed_mps * along, seed_mps * across, 0.0]
+    x, y = DIRECTIONS[direction]
+    return [seed_mps * x, seed_mps * y, 0.0]
 
 
 def in_space(scene):
@@ -55,17 +55,19 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
     """
     timing, summary = run(plan, jobs)
     rows = {row["run_key"]: row for row in summary.rows}
-    chosen = []
+    chosen, spatial = [], 0
     for job in jobs:
-        if (row := rows[job.key]).get("loop_releases"):
-            labels = {**job.labels, **{f"planar_{name}": row.get(name) for name in _KEPT}, "dimensions": 3}
+        row = rows[job.key]
+        if row.get("loop_releases"):
+            labels = {**job.labels, **{f"planar_{name}": row.get(name) for name in _PLANAR}, "dimensions": 3}
             job = replace(job, scene=in_space(job.scene)[0], labels=labels)
+            spatial += 1
         chosen.append(job)
-    if chosen == jobs:
+    if not spatial:
         return timing, summary
-    more, final = run(plan, chosen)
-    times = {name: timing[name] + more[name] for name in timing}
+    timing_in_space, final = run(plan, chosen)
+    times = {name: timing[name] + timing_in_space[name] for name in timing}
     # The second half finds what the first has done; what is new in it are the runs in space.
-    spatial = sum(job is not one for job, one in zip(jobs, chosen, strict=True))
-    done = {"computed": summary.computed + final.computed, "found": summary.found + spatial - final.computed}
-    return times, replace(final, **done, analysis_s=times["analysis_s"])
+    found = summary.found + spatial - final.computed
+    computed = summary.computed + final.computed
+    return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])

@@ -21,11 +21,11 @@ from campaigns.explore.approach import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS
 from campaigns.machinery.folder import claimed, made_by, run_of
 from campaigns.machinery.long_runs import until_settled
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run
 from campaigns.machinery.store import Store, orbits_in
 from engine.scene import scene_from_toml
-from engine.views import state_of
+from engine.views import strobed_states
 from tables import (
     JOINED,
     LOOPS,
@@ -86,13 +86,12 @@ class Start:
 
     def labels(self) -> dict[str, object]:
         """The columns of KICKS; those of a state are empty."""
-        if self.state is not None:
-            return {"found_by": self.found_by}
-        (kick, moved), phase = (self.kick, self.displacement), {} if self.phase is None else {"phase_rad": self.phase}
-        return {
-            "found_by": self.found_by,
-            **dict(zip((one.name for one in KICKS), (*kick, *moved), strict=False)),
-        } | phase
+        labels: dict[str, object] = {"found_by": self.found_by}
+        if self.state is None:
+            labels |= dict(zip((column.name for column in KICKS), (*self.kick, *self.displacement), strict=False))
+            if self.phase is not None:
+                labels["phase_rad"] = self.phase
+        return labels
 
 
 DISPLACED = Start("massless", displacement=(1.0, 0.0))  # what the starts on motions of a massless tether are like
@@ -103,22 +102,43 @@ def strobed_at(phase_rad: float) -> float:
     return phase_rad / (2.0 * math.pi) % 1.0
 
 
-def start_job(labels: dict, scene, start: Start, known: Sequence, most: int = LOOKS[-1], settles: bool = True) -> Job:
-    """The run of a start of a scene, with the motions (`analysis.Settled`) that are known of it. settles: `Asked`."""
+class Request(NamedTuple):
+    """A start to run.
+
+    labels: columns that name it.
+    scene: in which it begins.
+    start: how it begins.
+    known: the motions (`analysis.Settled`) that are known of the scene.
+    most: wave periods that it may take.
+    settles: whether it ends too when it has settled on another one: one that passes by an unstable orbit seems to have.
+    """
+
+    labels: dict
+    scene: object
+    start: Start
+    known: Sequence = ()
+    most: int = LOOKS[-1]
+    settles: bool = True
+
+
+def start_job(request: Request) -> Job:
+    """The run of a start."""
+    start, scene = request.start, request.scene
     # it ends at the phase at which its scene begins, so that the scene can take up its last state
-    after = 0.0 if start.phase is None else strobed_at(start.phase - scene.waves.phase_rad)
-    ends = tuple(end + after for end in (*(end for end in LOOKS if end < most), most))
+    shift = 0.0 if start.phase is None else strobed_at(start.phase - scene.waves.phase_rad)
+    looks = [look for look in LOOKS if look < request.most]
+    ends = tuple(look + shift for look in (*looks, request.most))
     digest = hashlib.sha256(b"" if start.state is None else start.state.digest().encode())
-    for motion in known:
+    for motion in request.known:
         for part in (motion.points, motion.measures, motion.scale):
             digest.update(np.ascontiguousarray(part).tobytes())
     return Job(
-        labels | start.labels(),
+        request.labels | start.labels(),
         start.scene(scene),
         ends[-1],
-        describe=partial(start_row, known=tuple(known), settles=settles),
+        describe=partial(start_row, known=tuple(request.known), settles=request.settles),
         going=partial(until_settled, start=start.state, ends=ends),
-        made=f"start {digest.hexdigest()}{'' if settles else ' joins'}",
+        made=f"start {digest.hexdigest()}{'' if request.settles else ' joins'}",
     )
 
 
@@ -133,10 +153,11 @@ def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[st
     if trajectory.status != "ok":
         return row
     strobed, measures, scale = section_of(trajectory)
-    if (which := joins(strobed, measures, known)) is not None:
-        return row | {"outcome": JOINED, "joins": which}
-    own = settled(strobed, measures, scale=scale) if settles else None
-    return row | {"outcome": UNSETTLED if own is None else SETTLED}
+    number = joins(strobed, measures, known)
+    if number is not None:
+        return row | {"outcome": JOINED, "joins": number}
+    motion = settled(strobed, measures, scale=scale) if settles else None
+    return row | {"outcome": UNSETTLED if motion is None else SETTLED}
 
 
 def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
@@ -144,20 +165,17 @@ def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
     what counts as 1 in the states. r is taken OFTEN times a period, so that runs of more samples compare. States are
     those at phase 0 of the wave, so that runs that begin at other phases compare too.
     """
-    from analysis import poincare_section
-
     columns, waves, step_s = trajectory.columns, trajectory.scene.waves, trajectory.scene.sample_step_s()
     period_s, share = waves.period_s, strobed_at(waves.phase_rad)
     passed_s = np.arange(len(columns["time_s"])) * step_s
     periods = int(passed_s[-1] / period_s - share + 1e-6)
-    coordinates, scale = state_of(columns, step_s, period_s, periods // 2)
-    strobed = poincare_section(coordinates, step_s, period_s, share).points[: periods + 1]
+    strobed, scale = strobed_states(trajectory, periods // 2, share)
     marks = (np.arange(periods * OFTEN) / OFTEN + share) * period_s
     radius = np.interp(marks, passed_s, columns["radius_m"]).reshape(periods, OFTEN)
     begin = np.searchsorted(passed_s, (np.arange(periods) + share) * period_s + 1e-6 * step_s)
     end = round((periods + share) * period_s / step_s) + 1
     tension = np.maximum.reduceat(columns["tension_top_high_N"][:end], begin)
-    return strobed, np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
+    return strobed[: periods + 1], np.column_stack([radius.min(axis=1), radius.max(axis=1), tension]), scale
 
 
 def settled_of(trajectory, orbits: Store):
@@ -188,24 +206,13 @@ def as_it_is(trajectory):
     )
 
 
-class Asked(NamedTuple):
-    """A start to run: columns that name it, scene, Start, the motions that are known, and its most wave periods.
-
-    settles: whether it ends too when it has settled on another one: one that passes by an unstable orbit seems to have.
-    """
-
-    labels: dict
-    scene: object
-    start: Start
-    known: Sequence = ()
-    most: int = LOOKS[-1]
-    settles: bool = True
-
-
 @dataclass(eq=False)
-class Ended:
-    """How a start ended: its row; the known motion that it joined, or its own, with its last state.
+class Ending:
+    """How a start ended.
 
+    row: of the table of starts.
+    joins: number of the known motion that it joined.
+    settled, state: the motion (`analysis.Settled`) on which it settled itself, and its last state.
     motion: what its motion is called later (anything with branch.letter).
     """
 
@@ -221,57 +228,55 @@ class Ended:
 
         if not known:
             return None
-        *before, own = grouped([*known, self.settled])
-        return next((number for number, label in enumerate(before) if label == own), None)
+        *labels, label = grouped([*known, self.settled])
+        return labels.index(label) if label in labels else None
 
 
 class Starts:
-    """All starts of a campaign: runs in its folder starts/, with a table; named: columns that name a start."""
+    """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
-    def __init__(self, plan: Plan, named: tuple[Column, ...]):
-        columns = (*named, FOUND_BY, *OF_A_START)
-        how = replace(plan.how, out=plan.how.out / "starts")
-        self.plan = replace(
-            plan, how=how, columns=columns, describe=start_row, judge=None, row_maker=made_by({}, *SOURCES)
-        )
-        self.ended: list[Ended] = []
+    def __init__(self, plan: Plan, keys: tuple[Column, ...]):
+        columns = (*keys, FOUND_BY, *OF_A_START)
+        running = replace(plan.how, out=plan.how.out / "starts")
+        maker = made_by({}, *SOURCES)
+        self.plan = replace(plan, how=running, columns=columns, describe=start_row, judge=None, row_maker=maker)
+        self.endings: list[Ending] = []
         self.times: Counter = Counter()
         self.computed = 0
 
-    def did(self, timing: dict[str, float], summary: Summary) -> None:
-        """Add runs to the times and to the runs that were not there before."""
-        self.times.update(timing)
-        self.computed += summary.computed
-
-    def run(self, said: str, asked: Sequence[Asked], told: bool = True) -> list[Ended]:
-        """Run starts that are not there yet, side by side; said: what they are called; told: whether in the table.
+    def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:
+        """Run starts that are not there yet, side by side. title: of the progress. listed: whether in the table.
 
         Raises as `runner.run`.
         """
-        jobs = [start_job(*one) for one in asked]
+        jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
         with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, title=said), jobs)
-        self.did(timing, summary)
+            timing, summary = run(replace(self.plan, title=title), jobs)
+        self.times.update(timing)
+        self.computed += summary.computed
         rows = {row["run_key"]: row for row in summary.rows}
-        found = [self._ended(job, rows.get(job.key)) for job in jobs]
-        self.ended += found if told else []
-        return found
+        endings = [self._ending(job, rows.get(job.key)) for job in jobs]
+        if listed:
+            self.endings += endings
+        return endings
 
-    def _ended(self, job: Job, row: dict | None) -> Ended:
+    def _ending(self, job: Job, row: dict | None) -> Ending:
         row = {**job.labels, "status": "lost"} if row is None else {**row, **job.labels}
         if row.get("outcome") == JOINED:
-            return Ended(row, round(row["joins"]))
+            return Ending(row, round(row["joins"]))
         run = run_of(self.plan.how.out, row) if row.get("outcome") == SETTLED else None
         if run is None:
-            return Ended(row)
-        return Ended(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
+            return Ending(row)
+        return Ending(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
 
     def write(self) -> None:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""
-        rows = [{**one.row, "motion": one.motion.branch.letter if one.motion else None} for one in self.ended]
-        for row in rows:
+        rows = []
+        for ending in self.endings:
+            row = {**ending.row, "motion": ending.motion.branch.letter if ending.motion else None}
             row.pop("joins", None)
+            rows.append(row)
         columns = tuple(column for column in self.plan.columns if column is not JOINS)
         write_table(self.plan.how.out / "table.csv", columns, rows)

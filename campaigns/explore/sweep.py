@@ -1,17 +1,18 @@
-"""A sweep over one key with every motion of each value: the options, and what is run in place of the runs from rest."""
+"""A sweep over one key with every motion of each value: its options, its runs, and the tables that an answer reads."""
 
+import contextlib
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import engine
-from campaigns.judge import judged_job
+from campaigns.explore.grid import Varied
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import Column
+from tables import read_table
 
 KICKS, SPEED_MPS = 8, 6.0
 ONLY = "a number for a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
@@ -21,12 +22,12 @@ MOST_KICKS = 10_000
 
 def add_options(group) -> None:
     """--starts, --kick-speed, --seed, --start-from."""
-    beside = "beside motions of a massless tether and those carried from its neighbours"
-    usual = f"kicks of the buoy at each value, {beside}; rest: one run from rest only"
+    sources = "beside motions of a massless tether and those carried from its neighbours"
+    usual = f"kicks of the buoy at each value, {sources}; rest: one run from rest only"
     usual += f" (default: {KICKS}; with --periods: rest)"
     allowed = cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
     cli.add(group, "--starts", "rest|N", usual, allowed)
-    speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
+    speed = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
     cli.add(group, "--kick-speed", "MPS", "kicks are velocities of up to this along x and z, m/s", speed, SPEED_MPS)
     cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
     file = "run from the final state of this run (a file of trajectories/) instead of from rest"
@@ -59,87 +60,71 @@ def _starts(text: str):
 
 
 def kicks_of(order: Order, scenes: Iterable) -> int | None:
-    """Kicks at each value; None: runs from rest only. More asked of scenes that can have nothing else is a fault.
+    """Kicks at each value; None: runs from rest only. Kicks asked for scenes that allow none are a fault.
 
     scenes: of the runs from rest.
     """
-    asked = order.own.starts
+    starts = order.own.starts
     if order.own.start_from is not None:
-        if asked not in (None, REST):
-            order.tell([f"--starts: given {asked} with --start-from; allowed: one of them"])
+        if starts not in (None, REST):
+            order.tell([f"--starts: given {starts} with --start-from; allowed: one of them"])
         return None
-    if asked == REST or (asked is None and not order.looks):
+    if starts == REST or (starts is None and not order.looks):
         return None
-    can = all(in_regular_waves(scene) and carries_tangents(scene) for scene in scenes)
-    if not can and asked is not None:
-        order.tell([f"--starts: given {asked}; allowed: {REST}, and {ONLY}"])
-    return None if not can else KICKS if asked is None else asked
+    if not all(in_regular_waves(scene) and carries_tangents(scene) for scene in scenes):
+        if starts is not None:
+            order.tell([f"--starts: given {starts}; allowed: {REST}, and {ONLY}"])
+        return None
+    return KICKS if starts is None else starts
 
 
 def parameters(order: Order, kicks: int | None) -> dict[str, object]:
-    """What the provenance says of the starts."""
+    """The starts, for the provenance."""
     if kicks is None:
         return {"starts": REST if order.own.start_from is None else order.own.start_from}
     return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
 
 
-def job_of(order: Order, job: Job, motion, labels: dict, most: int | None = None) -> Job:
-    """The judged run of a motion with these columns: that from rest (job), or one from its last state.
-
-    most: as of `campaigns.judge.judged_job`.
-    """
-    from campaigns.explore.along import FROM_REST, KICKED
-    from campaigns.explore.transients import as_long_as
-
-    if motion.found_by == FROM_REST:
-        return replace(job, labels={**job.labels, **labels})
-    own = judged_job(order, {**job.labels, **labels}, job.scene, motion.state.at_zero(), most)
-    return as_long_as(own, order.periods) if motion.found_by == KICKED else own
+def runs(order: Order, kicks: int | None) -> Callable:
+    """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
+    if kicks is None:
+        return run
+    (key,) = order.own.grid.keys
+    return every_motion(order, key, kicks, order.own.kick_speed, order.own.seed)
 
 
-def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | None = None) -> Callable:
-    """In place of `runner.run`: the runs from rest, and one judged run for every other motion at each value.
+def every_motion(order: Order, key: Varied, kicks: int, speed_mps: float, seed: int) -> Callable:
+    """In place of `runner.run`: the motions of each value of a key, with the ends of their ranges.
 
-    key: the column of the values; name, index: of the key in the scene (`campaigns.sweep.Varied`).
+    kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`.
     """
 
     def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.explore import ends
-        from campaigns.explore.along import FROM_REST, Along
-        from campaigns.explore.starts import DISPLACED, start_job
+        from campaigns.explore.ends import confirm, find_ends
+        from campaigns.explore.motions import Motions, Search, in_a_row
+        from campaigns.explore.stages import explore
         from campaigns.explore.tracing import Scenes
-        from campaigns.explore.transients import outlasting
 
-        jobs = sorted(jobs, key=lambda job: job.labels[key.name])
-        real = plan.simulate is engine.simulate
-        ahead = [start_job({}, jobs[0].scene, DISPLACED, ())] if real and engine.massless_covers(jobs[0].scene) else []
-        timing, first = run(plan, jobs, ahead)
-        if not real:
-            return timing, first
-        rows = {row["run_key"]: row for row in first.rows}
-        longer, late = run(plan, outlasting(jobs, rows, lambda at: (at - 1, at + 1)))
-        rows |= {row["run_key"]: row for row in late.rows}
-        along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), [*rows.values()])
-        along.find(kicks, order.own.kick_speed, order.own.seed)
-
-        others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
-        more, found = run(plan, [*jobs, *others.values()])
-        along.judged(others, found.rows)
-        along.name()
+        jobs = sorted(jobs, key=lambda job: job.labels[key.column.name])
+        if plan.simulate is not engine.simulate:
+            return run(plan, jobs)
+        motions = Motions(plan, [key.column], in_a_row(len(jobs)))
+        explore(motions, jobs, Search(order, kicks, speed_mps, seed))
+        motions.write()
         if len(jobs) > 1:
-            ends.bisect(along)
-        ends.confirm(along)
-        along.starts.write()
-        judged = []
-        for at, job in enumerate(jobs):
-            some = sorted(along.motions[at], key=lambda one: (len(one.branch.letter), one.branch.letter))
-            judged += [] if any(one.found_by == FROM_REST for one in some) else [job]
-            judged += [job_of(order, job, motion, along.labels(motion)) for motion in some]
-        last, summary = run(plan, judged)
-        made = first.made | late.made | found.made | summary.made
-        computed = sum(row["run_key"] in made for row in summary.rows)
-        for times in (longer, more, last, along.starts.times):
-            timing = {name: seconds + times[name] for name, seconds in timing.items()}
-        return timing, replace(summary, computed=computed, found=len(summary.rows) - computed)
+            find_ends(motions, Scenes(jobs[0].scene.to_toml(), key.column.name, key.name, key.index))
+        confirm(motions)
+        summary = motions.write()
+        return motions.timing(), summary
 
     return runs
+
+
+def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
+    """The rows of table.csv in these folders of a campaign; none where there is no table, or an empty one."""
+    tables: dict[str, tuple[dict, ...]] = {}
+    for folder in folders:
+        tables[folder] = ()
+        with contextlib.suppress(OSError, ValueError):
+            tables[folder] = read_table(out / folder / "table.csv")
+    return tables

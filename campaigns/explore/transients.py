@@ -14,19 +14,30 @@ from campaigns.machinery.plan import Job
 TIMES = 4  # one transient in 55 lasts so many mean times
 
 
-def outlasting(jobs: Sequence[Job], rows: Mapping[str, Mapping], beside: Callable[[int], Iterable[int]]) -> list[Job]:
+def outlasting(
+    jobs: Sequence[Job], rows: Mapping[str, Mapping], neighbours: Callable[[int], Iterable[int]]
+) -> list[Job]:
     """The jobs whose chaos has not lasted long enough; they go on until it has.
 
-    jobs: by number of the place; rows: of their runs, by key; beside: the places beside a place.
+    jobs: by number of the place.
+    rows: of their runs, by key.
+    neighbours: the places beside a place.
     """
-    regimes = {at: str(rows[job.key].get("regime")) for at, job in enumerate(jobs) if job.key in rows}
-    settled = {at: rows[jobs[at].key]["transient_periods"] for at in regimes if regimes[at].startswith("period")}
-    found = []
-    for at in regimes:
-        least = TIMES * max((settled.get(place, 0) for place in beside(at)), default=0)
-        if regimes[at] == "chaotic" and rows[jobs[at].key]["periods"] < least:
-            found.append(as_long_as(jobs[at], least))
-    return found
+    transients: dict[int, float] = {}  # of the places whose motion is periodic
+    chaotic: dict[int, Mapping] = {}  # rows of the places whose motion is chaotic
+    for place, job in enumerate(jobs):
+        row = rows.get(job.key, {})
+        regime = str(row.get("regime"))
+        if regime.startswith("period"):
+            transients[place] = row["transient_periods"]
+        elif regime == "chaotic":
+            chaotic[place] = row
+    late = []
+    for place, row in chaotic.items():
+        least = TIMES * max((transients.get(neighbour, 0) for neighbour in neighbours(place)), default=0)
+        if row["periods"] < least:
+            late.append(as_long_as(jobs[place], least))
+    return late
 
 
 def as_long_as(job: Job, periods: float) -> Job:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import engine.scene
+from campaigns.finer import finer
 from engine.views import carried, carries_tangents
 
 OPEN = ("undecided", "transient")  # regimes that decide nothing
@@ -131,7 +132,7 @@ def _check(scene, trajectory, row, check) -> Part | None:
     if row["regime"] == "chaotic" and tighter is None:
         value, error = row["lyapunov_tangent_bits_per_period"], row["lyapunov_tangent_error"]
         enough = max(math.ceil(judged * (SURE * error / value) ** 2), LEAST_CHECK)
-        return Part(tighter_scene(carrying(scene)), min(enough, judged), trajectory, check=True)
+        return Part(finer(carrying(scene), steps=10), min(enough, judged), trajectory, check=True)
     if check is None or check.status != "ok" or tighter == "chaotic":
         return None
     ran = len(check.tangent.growth_nats)
@@ -156,10 +157,3 @@ def carrying(scene):
     costs a seventh more, and large motions release loops, which leaves no rate across the plane.
     """
     return engine.scene.scene_from_toml(scene.to_toml(), {TANGENTS: 1})
-
-
-def tighter_scene(scene, times: int = 10):
-    """The scene at a tenth of its tolerance, or of its step where that is fixed; or at another share of it."""
-    step_s = scene.solver.step_s
-    key, value = ("solver.step_s", step_s / times) if step_s else ("solver.rtol", scene.solver.rtol / times)
-    return engine.scene.scene_from_toml(scene.to_toml(), {key: value})

@@ -13,14 +13,14 @@ steps; that of an event also its change on a finer grid of the line. Where the l
 map, and a branch ends. Nothing is random.
 """
 
-import contextlib
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
-from campaigns import sweep
 from campaigns.explore import sweep as motions
+from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
+from campaigns.explore.settings import columns_of, measures_of
 from campaigns.judge import job_from
 from campaigns.machinery import cli
 from campaigns.machinery.folder import claimed, run_of
@@ -49,40 +49,51 @@ def options(group) -> None:
 
 
 def read(options, faults: list[str]) -> None:
-    """The key with its values (`campaigns.sweep.Varied`) in place of the words of --vary."""
+    """The key with its values (`Grid`) in the words of --vary."""
     words = options.vary or [KEY, *map(str, RANGE)]
     if len(words) != 3:
         faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
         words = [KEY, *map(str, RANGE)]
-    found = sweep.varied([*words, str(options.values)], faults)
-    options.vary = [] if found is None else [found]
-    options.starts, options.kick_speed, options.seed = 0, motions.SPEED_MPS, 1
-    options.duration, options.evidence = None, "dynamics"
+    key = varied([*words, str(options.values)], faults)
+    options.grid = Grid(() if key is None else (key,))
     if options.start_from is not None and options.motion is not None:
         faults.append(f"--motion: given {options.motion} with --start-from; allowed: one of them")
 
 
 def cases(order: Order) -> Iterator[Job]:
-    """The runs from rest of `campaigns.sweep`; of --start-from a run that goes on for a period."""
-    from engine.run.period_map import why_no_map
+    """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
+    from engine.period_map import why_no_map
 
     order.periods, order.looks, order.transient = BUDGET, True, None
-    if not order.own.vary:
+    if not order.own.grid.keys:
         return
-    jobs = [*_of_file(order)] if order.own.start_from is not None else [*sweep.cases(order)]
+    jobs = [*(_jobs(order) if order.own.start_from is None else _job_of_file(order))]
     grids = {job.scene.tether.nodes for job in jobs}
-    for why in dict.fromkeys(filter(None, (why_no_map(job.scene) for job in jobs))):
-        order.tell([f"campaigns.orbits: given a scene with {why}; allowed: a buoy in regular waves, a line in a plane "
-                    "with bending stiffness, an integrator with error control"])  # fmt: skip
+    for reason in dict.fromkeys(filter(None, (why_no_map(job.scene) for job in jobs))):
+        order.tell([f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a "
+                    "plane with bending stiffness, an integrator with error control"])  # fmt: skip
     if len(grids) > 1:
-        order.tell([f"--vary {order.own.vary[0].key}: changes the grid of the line; allowed: a key that does not"])
+        key = order.own.grid.keys[0].key
+        order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
     yield from jobs
 
 
-def _of_file(order: Order) -> Iterator[Job]:
+def _jobs(order: Order) -> Iterator[Job]:
+    (key,) = order.own.grid.keys
+    if key.key in order.changes:
+        order.tell([f"--set {key.key}: this campaign sets it; use --vary"])
+    base = order.base(tell=True)
+    if base is not None and base.waves is None:
+        order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
+    elif base is not None:
+        jobs = (order.own.grid.job(order, place) for place in order.own.grid.places())
+        yield from (job for job in jobs if job is not None)
+
+
+def _job_of_file(order: Order) -> Iterator[Job]:
     from engine.scene import SceneError, scene_from_toml
 
-    (key,) = order.own.vary
+    (key,) = order.own.grid.keys
     try:
         run = motions.run_in(order.own.start_from)
         scene = scene_from_toml(run.scene.to_toml(), order.changes)
@@ -100,7 +111,7 @@ def _of_file(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The rows of the runs: those of `campaigns.sweep`."""
-    return sweep.measures(order)
+    return measures_of(order, columns_of(order.own.grid.columns))
 
 
 def runs(order: Order) -> Callable:
@@ -111,23 +122,24 @@ def runs(order: Order) -> Callable:
         from campaigns.orbits.tables import tables
         from campaigns.orbits.tree import Tree
 
-        (key,), scene = order.own.vary, jobs[0].scene
+        (key,) = order.own.grid.keys
         timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
         if order.own.start_from is not None:
             starts = [*_under_file(order, jobs[0])]
         else:
             inner = replace(plan, how=replace(plan.how, out=plan.how.out / MOTIONS))
             with claimed(inner.how.out):
-                timing, _ = sweep.runs(order)(inner, jobs)
+                find = motions.every_motion(order, key, kicks=0, speed_mps=motions.SPEED_MPS, seed=1)
+                timing, _ = find(inner, jobs)
             starts = [*_under_motions(order, inner.how.out)]
         began = time.perf_counter()
         state, value = (starts[0][3], starts[0][1]) if starts else (None, key.values[0])
         low, high = key.values[0], key.values[-1]
-        line = Line(Scenes(scene.to_toml(), key.key, key.name, key.index), low, high, high - low, state, value)
-        tree = Tree(plan, line, order.own.orbits, order.own.branches)
+        scenes = Scenes(jobs[0].scene.to_toml(), key.key, key.name, key.index)
+        tree = Tree(plan, Line(scenes, low, high, high - low, state, value), order.own.orbits, order.own.branches)
         if starts:
             tree.grow(starts)
-            tree.across([start[1] for start in starts])
+            tree.across([value for _, value, _, _ in starts])
             if not order.own.no_accuracy:
                 tree.refine()
         rows = tables(tree, key.column)
@@ -139,13 +151,13 @@ def runs(order: Order) -> Callable:
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
-    (key,) = order.own.vary
-    found: dict[tuple[str, int], list[dict]] = {}
+    (key,) = order.own.grid.keys
+    rows_of: dict[tuple[str, int], list[dict]] = {}
     for row in read_table(folder / "table.csv"):
         period = number_of(row, "strobed_period")
         if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.own.motion in (None, row["motion"]):
-            found.setdefault((str(row["motion"]), int(period)), []).append(row)
-    for (letter, period), rows in found.items():
+            rows_of.setdefault((str(row["motion"]), int(period)), []).append(row)
+    for (letter, period), rows in rows_of.items():
         row = rows[len(rows) // 2]
         run = run_of(folder, row)
         if run is not None and run.final_state is not None:
@@ -156,7 +168,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     """The same of --start-from, where its run repeats."""
     from campaigns.explore.rows import after_transient, sound_part
 
-    (key,), run = order.own.vary, motions.run_in(order.own.start_from)
+    (key,), run = order.own.grid.keys, motions.run_in(order.own.start_from)
     periods = int(run.columns["time_s"][-1] / run.scene.waves.period_s + 1e-6)
     period = after_transient(run, sound_part(run.columns), periods // 2).get("strobed_period")
     if period is not None:
@@ -164,20 +176,23 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
-    told = {"vary": {one.key: [one.values[0], one.values[-1]] for one in own.vary}, "motion": own.motion}
-    return told | {"start_from": own.start_from, "tolerance": TOLERANCE, "orbits": own.orbits, "branches": own.branches}
+    options = order.own
+    return {
+        "vary": {key.key: [key.values[0], key.values[-1]] for key in options.grid.keys},
+        "motion": options.motion,
+        "start_from": options.start_from,
+        "tolerance": TOLERANCE,
+        "orbits": options.orbits,
+        "branches": options.branches,
+    }
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
-    """What was found (`answer.sentences`)."""
+    """The findings (`answer.sentences`)."""
     from campaigns.orbits.answer import sentences
 
-    parts: dict[str, tuple[dict, ...]] = dict.fromkeys(("branches", "events", "orbits"), ())
-    for name in parts:
-        with contextlib.suppress(ValueError):  # a table without rows
-            parts[name] = read_table(order.how.out / name / "table.csv")
-    return sentences(rows, order.own.vary[0].column, parts)
+    tables = motions.tables_of(order.how.out, "branches", "events", "orbits")
+    return sentences(rows, order.own.grid.columns[0], tables)
 
 
 STUDY = Study(

@@ -3,8 +3,9 @@
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
-from campaigns.explore.along import MOTION
+from campaigns.explore.motions import MOTION, subfolder
 from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
@@ -47,60 +48,61 @@ ENDS = Column("ends", symbol="ends", meaning="why the branch ends where it does"
 
 def tables(tree: Tree, key: Column) -> list[dict]:
     """Write all tables; returns the rows of table.csv. Raises OSError."""
-    out = tree.plan.how.out
-    for name in ("events", "orbits"):
-        (out / name).mkdir(exist_ok=True)
-    rows = [
-        {"branch": branch.name, "place": place, key.name: one["value"], **_told(one)}
-        for branch in tree.branches
-        for place, one in enumerate(branch.orbits)
-    ]
-    write_table(out / "table.csv", (BRANCH, PLACE, key, *_shape(), GAP, STATUS, MESSAGE), rows)
-    strobes = [
-        {"branch": branch.name, "place": place, key.name: one["value"], "strobe": number, "radius_m": radius}
-        for branch in tree.branches
-        for place, one in enumerate(branch.orbits)
-        for number, radius in enumerate(one["strobes"])
-    ]
+    out, rows, strobes = tree.plan.how.out, [], []
+    for branch in tree.branches:
+        for place, orbit in enumerate(branch.orbits):
+            label = {"branch": branch.name, "place": place, key.name: orbit["value"]}
+            rows.append(label | _numbers(orbit))
+            for number, radius_m in enumerate(orbit["strobes"]):
+                strobes.append(label | {"strobe": number, "radius_m": radius_m})
+    numbers = PERIOD, UNSTABLE, *PARTS, *ERRORS, MODULUS, *MOTION_OF, GAP, STATUS, MESSAGE
+    write_table(out / "table.csv", (BRANCH, PLACE, key, *numbers), rows)
     write_table(out / "strobes.csv", (BRANCH, PLACE, key, STROBE, RADIUS), strobes)
-    meaning = "largest change over three sequences of steps, and on the finer grid where one is told"
-    error = Column("error", key.unit, f"± {key.symbol}", meaning, 5)
-    finer = Column("finer", key.unit, f"{key.symbol} finer", "where it is on a grid of 2n - 1 nodes", 5)
-    shape = BRANCH, KIND, replace(key, digits=5), error, finer, PERIOD, ANGLE, MOTION_OF[3], RADIUS, LEADS
-    write_table(out / "events" / "table.csv", (*shape, STATUS, MESSAGE), [*_events(tree, key)])
-    shape = BRANCH, PERIOD, MOTION, ORBITS, CLOSED, BEGINS, ENDS
-    write_table(out / "branches" / "table.csv", (*shape, STATUS, MESSAGE), [*_branches(tree)])
-    chosen = [*_chosen(tree, key)]
-    write_table(out / "orbits" / "table.csv", (BRANCH, PLACE, key, MOTION, *_shape(), GAP, STATUS, MESSAGE), chosen)
+    write_table(subfolder(tree.plan, "events") / "table.csv", _event_columns(key), [*_events(tree, key)])
+    columns = BRANCH, PERIOD, MOTION, ORBITS, CLOSED, BEGINS, ENDS, STATUS, MESSAGE
+    write_table(out / "branches" / "table.csv", columns, [*_branches(tree)])
+    folder = subfolder(tree.plan, "orbits")
+    write_table(folder / "table.csv", (BRANCH, PLACE, key, MOTION, *numbers), [*_chosen(tree, key, folder)])
     return rows
 
 
-def _shape() -> tuple[Column, ...]:
-    return PERIOD, UNSTABLE, *PARTS, *ERRORS, MODULUS, *MOTION_OF
+def _event_columns(key: Column) -> tuple[Column, ...]:
+    meaning = "largest change over three sequences of steps, and on the finer grid where one is told"
+    error = Column("error", key.unit, f"± {key.symbol}", meaning, 5)
+    finer = Column("finer", key.unit, f"{key.symbol} finer", "where it is on a grid of 2n - 1 nodes", 5)
+    shape = PERIOD, ANGLE, MOTION_OF[3], RADIUS, LEADS
+    return BRANCH, KIND, replace(key, digits=5), error, finer, *shape, STATUS, MESSAGE
 
 
-def _told(one: dict) -> dict[str, object]:
+def _numbers(orbit: dict) -> dict[str, object]:
     """The columns of an orbit."""
-    values = [complex(*pair) for pair in one["multipliers"]]
-    parts = (part for pair in one["multipliers"] for part in pair)
-    sure = {"status": "ok"} if one["settled"] else {"status": "unsure", "message": "its multipliers have not settled"}
-    for value, error in zip(values, one["errors"], strict=True):
+    multipliers = [complex(*pair) for pair in orbit["multipliers"]]
+    parts = [part for pair in orbit["multipliers"] for part in pair]
+    row = {
+        "period": orbit["period"],
+        "unstable": sum(abs(multiplier) > 1.0 for multiplier in multipliers),
+        "gap": orbit["gap"],
+        MODULUS.name: abs(multipliers[0]),
+        "status": "ok",
+    }
+    for columns, numbers in (
+        (PARTS, parts), (ERRORS, orbit["errors"]), (MOTION_OF, (*orbit["radius_m"], *orbit["tension_N"]))
+    ):  # fmt: skip
+        row |= {column.name: number for column, number in zip(columns, numbers, strict=False)}
+    if not orbit["settled"]:
+        return row | {"status": "unsure", "message": "its multipliers have not settled"}
+    for multiplier, error in zip(multipliers, orbit["errors"], strict=True):
         if error is None:
-            sure.setdefault("message", "with other steps it is not found: its multipliers have no errors")
-        elif abs(abs(value) - 1.0) <= error:
-            sure.setdefault("message", "stable or not within the error of a multiplier")
-    found = {"period": one["period"], "unstable": sum(abs(value) > 1.0 for value in values), "gap": one["gap"]}
-    motion = *one["radius_m"], *one["tension_N"]
-    for columns, numbers in ((PARTS, parts), (ERRORS, one["errors"]), (MOTION_OF, motion)):
-        found |= {column.name: number for column, number in zip(columns, numbers, strict=False)}
-    return found | {MODULUS.name: abs(values[0]), **sure}
+            return row | {"message": "with other steps it is not found: its multipliers have no errors"}
+        if abs(abs(multiplier) - 1.0) <= error:
+            return row | {"message": "stable or not within the error of a multiplier"}
+    return row
 
 
 def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
     for branch in tree.branches:
         for event in branch.result["events"]:
             sure = event["error"] is not None
-            doubt = event.get("doubt") or ("" if sure else "not found with other steps")
             yield {
                 "branch": branch.name,
                 "kind": event["kind"],
@@ -113,31 +115,34 @@ def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
                 "radius_m": event["strobes"][0],
                 "leads_to": event.get("leads_to"),
                 "status": "ok" if sure else "unsure",
-                "message": doubt,
+                "message": event.get("doubt") or ("" if sure else "not found with other steps"),
             }
 
 
 def _branches(tree: Tree) -> Iterator[dict[str, object]]:
-    for one in tree.branches:
-        told = {name: one.result[name] for name in ("begins", "ends")} | {"closed": int(one.result["closed"])}
-        counts = {"period": one.orbits[0]["period"], "orbits": len(one.orbits)}
-        yield {"branch": one.name, "motion": " ".join(one.motions), **counts, **told, "status": "ok"}
-    for one in tree.failed:
-        yield {"motion": one["motion"], "period": one["period"], "status": "no-orbit", "message": one["reason"]}
-
-
-def _chosen(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
-    """Rows of the orbits with errors; writes the history of each."""
-    counts: Counter = Counter()
-    for one in sorted(tree.chosen, key=lambda one: (one["branch"], one["value"])):
-        branch, place = one["branch"], counts[one["branch"]]
-        counts[branch] += 1
-        path = tree.plan.how.out / "orbits" / f"{branch}_{place}.csv"
-        write_atomic(path, csv_of([*one["history"]], zip(*one["history"].values(), strict=True)))
+    for branch in tree.branches:
         yield {
-            "branch": branch,
-            "place": place,
-            key.name: one["value"],
-            "motion": one["motion"],
-            **_told(one),
+            "branch": branch.name,
+            "motion": " ".join(branch.motions),
+            "period": branch.orbits[0]["period"],
+            "orbits": len(branch.orbits),
+            "begins": branch.result["begins"],
+            "ends": branch.result["ends"],
+            "closed": int(branch.result["closed"]),
+            "status": "ok",
         }
+    for failure in tree.failed:
+        row = {"motion": failure["motion"], "period": failure["period"]}
+        yield row | {"status": "no-orbit", "message": failure["reason"]}
+
+
+def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[dict[str, object]]:
+    """Rows of the orbits with errors; writes the history of each into the folder."""
+    counts: Counter = Counter()
+    for orbit in sorted(tree.chosen, key=lambda orbit: (orbit["branch"], orbit["value"])):
+        branch, place = orbit["branch"], counts[orbit["branch"]]
+        counts[branch] += 1
+        history = orbit["history"]
+        write_atomic(folder / f"{branch}_{place}.csv", csv_of([*history], zip(*history.values(), strict=True)))
+        label = {"branch": branch, "place": place, key.name: orbit["value"], "motion": orbit["motion"]}
+        yield label | _numbers(orbit)

@@ -1,6 +1,7 @@
-"""All orbits that a campaign finds: those under its motions, their branches, and what begins at flips."""
+"""All orbits that a campaign finds: those under its motions, their branches, and the branches that begin at flips."""
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from string import ascii_lowercase
@@ -19,7 +20,7 @@ NEAR_M, ON_CHORD = 0.01, 0.1  # of an orbit to a known branch: m of what is seen
 
 
 @dataclass(eq=False)
-class Found:
+class Branch:
     """A branch with its name; motions: the letters of those that lie on it."""
 
     name: str
@@ -32,173 +33,212 @@ class Found:
         return self.result["orbits"]
 
 
-class Tree:
-    """The orbits of a line of scenes (`tracing.Line`). plan: where results are kept, and where work is done."""
+@dataclass(eq=False)
+class Seed:
+    """An orbit from which a branch is to be followed.
 
-    def __init__(self, plan: Plan, line: Line, most: int, branches: int):
-        self.plan, self.line, self.most, self.room = plan, line, most, branches
+    motion: the letter of the motion on it, "" for that of a flip.
+    value: of the key.
+    seen: the orbit as it is compared with others, a row a strobe.
+    points: its states.
+    begins: the flip at which it begins; None for that of a motion.
+    """
+
+    motion: str
+    value: float
+    seen: list
+    points: np.ndarray
+    begins: dict | None = None
+
+
+class Tree:
+    """The orbits of a line of scenes (`tracing.Line`).
+
+    plan: where results are kept, and where work is done.
+    most: orbits of a branch, each way.
+    room: branches that are followed.
+    """
+
+    def __init__(self, plan: Plan, line: Line, most: int, room: int):
+        self.plan, self.line, self.most, self.room = plan, line, most, room
         (plan.how.out / FOLDER).mkdir(exist_ok=True)
-        self.branches: list[Found] = []
+        self.branches: list[Branch] = []
         self.chosen: list[dict] = []  # orbits with errors and history
         self.failed: list[dict] = []
         self.computed = self.there = 0
 
-    def work(self, said: str, tasks: Sequence[Task]) -> list[tuple[dict, list[np.ndarray]]]:
+    def work(self, title: str, tasks: Sequence[Task]) -> list[tuple[dict, list[np.ndarray]]]:
         """Results of tasks, in their order. Raises CampaignStopped."""
-        results, there = work(self.plan, self.plan.how.out / FOLDER, said, tasks)
+        results, there = work(self.plan, self.plan.how.out / FOLDER, title, tasks)
         self.there, self.computed = self.there + there, self.computed + len(tasks) - there
         return results
 
     def grow(self, starts: Sequence[tuple[str, float, int, object]]) -> None:
-        """Follow the orbits under runs (motion, value, period, FinalState), and what begins on their branches."""
-        asked = [line_task(under, self.line, start[1:]) for start in starts]
-        left = []
-        for (motion, value, period, _), (result, points) in zip(
-            starts, self.work("orbits under motions", asked), strict=True
-        ):
+        """Follow the orbits under runs (motion, value, period, FinalState), and the branches that begin at flips."""
+        seeds = self._seeds(starts)
+        while seeds and len(self.branches) < self.room:
+            seeds = [seed for seed in seeds if not self._is_known(seed)]
+            following, seeds = seeds[: self.plan.how.jobs], seeds[self.plan.how.jobs :]
+            tasks = [line_task(followed, self.line, (seed.value, seed.points, self.most)) for seed in following]
+            for seed, (result, points) in zip(following, self.work("branches", tasks), strict=True):
+                if result.get("reason"):
+                    self._fail(seed, result["reason"])
+                elif not self._is_known(seed):  # it may be found meanwhile from another orbit
+                    seeds += self._add(seed, result, points)
+        for seed in seeds:
+            if not self._is_known(seed):
+                self._fail(seed, f"not followed: {self.room} branches are (--branches)")
+        self._meet()
+
+    def _seeds(self, starts: Sequence[tuple[str, float, int, object]]) -> list[Seed]:
+        """The orbits under runs."""
+        tasks, seeds = [line_task(under, self.line, start[1:]) for start in starts], []
+        results = self.work("orbits under motions", tasks)
+        for (motion, value, period, _), (result, points) in zip(starts, results, strict=True):
             if result["reason"] or result["period"] > LONGEST_PERIOD:
                 reason = result["reason"] or f"its orbit has period {result['period']}"
                 self.failed.append({"motion": motion, "value": value, "period": period, "reason": reason})
                 continue
             self.chosen.append({**result, "motion": motion})
-            left.append((motion, value, result["seen"], points[0], None))
-        while left and len(self.branches) < self.room:
-            left = [one for one in left if not self._known(one)]
-            now, left = left[: self.plan.how.jobs], left[self.plan.how.jobs :]
-            asked = [line_task(followed, self.line, (value, points, self.most)) for _, value, _, points, _ in now]
-            for (motion, value, seen, _, begins), (result, points) in zip(
-                now, self.work("branches", asked), strict=True
-            ):
-                if result.get("reason"):
-                    told = {"motion": motion, "value": value, "period": len(seen), "reason": result["reason"]}
-                    self.failed.append(told | {"begins": begins})
-                    continue
-                if self._known((motion, value, seen, None, begins)):  # found meanwhile from another orbit
-                    continue
-                branch = Found(self._name(len(seen)), result, points, [motion] if motion else [])
-                self.branches.append(branch)
-                if begins is not None:
-                    begins["leads_to"] = branch.name
-                left += [
-                    ("", event["doubled_value"], event["doubled_seen"], points[event["doubled"]], event)
-                    for event in result["events"] if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD
-                ]  # fmt: skip
-        for motion, value, seen, _, begins in left:
-            if not self._known((motion, value, seen, None, begins)):
-                reason = f"not followed: {self.room} branches are (--branches)"
-                self.failed.append({"motion": motion, "value": value, "period": len(seen), "reason": reason})
-        self._meet()
+            seeds.append(Seed(motion, value, result["seen"], points[0]))
+        return seeds
+
+    def _fail(self, seed: Seed, reason: str) -> None:
+        failure = {"motion": seed.motion, "value": seed.value, "period": len(seed.seen), "reason": reason}
+        self.failed.append(failure | {"begins": seed.begins})
+
+    def _add(self, seed: Seed, result: dict, points: list[np.ndarray]) -> list[Seed]:
+        """Add the branch of a seed; returns the orbits of twice the period that begin at its flips."""
+        branch = Branch(self._name(len(seed.seen)), result, points, [seed.motion] if seed.motion else [])
+        self.branches.append(branch)
+        if seed.begins is not None:
+            seed.begins["leads_to"] = branch.name
+        seeds = []
+        for event in result["events"]:
+            if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD:
+                seeds.append(Seed("", event["doubled_value"], event["doubled_seen"], points[event["doubled"]], event))
+        return seeds
 
     def _meet(self) -> None:
-        """Lead flips to the branches that meet their orbit there; what failed to begin at these is no failure."""
+        """Lead flips to the branches that meet their orbit there; a seed of such a flip has not failed."""
         flips = [event for branch in self.branches for event in branch.result["events"] if event["kind"] == "flip"]
         for branch in self.branches:
-            for end, at in (("begins", 0), ("ends", -1)):
-                near = [event for event in flips if 2 * event["period"] == branch.orbits[at]["period"]]
-                if "meets" in branch.result[end] and near:
-                    nearest = min(near, key=lambda event, there=branch.orbits[at]["value"]: abs(event["value"] - there))
+            for end, orbit in (("begins", branch.orbits[0]), ("ends", branch.orbits[-1])):
+                if "meets" not in branch.result[end]:
+                    continue
+                nearest, least = None, math.inf
+                for flip in flips:
+                    distance = abs(flip["value"] - orbit["value"])
+                    if 2 * flip["period"] == orbit["period"] and distance < least:
+                        nearest, least = flip, distance
+                if nearest is not None:
                     nearest.setdefault("leads_to", branch.name)
-        self.failed = [one for one in self.failed if not (one.get("begins") or {}).get("leads_to")]
+        self.failed = [failure for failure in self.failed if not (failure.get("begins") or {}).get("leads_to")]
 
-    def _known(self, start) -> bool:
+    def _is_known(self, seed: Seed) -> bool:
         """Whether an orbit lies on a branch; its motion is then one of that branch."""
-        motion, value, seen, _, begins = start
         for branch in self.branches:
-            if any(_on(chord, value, np.array(seen), self.line.size) for chord in pairwise(branch.orbits)):
-                branch.motions += [motion] if motion and motion not in branch.motions else []
-                if begins is not None:
-                    begins["leads_to"] = branch.name
+            if any(_on(chord, seed.value, np.array(seed.seen), self.line.size) for chord in pairwise(branch.orbits)):
+                if seed.motion and seed.motion not in branch.motions:
+                    branch.motions.append(seed.motion)
+                if seed.begins is not None:
+                    seed.begins["leads_to"] = branch.name
                 return True
         return False
 
     def _name(self, period: int) -> str:
-        many = sum(branch.name.rstrip(ascii_lowercase) == str(period) for branch in self.branches)
-        return f"{period}{ascii_lowercase[many % 26] if many else ''}"
+        count = sum(branch.name.rstrip(ascii_lowercase) == str(period) for branch in self.branches)
+        return f"{period}{ascii_lowercase[count % 26] if count else ''}"
 
     def across(self, values: Sequence[float]) -> None:
         """All orbits of the branches at that one of the values where there are most, with errors and histories.
 
         Those under a motion there are known.
         """
-        value = max(values, key=lambda one: sum(self._crossings(one)))
-        asked, of = [], []
+        value = max(values, key=lambda value: sum(len(_crossings(branch, value)) for branch in self.branches))
+        tasks, branches = [], []
         for branch in self.branches:
-            for at, (one, other) in enumerate(pairwise(branch.orbits)):
-                low, high = sorted((one["value"], other["value"]))
-                if not low <= value < high or one["period"] != other["period"]:
+            for place in _crossings(branch, value):
+                ahead, behind = branch.orbits[place], branch.orbits[place + 1]
+                if ahead["period"] != behind["period"]:
                     continue
-                share = (value - one["value"]) / (other["value"] - one["value"])
-                guess = (1.0 - share) * branch.points[at] + share * branch.points[at + 1]
-                asked.append(line_task(under, self.line, (value, one["period"], guess)))
-                of.append(branch)
-        known = [one for one in self.chosen if one["value"] == value]
-        for branch, (result, _) in zip(of, self.work("all orbits of one value", asked), strict=True):
-            if not result["reason"] and not any(_same(one["seen"], result["seen"]) for one in known):
+                share = (value - ahead["value"]) / (behind["value"] - ahead["value"])
+                guess = (1.0 - share) * branch.points[place] + share * branch.points[place + 1]
+                tasks.append(line_task(under, self.line, (value, ahead["period"], guess)))
+                branches.append(branch)
+        known = [orbit for orbit in self.chosen if orbit["value"] == value]
+        for branch, (result, _) in zip(branches, self.work("all orbits of one value", tasks), strict=True):
+            if not result["reason"] and not any(_same(orbit["seen"], result["seen"]) for orbit in known):
                 self.chosen.append({**result, "motion": "", "branch": branch.name})
-        for one in self.chosen:
-            if "branch" not in one:
-                own = (
-                    branch.name
-                    for branch in self.branches
-                    if one["motion"] in branch.motions and branch.orbits[0]["period"] == one["period"]
-                )
-                one["branch"] = next(own, "")
+        for orbit in self.chosen:
+            orbit.setdefault("branch", self._branch_of(orbit))
 
-    def _crossings(self, value: float) -> Iterator[int]:
+    def _branch_of(self, orbit: dict) -> str:
+        """The name of the branch of the orbit under a motion; "" where it has none."""
         for branch in self.branches:
-            for one, other in pairwise(branch.orbits):
-                low, high = sorted((one["value"], other["value"]))
-                yield int(low <= value < high)
+            if orbit["motion"] in branch.motions and branch.orbits[0]["period"] == orbit["period"]:
+                return branch.name
+        return ""
 
     def refine(self) -> None:
-        """Every event once more: at a tenth of the tolerance where it is not known well, and on a finer grid."""
-        near, rough = {}, SHARP * self.line.size
-        sharp = replace(self.line, rtol=0.1 * self.line.rtol)
+        """Find every event again: at a tenth of the tolerance where it is not known well, and on a finer grid."""
+        sharp_line, rough = replace(self.line, rtol=0.1 * self.line.rtol), SHARP * self.line.size
+        near = []  # events, each with the value and the points of the nearest orbit
         for branch in self.branches:
             for event in branch.result["events"]:
-                apart = [_apart(one, event, self.line.size) for one in branch.orbits]
-                at = int(np.argmin(apart))
-                near[id(event)] = event, branch.orbits[at]["value"], branch.points[at]
-        unsure = [one for one in near.values() if one[0]["error"] is None or one[0]["error"] > rough]
-        asked = [line_task(sharper, sharp, (event["kind"], event["value"], *of)) for event, *of in unsure]
-        for (event, *_), (result, _) in zip(unsure, self.work("events at a tighter tolerance", asked), strict=True):
+                distances = [_apart(orbit, event, self.line.size) for orbit in branch.orbits]
+                place = int(np.argmin(distances))
+                near.append((event, branch.orbits[place]["value"], branch.points[place]))
+        unsure = [entry for entry in near if entry[0]["error"] is None or entry[0]["error"] > rough]
+        tasks = [line_task(sharper, sharp_line, (event["kind"], event["value"], *orbit)) for event, *orbit in unsure]
+        for (event, *_), (result, _) in zip(unsure, self.work("events at a tighter tolerance", tasks), strict=True):
             if not result["reason"]:
                 event |= {"value": result["value"], "error": result["error"], "sharp": True}
-        asked = [
-            line_task(finer, sharp if event.get("sharp") else self.line, (event["kind"], event["value"], *of))
-            for event, *of in near.values()
-        ]
-        for (event, *_), (result, _) in zip(near.values(), self.work("events on a finer grid", asked), strict=True):
+        tasks = []
+        for event, *orbit in near:
+            line = sharp_line if event.get("sharp") else self.line
+            tasks.append(line_task(finer, line, (event["kind"], event["value"], *orbit)))
+        for (event, *_), (result, _) in zip(near, self.work("events on a finer grid", tasks), strict=True):
             event |= {"finer": result.get("value"), "doubt": result["reason"]}
             if event["finer"] is not None and event["error"] is not None:
                 event["error"] = max(event["error"], abs(event["finer"] - event["value"]))
+
+
+def _crossings(branch: Branch, value: float) -> list[int]:
+    """The numbers of the orbits of a branch between which and the next one a value lies."""
+    places = []
+    for place, (orbit, following) in enumerate(pairwise(branch.orbits)):
+        low, high = sorted((orbit["value"], following["value"]))
+        if low <= value < high:
+            places.append(place)
+    return places
 
 
 def _apart(orbit: dict, event: dict, size: float) -> float:
     """Distance of an orbit of a branch from an event on it, in what is seen; other periods are infinitely far."""
     if orbit["period"] != event["period"]:
         return np.inf
-    way = np.linalg.norm(np.array(orbit["seen"]) - np.array(event["seen"]), axis=1).max()
-    return float(np.hypot(way, (orbit["value"] - event["value"]) / size))
+    distance = np.linalg.norm(np.array(orbit["seen"]) - np.array(event["seen"]), axis=1).max()
+    return float(np.hypot(distance, (orbit["value"] - event["value"]) / size))
 
 
-def _same(some, others) -> bool:
+def _same(seen, candidate) -> bool:
     """Whether two orbits are one, begun at any strobe."""
-    some, others = np.array(some), np.array(others)
-    if some.shape != others.shape:
+    seen, candidate = np.array(seen), np.array(candidate)
+    if seen.shape != candidate.shape:
         return False
-    return any(np.abs(np.roll(some, k, axis=0) - others).max() < NEAR_M for k in range(len(some)))
+    return any(np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M for k in range(len(seen)))
 
 
 def _on(chord, value: float, seen: np.ndarray, size: float) -> bool:
     """Whether an orbit at a value lies on the chord between two neighbours of a branch."""
-    one, other = (np.array(end["seen"]) for end in chord)
-    values = [end["value"] for end in chord]
+    begin, end = (np.array(orbit["seen"]) for orbit in chord)
+    values = [orbit["value"] for orbit in chord]
     margin = 1e-9 * size
-    if one.shape != seen.shape or not min(values) - margin <= value <= max(values) + margin:
+    if begin.shape != seen.shape or not min(values) - margin <= value <= max(values) + margin:
         return False
-    length = np.linalg.norm(other - one, axis=1).max()
+    length = np.linalg.norm(end - begin, axis=1).max()
     share = (value - values[0]) / (values[1] - values[0]) if values[1] != values[0] else 0.5
-    on = one + np.clip(share, 0.0, 1.0) * (other - one)
+    on = begin + np.clip(share, 0.0, 1.0) * (end - begin)
     off = min(np.linalg.norm(np.roll(seen, k, axis=0) - on, axis=1).max() for k in range(len(seen)))
     return bool(off < NEAR_M + ON_CHORD * length)

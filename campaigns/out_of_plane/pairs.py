@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.machinery.folder import run_of
+from engine.views import strobed_radius
 from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
@@ -34,7 +35,7 @@ COLUMNS = (
 
 def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
     """A row of pairs.csv from two rows of table.csv, of the same scene in the plane and in three dimensions."""
-    from analysis import poincare_section, section_distance
+    from analysis import section_distance
 
     flat, space = (run_of(out, row) for row in (planar, spatial))
     step_s, period_s = flat.scene.sample_step_s(), flat.scene.waves.period_s
@@ -51,11 +52,7 @@ def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str
         "spatial_key": spatial["run_key"],
     }
     if {"radius_min_m", "radius_max_m"} <= planar.keys() & spatial.keys():
-        names, sections = ("radius_m", "radius_rate_mps"), []
-        for run in (flat, space):
-            series = {name: run.columns[name] for name in names}
-            sections.append(poincare_section(series, step_s, period_s, transient_periods=transient).points)
-        distance = section_distance(*sections)
+        distance = section_distance(strobed_radius(flat, transient), strobed_radius(space, transient))
         row |= agreement(planar, spatial, distance.across, distance.within)
     return row
 

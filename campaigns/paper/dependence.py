@@ -5,14 +5,13 @@ depths where the large wave leads to different motions. Runs carry a perturbatio
 (`campaigns.explore.rows`); they go side by side in the lanes.
 """
 
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import get_args
 
-from campaigns.buoy_sweep import measures as of_the_sweep
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.rows import STEEPNESS
+from campaigns.explore.settings import measures_of
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.plan import Summary
@@ -93,7 +92,7 @@ def parameters(quick: bool) -> dict[str, object]:
 
 def measures(order: Order) -> Measures:
     """The row of the buoy sweep, after the columns that name a run."""
-    return replace(of_the_sweep(order), columns=COLUMNS)
+    return measures_of(order, COLUMNS)
 
 
 def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.explore.rows import NEAR_ZERO, lasts, sound_part
+from campaigns.explore.rows import NEAR_ZERO, lasts
 from engine.run.rest import static_tension_N
+from engine.views import strobed_radius
 
 if TYPE_CHECKING:
     from analysis import Spectrum
@@ -97,7 +98,7 @@ def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str
 
     if not in_window(trajectory):
         return {}
-    section, measures = strobed(trajectory, transient_periods), {}
+    section, measures = strobed_radius(trajectory, transient_periods), {}
     fewest, largest = LINES_POINTS
     if len(section) >= fewest:
         measures["unexplained"] = float(np.mean(spectral_lines(section[:largest]).unexplained))
@@ -105,18 +106,6 @@ def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str
         dimension = correlation_dimension(section)
         measures |= {"correlation_dimension": dimension.value, "correlation_dimension_error": dimension.error}
     return measures
-
-
-def strobed(trajectory: Trajectory, transient_periods: int) -> np.ndarray:
-    """r (m) and r' (m/s) at t = k T_i, k >= transient_periods, as (m, 2); empty for a record that ends before."""
-    from analysis import poincare_section
-
-    columns, scene = sound_part(trajectory.columns), trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    if not lasts(columns, step_s, transient_periods * period_s):
-        return np.empty((0, 2))
-    series = {name: columns[name] for name in ("radius_m", "radius_rate_mps")}
-    return poincare_section(series, step_s, period_s, transient_periods=transient_periods).points
 
 
 def share_near(lines: Spectrum, frequencies: Iterable[float]) -> float:

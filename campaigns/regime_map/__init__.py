@@ -11,22 +11,19 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 --budget. Cells at borders are bisected with --refine. Kicks are drawn by --seed; nothing else is random.
 """
 
-import contextlib
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from campaigns.buoy_sweep import STUDY as SWEEP
 from campaigns.explore import sweep as motions
-from campaigns.explore.settings import ROW_SOURCES
+from campaigns.explore.grid import varied
+from campaigns.explore.settings import BUDGET, ROW_SOURCES
 from campaigns.machinery import cli, session
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.regime_map import cuts
-from campaigns.regime_map.cells import Grid
+from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
-from campaigns.sweep import varied
 from engine.views import carries_tangents, in_regular_waves
-from tables import read_table
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
 STARTS, MOST_CELLS = 3, 100_000
@@ -37,53 +34,50 @@ def options(group) -> None:
     cli.add(group, "--vary", "KEY LO HI COUNT", twice)
     cli.add(group, "--pages", "KEY LO HI COUNT", "a map for each value of a third key; KEY WORD WORD of a key of words")
     cli.add(group, "--starts", "N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
-    speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
+    speed = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
     cli.add(group, "--kick-speed", "MPS", "kicks are up to this along x and z, m/s", speed, motions.SPEED_MPS)
     cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
     cli.add(group, "--refine", "N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
-    most = SWEEP.lengths.budget
-    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", cli.whole(1, most), most)
+    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", cli.whole(1, BUDGET), BUDGET)
     cli.add(group, "--cut", "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder")
     group.add_argument("--screen", action="store_true", help="a massless tether only")
 
 
 def read(options, faults: list[str]) -> None:
-    """The keys of the map (`Grid`) in place of the words of --vary and --pages; the values of --cut."""
+    """The keys of the map (`CellGrid`) in the words of --vary and --pages; the values of --cut."""
     words = options.vary if options.vary is not None else USUAL
-    page, options.grid = None, None
+    options.grid = None
     if len(words) != 8:
         faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: twice KEY LO HI COUNT, or none of it")
         return
-    keys = [varied(words[:4], faults), varied(words[4:], faults)]
+    axes, pages = [varied(words[:4], faults), varied(words[4:], faults)], []
     if options.pages is not None:
         if len(options.pages) < 2:
-            faults.append(
-                f"--pages: given {' '.join(options.pages) or 'nothing'}; allowed: KEY LO HI COUNT, or KEY WORDS"
-            )
+            words_given = " ".join(options.pages) or "nothing"
+            faults.append(f"--pages: given {words_given}; allowed: KEY LO HI COUNT, or KEY WORDS")
             return
-        page = varied(options.pages, faults, "--pages", of_words=True)
-        keys.insert(0, page)
+        pages = [varied(options.pages, faults, "--pages", of_words=True)]
+    keys = (*pages, *axes)
     if None in keys:
         return
-    if len({one.key for one in keys}) < len(keys):
-        faults.append(f"--vary {' '.join(one.key for one in keys)}: given twice; allowed: different keys")
-    for one in keys:
-        if one is not page and len(one.values) < 2:
-            faults.append(f"--vary {one.key}: one value only; allowed: two or more")
-    options.grid = Grid((keys[-2], keys[-1]), page)
-    options.cut = cuts.read(options.cut, options.grid.every, faults)
+    if len({key.key for key in keys}) < len(keys):
+        faults.append(f"--vary {' '.join(key.key for key in keys)}: given twice; allowed: different keys")
+    for key in axes:
+        if len(key.values) < 2:
+            faults.append(f"--vary {key.key}: one value only; allowed: two or more")
+    options.grid = CellGrid(keys)
+    options.cut = cuts.read(options.cut, keys, faults)
 
 
 def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
-    from campaigns.regime_map.maps import job_at
     from engine.massless import why_not_covered
 
     grid = order.own.grid
-    order.periods, order.looks, order.transient = SWEEP.lengths.budget, True, None
+    order.periods, order.looks, order.transient = BUDGET, True, None
     if grid is None:
         return
-    order.tell(f"--set {one.key}: this campaign sets it" for one in grid.every if one.key in order.changes)
+    order.tell(f"--set {key.key}: this campaign sets it" for key in grid.keys if key.key in order.changes)
     base = order.base(tell=True)
     if base is None:
         return
@@ -92,10 +86,10 @@ def cases(order: Order) -> Iterator[Job]:
         order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {allowed}"])
         return
     for cell in grid.coarse():
-        before, job = len(order.faults), job_at(order, grid, cell)
-        if job is None or len(order.faults) > before:  # hundreds of others may be at fault in the same way
-            at = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
-            order.tell([f"--vary: that is at {at}, the first cell of the map that cannot be"])
+        fault_count, job = len(order.faults), grid.job_at(order, cell)
+        if job is None or len(order.faults) > fault_count:  # hundreds of others may be at fault in the same way
+            place = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
+            order.tell([f"--vary: that is at {place}, the first cell of the map that cannot be"])
             return
         if order.own.screen and (reason := why_not_covered(job.scene)):
             order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
@@ -117,50 +111,51 @@ def measures(order: Order) -> Measures:
 def runs(order: Order) -> Callable:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
 
-    def whole_map(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+    def map_cells(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.regime_map.maps import Map
 
-        found = Map(plan, order, order.own.grid, jobs)
-        found.screened()
+        regime_map = Map(plan, order)
+        regime_map.run_screen(jobs)
         summary = Summary([], 0, 0, 0.0)
         if not order.own.screen:
-            found.level(order.own.grid.coarse(), jobs)
-            found.refine(order.own.refine)
-            summary = found.write()
-        return found.timing(), summary
+            summary = regime_map.refine(regime_map.compute(order.own.grid.coarse(), jobs))
+        return regime_map.motions.timing(), summary
 
-    return whole_map
+    return map_cells
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
-    told: dict[str, object] = {"vary": {one.key: list(one.values) for one in own.grid.keys}}
-    if own.grid.page is not None:
-        told["pages"] = {own.grid.page.key: list(own.grid.page.values)}
-    told |= {"starts": own.starts, "kick_speed_mps": own.kick_speed, "seed": own.seed, "budget": own.budget}
-    return told | {"refine": own.refine, "screen": own.screen}
+    options = order.own
+    parameters: dict[str, object] = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
+    if options.grid.page is not None:
+        parameters["pages"] = {options.grid.page.key: list(options.grid.page.values)}
+    parameters |= {
+        "starts": options.starts,
+        "kick_speed_mps": options.kick_speed,
+        "seed": options.seed,
+        "budget": options.budget,
+    }
+    return parameters | {"refine": options.refine, "screen": options.screen}
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """What the map shows (`answer.sentences`)."""
+    """The findings of the map (`answer.sentences`)."""
     from campaigns.regime_map.answer import sentences
 
-    cells: tuple[dict, ...] = ()
-    with contextlib.suppress(OSError, ValueError):
-        cells = read_table(order.how.out / "cells" / "table.csv")
-    keys = [one for one in order.own.grid.every if one.key.startswith("buoy.")]
-    known: dict[tuple, object] = {}
+    grid = order.own.grid
+    of_buoy = CellGrid(tuple(key for key in grid.keys if key.key.startswith("buoy.")))
+    scenes: dict[tuple, object] = {}
 
     def scene(row: dict) -> object:
-        values = tuple(row[one.key] for one in keys)
-        if values not in known:
-            changes: dict[str, object] = {}
-            for one, value in zip(keys, values, strict=True):
-                order.tell(one.put(value, order.base(), changes))
-            known[values] = order.scene(changes)
-        return known[values]
+        values = tuple(row[column.name] for column in of_buoy.columns)
+        if values not in scenes:
+            changes, faults = of_buoy.changes(row, order.base())
+            order.tell(faults)
+            scenes[values] = order.scene(changes)
+        return scenes[values]
 
-    return [*sentences(cells, rows, order.own.grid.columns, scene)]
+    cells = motions.tables_of(order.how.out, "cells")["cells"]
+    return [*sentences(cells, rows, grid.columns, scene)]
 
 
 STUDY = Study(
@@ -184,6 +179,6 @@ def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int
     argv = list(sys.argv[1:] if argv is None else argv)
 
     def work(order: Order, words: list[str]) -> int:
-        return cuts.cut(order, simulate) if order.own.cut else STUDY.conduct(order, words, simulate)
+        return cuts.cut(order, words, simulate) if order.own.cut else STUDY.conduct(order, words, simulate)
 
     return session.command(STUDY.called, argv, read_order, work)

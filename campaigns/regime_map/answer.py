@@ -1,5 +1,6 @@
 """What a map says, in a few sentences: where it is chaotic, where it pulls hardest, where the start decides."""
 
+import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
@@ -16,62 +17,82 @@ def sentences(
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
     """
-    coarse = [one for one in cells if number_of(one, "level") == 0.0]
-    done = [one for one in coarse if one["source"] != SCREENED]
-    if not done:
-        yield f"Nothing is computed: {len(coarse)} cells are screened with a massless tether, which is no result."
-        peak = greatest(coarse, RATIO.name)
-        if peak is not None:
-            yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
+    coarse = [cell for cell in cells if number_of(cell, "level") == 0.0]
+    computed = [cell for cell in coarse if cell["source"] != SCREENED]
+    if not computed:
+        yield from _of_the_screen(coarse, keys)
         return
-    said = f"{len(done)} cells of the coarse grid and {len(cells) - len(coarse)} finer ones are computed"
-    left = len(coarse) - len(done)
-    yield f"{said}; {f'{left} are only screened with a massless tether' if left else 'none is only screened'}."
-    words = Counter(str(one["regime_rest"] or "") for one in done)
-    calm = sum(count for word, count in words.items() if word.startswith(PERIODIC))
-    open_ = sum(words[word] for word in OPEN_WORDS)
-    parts = {CHAOTIC: words[CHAOTIC], QUASI: words[QUASI], "periodic": calm}
-    led = listed(f"{word} on {_share(count, done)}" for word, count in parts.items())
-    chaotic = {_place(one, keys) for one in motions if one.get("regime") == CHAOTIC and number_of(one, "level") == 0.0}
-    yield f"Rest leads to a motion that is {led} of the map; {_share(open_, done)} is not decided."
-    if len(chaotic) > words[CHAOTIC]:
-        yield f"Some motion is chaotic on {_share(len(chaotic), done)} of the map."
-    if (peak := greatest(cells, TENSION.name)) is not None:
-        there = [one for one in motions if _place(one, keys) == _place(peak, keys)]
-        counted = of_kicks(greatest(there, TENSION.name) or {})
-        ends = f"; {counted} kicks there end in it" if counted != EMPTY else ""
-        pulls = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
-        yield f"Largest tension {pulls}, at {_at(peak, keys)}{ends}."
-        yield from _use([one for one in motions if number_of(one, TENSION.name) > 0.0], keys, scene)
-    several = [one for one in done if number_of(one, "motions") > 1]
-    most = max((number_of(one, "motions") for one in several), default=1)
+    finer, screened = len(cells) - len(coarse), len(coarse) - len(computed)
+    rest = f"{screened} are only screened with a massless tether" if screened else "none is only screened"
+    yield f"{len(computed)} cells of the coarse grid and {finer} finer ones are computed; {rest}."
+    yield from _regimes(computed, motions, keys)
+    peak = greatest(cells, TENSION.name)
+    if peak is not None:
+        yield _peak(peak, motions, keys)
+        yield from _use([row for row in motions if number_of(row, TENSION.name) > 0.0], keys, scene)
+    several = [number_of(cell, "motions") for cell in computed if number_of(cell, "motions") > 1]
     if several:
-        yield f"On {_share(len(several), done)} of the map the start decides: up to {most:.0f} motions."
-    cheap = sum(one.get("verdict") == "cheap" for one in motions)
+        yield f"On {_share(len(several), computed)} of the map the start decides: up to {max(several):.0f} motions."
+    cheap = sum(row.get("verdict") == "cheap" for row in motions)
     yield f"Of {len(motions)} motions {cheap} have a cheap verdict: they repeat at one look."
-    if failed := sum(one["source"] == FAILED for one in cells):
+    failed = sum(cell["source"] == FAILED for cell in cells)
+    if failed:
         yield f"{failed} cells have no result; the column message of cells/table.csv says why."
+
+
+def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
+    yield f"Nothing is computed: {len(cells)} cells are screened with a massless tether, which is no result."
+    peak = greatest(cells, RATIO.name)
+    if peak is not None:
+        yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
+
+
+def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
+    """The shares of the map on which the motion from rest, or some motion, is chaotic, quasi-periodic or periodic."""
+    counts = Counter(str(cell["regime_rest"] or "") for cell in computed)
+    periodic = sum(count for word, count in counts.items() if word.startswith(PERIODIC))
+    undecided = sum(counts[word] for word in OPEN_WORDS)
+    parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
+    shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
+    yield f"Rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
+    chaotic = {_place(row, keys) for row in motions if row.get("regime") == CHAOTIC and number_of(row, "level") == 0.0}
+    if len(chaotic) > counts[CHAOTIC]:
+        yield f"Some motion is chaotic on {_share(len(chaotic), computed)} of the map."
+
+
+def _peak(peak: Row, motions: Sequence[Row], keys: Sequence[Column]) -> str:
+    """The largest tension of the map, and how many kicks of its cell lead to it."""
+    motions_of_cell = [row for row in motions if _place(row, keys) == _place(peak, keys)]
+    kicks = of_kicks(greatest(motions_of_cell, TENSION.name) or {})
+    share = f"; {kicks} kicks there end in it" if kicks != EMPTY else ""
+    pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
+    return f"Largest tension {pull}, at {_at(peak, keys)}{share}."
 
 
 def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
-    some = sorted(motions, key=lambda one: -number_of(one, TENSION.name))
-    free = next((one for one in some if not [*reasons(one, scene(one))]), None)
-    for row in some[:1]:
-        searched = number_of(row, "share") == number_of(row, "share")
-        best = f" Without that it is {kilonewton(number_of(free, TENSION.name))}, at {_at(free, keys)}." if free else ""
-        yield use_of(row, scene(row), searched) + ("" if free is row else best)
+    if not motions:
+        return
+    by_tension = sorted(motions, key=lambda row: -number_of(row, TENSION.name))
+    peak = by_tension[0]
+    usable = next((row for row in by_tension if not [*reasons(row, scene(row))]), None)
+    sentence = use_of(peak, scene(peak), searched=math.isfinite(number_of(peak, "share")))
+    if usable is not None and usable is not peak:
+        sentence += f" Without that it is {kilonewton(number_of(usable, TENSION.name))}, at {_at(usable, keys)}."
+    yield sentence
 
 
-def _share(count: int, of: Sequence) -> str:
-    return f"{100.0 * count / len(of):.3g} %"
+def _share(count: int, cells: Sequence) -> str:
+    return f"{100.0 * count / len(cells):.3g} %"
 
 
-def _place(one: Row, keys: Sequence[Column]) -> tuple:
-    return tuple(one[key.name] for key in keys)
+def _place(row: Row, keys: Sequence[Column]) -> tuple:
+    return tuple(row[key.name] for key in keys)
 
 
-def _at(one: Row, keys: Sequence[Column]) -> str:
-    values = (one[key.name] if isinstance(one[key.name], str) else f"{one[key.name]:.4g}" for key in keys)
-    said = (f"{key.symbol} = {value} {key.unit}".rstrip() for key, value in zip(keys, values, strict=True))
-    return ", ".join(said)
+def _at(row: Row, keys: Sequence[Column]) -> str:
+    words = []
+    for key, value in zip(keys, _place(row, keys), strict=True):
+        text = value if isinstance(value, str) else f"{value:.4g}"
+        words.append(f"{key.symbol} = {text} {key.unit}".rstrip())
+    return ", ".join(words)

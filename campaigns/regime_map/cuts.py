@@ -1,73 +1,89 @@
 """A row or a column of a map as a sweep of its own, in a folder of the map, with the judged runs of the map."""
 
-import contextlib
 import os
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from campaigns.machinery.folder import claimed, trajectory_path
-from campaigns.study import Order
-from tables import read_table
+from campaigns.explore.grid import Grid, Varied
+from campaigns.explore.sweep import tables_of
+from campaigns.machinery.folder import CampaignStopped, claimed, trajectory_path
+from campaigns.study import Order, Study
 
 
-def read(words: list[str] | None, keys, faults: list[str]) -> dict[str, object]:
-    """The values of --cut by key: the nearest ones of the map; keys: `Varied` of all its keys."""
+def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> dict[str, object]:
+    """The values of --cut by key: the nearest ones of the map. keys: of the map."""
     chosen: dict[str, object] = {}
     if words is None:
         return chosen
-    known = {one.key: one for one in keys}
+    by_name = {key.key: key for key in keys}
     for word in words:
-        key, _, text = word.partition("=")
-        if key not in known:
-            faults.append(f"--cut {word}: not a key of the map; allowed: KEY=VALUE of {', '.join(known)}")
+        name, _, text = word.partition("=")
+        if name not in by_name:
+            faults.append(f"--cut {word}: not a key of the map; allowed: KEY=VALUE of {', '.join(by_name)}")
             continue
-        values = known[key].values
+        values = by_name[name].values
         try:
-            chosen[key] = text if text in values else min(values, key=lambda one: abs(one - float(text)))
+            chosen[name] = text if text in values else min(values, key=lambda value: abs(value - float(text)))
         except (TypeError, ValueError):
             faults.append(f"--cut {word}: allowed: one of {', '.join(map(str, values))}")
-    if not faults and len(chosen) != len(known) - 1:
-        faults.append(f"--cut {' '.join(words)}: allowed: a value of all keys of the map but one of {', '.join(known)}")
+    if not faults and len(chosen) != len(keys) - 1:
+        names = ", ".join(by_name)
+        faults.append(f"--cut {' '.join(words)}: allowed: a value of all keys of the map but one of {names}")
     return chosen
 
 
-def cut(order: Order, simulate: Callable | None = None) -> int:
-    """Do the sweep of the key that is left; returns its exit code. simulate: as of `Study.main`."""
+def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
+    """Do the sweep of the key that is left; returns its exit code. argv, simulate: as of `Study.conduct`."""
+    chosen = order.own.cut
+    places = ",".join(f"{name}={value}" for name, value in chosen.items())
+    out = order.how.out / "cuts" / places
+    _share_runs(order, out)
+    changes = dict(order.changes)
+    for key in order.own.grid.keys:
+        if key.key in chosen:
+            order.tell(key.put(chosen[key.key], order.base(), changes))
+    study, options = _sweep_of(order)
+    options |= {"seed": order.own.seed, "kick_speed": order.own.kick_speed}
+    sweep = study.order(replace(order.how, out=out), order.name, changes, **options)
+    if faults := [*order.faults, *sweep.faults]:
+        raise CampaignStopped("; ".join(faults))
+    print(f"cut      {' and '.join(f'{name} = {value}' for name, value in chosen.items())}, in {out}")
+    return study.conduct(sweep, argv, simulate)
+
+
+def _sweep_of(order: Order) -> tuple[Study, dict[str, object]]:
+    """The sweep over the key of a map that is left, as done by the command of the map, and its options."""
     from campaigns import buoy_sweep, sweep
 
-    own, how, chosen = order.own, order.how, order.own.cut
-    free = next(one for one in own.grid.every if one.key not in chosen)
-    out = how.out / "cuts" / ",".join(f"{key}={value}" for key, value in chosen.items())
-    keys = {case.key for case in order.cases if _of(case.labels, chosen)}
-    with contextlib.suppress(OSError, ValueError):  # a map that has not come to its end
-        keys |= {row["run_key"] for row in read_table(how.out / "table.csv") if _of(row, chosen)}
+    (key,) = (key for key in order.own.grid.keys if key.key not in order.own.cut)
+    if key.key == buoy_sweep.SWEPT:
+        study, options = buoy_sweep.STUDY, {"grid": buoy_sweep.grid_of(key.values), "no_accuracy": True}
+    else:
+        study, options = sweep.STUDY, {"grid": Grid((key,)), "budget": order.periods}
+    return replace(study, module="campaigns.regime_map"), options
+
+
+def _share_runs(order: Order, out: Path) -> None:
+    """Give the folder of a cut the judged runs of its cells."""
+    chosen, folder = order.own.cut, order.how.out
+    keys = {case.key for case in order.cases if _lies_on(case.labels, chosen)}
+    keys |= {row["run_key"] for row in tables_of(folder, ".")["."] if _lies_on(row, chosen)}
     with claimed(out):
-        for there, here in ((trajectory_path(how.out, key), trajectory_path(out, key)) for key in sorted(keys)):
-            if there.exists() and not here.exists():
-                _shared(there, here)
-    words = ["--out", str(out), "--jobs", str(how.jobs), "--backend", how.backend, "--scene", order.name]
-    words += ["--dask-address", how.dask_address] if how.dask_address else []
-    words += ["--seed", str(own.seed), "--kick-speed", str(own.kick_speed), *([] if how.report else ["--no-report"])]
-    changes: dict[str, object] = {}
-    for one in own.grid.every:
-        if one.key in chosen:
-            order.tell(one.put(chosen[one.key], order.base(), changes))
-    words += ["--set", *(own.set or []), *(f"{name}={value}" for name, value in changes.items())]
-    print(f"cut      {' and '.join(f'{key} = {value}' for key, value in chosen.items())}, in {out}")
-    if free.key == buoy_sweep.SWEPT:
-        return buoy_sweep.main([*words, "--no-accuracy", "--steepness", *map(str, free.values)], simulate)
-    ends = map(str, (free.values[0], free.values[-1], len(free.values)))
-    return sweep.main([*words, "--vary", free.key, *ends, "--budget", str(order.periods)], simulate)
+        for key in sorted(keys):
+            source, target = trajectory_path(folder, key), trajectory_path(out, key)
+            if source.exists() and not target.exists():
+                _link(source, target)
 
 
-def _of(labels: Mapping, chosen: dict[str, object]) -> bool:
-    return all(labels[key] == value for key, value in chosen.items())
+def _lies_on(labels: Mapping, chosen: dict[str, object]) -> bool:
+    return all(labels[name] == value for name, value in chosen.items())
 
 
-def _shared(there: Path, here: Path) -> None:
+def _link(source: Path, target: Path) -> None:
     """Let two folders have one file; whoever goes on with its run writes another one in its place."""
     try:
-        os.link(there, here)
+        os.link(source, target)
     except OSError:  # another file system, or one without links
-        shutil.copyfile(there, here)
+        shutil.copyfile(source, target)

@@ -1,12 +1,16 @@
 """Tables of a map: its motions, its cells, the massless screen, and the strobes of every motion."""
 
-import math
+import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.explore.rows import COLUMNS, EXTREMES, HEIGHT, REGIME, STEEPNESS, TANGENT
+from campaigns.explore.motions import Motion
+from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
+from campaigns.explore.settings import columns_of
+from campaigns.regime_map.cells import CellGrid
 from engine.atomic import write_atomic
 from tables import (
     COMPUTED,
@@ -22,6 +26,9 @@ from tables import (
     Column,
     write_table,
 )
+
+if TYPE_CHECKING:
+    from campaigns.regime_map.maps import Map
 
 STROBES = 64  # wave periods of a motion at most
 LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0, SHEET)
@@ -60,94 +67,112 @@ OF_THE_SCREEN = (COUNT, OF_REST, RATIO, SHARE)
 
 def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
     """Those of table.csv, behind those of the keys: a row is a motion of a computed cell."""
-    left = {STEEPNESS.name, "confirmed", *(one.name for one in keys)}
-    own = [one for one in COLUMNS if one.name not in left and not one.name.startswith("planar_")]
-    own.insert(own.index(REGIME) + 1, VERDICT)
-    own.insert(own.index(EXTREMES[-1]) + 1, STATIC)
-    own.insert(0, LEVEL)
-    return *keys, *own
+    columns = [column for column in columns_of(keys) if column.name != "confirmed"]
+    columns.insert(columns.index(REGIME) + 1, VERDICT)
+    columns.insert(columns.index(EXTREMES[-1]) + 1, STATIC)
+    columns.insert(len(keys), LEVEL)
+    return tuple(columns)
 
 
-def write_screen(out: Path, grid, jobs: Sequence, found: Sequence[list[dict]]) -> None:
+def write_screen(out: Path, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     (out / "screen").mkdir(exist_ok=True)
-    rows = [{**job.labels, **screen_row(some)} for job, some in zip(jobs, found, strict=True)]
+    rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
     write_table(out / "screen" / "table.csv", (*grid.columns, *OF_THE_SCREEN), rows)
 
 
-def screen_row(some: list[dict]) -> dict[str, object]:
+def screen_row(motions: list[dict]) -> dict[str, object]:
     """The columns OF_THE_SCREEN; empty of a scene without a massless model."""
-    if not some:
+    if not motions:
         return {}
-    rest = next((one for one in some if one["rest"]), None)
-    largest = max(some, key=lambda one: one["tension_N"])
-    word = None if rest is None else f"period-{rest['period']}" if rest["period"] else "irregular"
-    found = {"motions": len(some), "regime_rest": word, "share_of_largest": largest["share"]}
-    return found | ({RATIO.name: largest["tension_N"] / some[0]["static_N"]} if some[0]["static_N"] else {})
+    regime = None
+    for motion in motions:
+        if motion["rest"]:
+            regime = f"period-{motion['period']}" if motion["period"] else "irregular"
+            break
+    largest = max(motions, key=lambda motion: motion["tension_N"])
+    row = {"motions": len(motions), "regime_rest": regime, "share_of_largest": largest["share"]}
+    static_N = motions[0]["static_N"]
+    if static_N:
+        row[RATIO.name] = largest["tension_N"] / static_N
+    return row
 
 
-def write_cells(out: Path, found) -> None:
+def write_cells(out: Path, map_: "Map") -> None:
     """cells/table.csv: a row for each cell of every level. Raises OSError."""
     (out / "cells").mkdir(exist_ok=True)
-    widths = tuple(
-        Column(f"width_{one.key}", one.column.unit, f"Δ{one.column.symbol}", "size of the cell", 5)
-        for one in found.grid.keys
-    )
-    write_table(out / "cells" / "table.csv", (*found.grid.columns, *widths, *OF_A_CELL), [*_cells(found)])
+    widths = []
+    for key in map_.grid.axes:
+        unit, symbol = key.column.unit, f"Δ{key.column.symbol}"
+        widths.append(Column(f"width_{key.key}", unit, symbol, "size of the cell", 5))
+    write_table(out / "cells" / "table.csv", (*map_.grid.columns, *widths, *OF_A_CELL), [*_cells(map_)])
 
 
-def _cells(found) -> Iterator[dict]:
-    grid = found.grid
-    done = {cell: job for cell, job in zip(found.tree.cells, found.jobs, strict=True) if job.key in found.rows}
+def _cells(map_: "Map") -> Iterator[dict]:
+    grid, motions = map_.grid, map_.motions
+    places = {cell: place for cell, place in map_.tree.number.items() if _is_done(map_, place)}
     for number, cell in enumerate(grid.coarse()):
-        if cell not in done:
-            seen = screen_row(found.screen[number]) if found.screen else {}
-            yield {**_place(grid, cell), "source": SCREENED, **seen}
-    for cell, job in done.items():
-        yield {**_place(grid, cell), **_cell(found, found.tree.number[cell], job)}
+        if cell not in places:
+            row = screen_row(map_.screen[number]) if map_.screen else {}
+            yield {**grid.labels(cell), **grid.widths(cell), "level": 0, "source": SCREENED, **row}
+    for cell, place in places.items():
+        row = _cell(map_, motions.at[place], motions.rows[motions.jobs[place].key])
+        yield {**grid.labels(cell), **grid.widths(cell), "level": cell.level, **row}
 
 
-def _place(grid, cell) -> dict[str, object]:
-    widths = {f"width_{one.key}": width for one, width in zip(grid.keys, grid.widths(cell), strict=True)}
-    return {**grid.labels(cell), **widths, "level": cell.level}
+def _is_done(map_: "Map", place: int) -> bool:
+    """Whether the run from rest of a cell has ended."""
+    jobs = map_.motions.jobs
+    return place < len(jobs) and jobs[place].key in map_.rows
 
 
-def _cell(found, at: int, job) -> dict[str, object]:
-    """The columns OF_A_CELL of a cell whose run from rest has ended, by what is known of its motions so far."""
-    some = found.motions[at] if at < len(found.motions) else []
-    rest = found.rows[job.key]
-    rows = [row for row in (found.row_of(one) for one in some) if row] or [rest]
-    told = {"run_key_rest": job.key, "status": rest["status"], "message": rest.get("message")}
-    told |= {"source": FAILED if rest["status"] != "ok" and not some else COMPUTED, "motions": len(some) or None}
-    told |= {"regime_rest": rest.get("regime"), "period_rest": rest.get("strobed_period")}
-    told["wall_s"] = sum(row.get(WALL_S.name) or 0.0 for row in rows)
-    for name, column, above in (("loops", LOOPS, 0.0), ("leaves_water", HEIGHT, 0.0)):
-        told[name] = int(any((row.get(column.name) or -math.inf) > above for row in rows))
+def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> dict[str, object]:
+    """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
+    rows = [map_.motions.row_of(motion) for motion in motions]
+    rows = [row for row in rows if row] or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
-    told["exponent_max_per_period"] = max(exponents, default=None)
-    largest = max(some, key=found.tension_N, default=None)
-    tension = found.tension_N(largest) if largest is not None else rest.get(TENSION.name)
-    static = rest.get(STATIC.name)
-    told |= {TENSION.name: tension, RATIO.name: tension / static if tension and static else None}
-    if largest is not None and found.kicked:
-        told[SHARE.name] = largest.kicks / found.kicked
-    return told
+    largest = max(motions, key=map_.tension_N, default=None)
+    tension_N = rest.get(TENSION.name) if largest is None else map_.tension_N(largest)
+    static_N = rest.get(STATIC.name)
+    cell = {
+        "source": FAILED if rest["status"] != "ok" and not motions else COMPUTED,
+        "motions": len(motions) or None,
+        "regime_rest": rest.get("regime"),
+        "period_rest": rest.get("strobed_period"),
+        TENSION.name: tension_N,
+        RATIO.name: tension_N / static_N if tension_N and static_N else None,
+        "exponent_max_per_period": max(exponents, default=None),
+        "loops": int(_any_above_zero(rows, LOOPS)),
+        "leaves_water": int(_any_above_zero(rows, HEIGHT)),
+        "wall_s": sum(row.get(WALL_S.name) or 0.0 for row in rows),
+        "run_key_rest": rest["run_key"],
+        "status": rest["status"],
+        "message": rest.get("message"),
+    }
+    if largest is not None and map_.motions.kicks:
+        cell[SHARE.name] = largest.kicks / map_.motions.kicks
+    return cell
 
 
-def write_strobes(out: Path, found) -> None:
+def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
+    return any((row.get(column.name) or 0.0) > 0.0 for row in rows)
+
+
+def write_strobes(out: Path, map_: "Map") -> None:
     """strobes.npz: r (m) once a wave period, and the largest tension (N) of the period that begins there, of a motion.
 
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.
     """
-    import io
-
-    some = [one for motions in found.motions for one in motions]
-    radius, tension = (np.full((len(some), STROBES), np.nan, np.float32) for _ in range(2))
-    for number, motion in enumerate(some):
-        r, pulls = np.hypot(*motion.settled.points[-STROBES:, :2].T), motion.settled.measures[-STROBES:, 2]
-        radius[number, : len(r)], tension[number, : len(pulls)] = r, pulls
-    keys = np.array([str(found.row_of(one).get(RUN_KEY.name, "")) for one in some], "U64")
-    letters = np.array([one.branch.letter if one.branch else "" for one in some], "U8")
+    motions = [*map_.motions.all_motions()]
+    radius, tension = (np.full((len(motions), STROBES), np.nan, np.float32) for _ in range(2))
+    keys, letters = [], []
+    for number, motion in enumerate(motions):
+        points, measures = motion.settled.points[-STROBES:], motion.settled.measures[-STROBES:]
+        radius[number, : len(points)] = np.hypot(points[:, 0], points[:, 1])
+        tension[number, : len(measures)] = measures[:, 2]
+        keys.append(str(map_.motions.row_of(motion).get(RUN_KEY.name, "")))
+        letters.append(motion.branch.letter if motion.branch else "")
     content = io.BytesIO()
-    np.savez_compressed(content, run_key=keys, motion=letters, radius_m=radius, tension_N=tension)
+    arrays = {"radius_m": radius, "tension_N": tension}
+    np.savez_compressed(content, run_key=np.array(keys, "U64"), motion=np.array(letters, "U8"), **arrays)
     write_atomic(out / "strobes.npz", content.getvalue())

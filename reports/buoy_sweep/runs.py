@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from engine.natural_frequencies import Modes, natural_frequencies
+from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
 from ..figures.run_sheet import run_sheet
@@ -216,7 +217,7 @@ def _read_run(folder: Folder, row: dict, anchor: str = "", draw: Callable | None
     trajectory, fault = folder.trajectory(row)
     if trajectory is None or len(trajectory.columns["time_s"]) < 2:
         return Run(row, anchor, fault, transient)
-    section = strobed(trajectory, transient)
+    section = strobed_radius(trajectory, transient)
     periods_done = float(trajectory.columns["time_s"][-1]) / trajectory.scene.waves.period_s
     run = Run(row, anchor, fault, transient, periods_done, section)
     if draw is None or periods_done < 1.0:
@@ -264,23 +265,6 @@ def _spectrum(run: Run, trajectory: Trajectory) -> Spectrum | None:
     if window is None or not np.isfinite(values).all():
         return None
     return spectrum(values, scene.sample_step_s(), scene.waves.period_s, *window)
-
-
-def strobed(trajectory: Trajectory, transient: int) -> np.ndarray:
-    """Columns r (m) and r' (m/s) at t = k T_i, k >= transient, (m, 2); empty for a record that ends before.
-
-    They are taken from the trajectory, because table.csv has no strobed values.
-    """
-    from analysis import poincare_section
-
-    radius_m, rate_mps = trajectory.columns["radius_m"], trajectory.columns["radius_rate_mps"]
-    step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-    finite = np.isfinite(radius_m) & np.isfinite(rate_mps)
-    end = int(np.logical_and.accumulate(finite).sum())  # finite samples
-    if (end - 1) * step_s < transient * period_s:
-        return np.empty((0, 2))
-    sound = {"radius_m": radius_m[:end], "radius_rate_mps": rate_mps[:end]}
-    return poincare_section(sound, step_s, period_s, transient_periods=transient).points
 
 
 def spectrum_window(periods_done: float) -> tuple[int, int] | None:

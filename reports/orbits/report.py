@@ -8,10 +8,10 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 
+from engine.views import strobed_radius
 from tables import EMPTY, Column, any_rows, count, decimals, listed, number, number_of
 
 from ..buoy_sweep.motions import MARKS
-from ..buoy_sweep.runs import strobed
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
@@ -125,7 +125,7 @@ def _points_of_motions(folder: Folder, key: Column, motions: Sequence[Row], colo
         run, _ = part.trajectory(row)
         points = np.empty(0)
         if run is not None:
-            points = strobed(run, int(row.get("transient_periods") or 0))[:, 0]
+            points = strobed_radius(run, int(row.get("transient_periods") or 0))[:, 0]
         columns.append(Strobes(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
     return columns
 

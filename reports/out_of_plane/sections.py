@@ -6,9 +6,9 @@ from operator import attrgetter
 
 import numpy as np
 
+from engine.views import strobed_radius
 from tables import BODIES, PAIRS, PLANE, any_rows, errors_of, number, number_of
 
-from ..buoy_sweep.runs import strobed
 from ..figures.motion import section_pairs
 from ..figures.offplane_history import History, dependence, lateral_histories
 from ..parts.columns import shown_on, table_of
@@ -164,7 +164,7 @@ def comparison_items(study: Study) -> Iterator[Item]:
     yield table_of(columns, shown, pair_rows, "What the runs of a pair differ in. From `pairs.csv`.")
     sections = []
     for row, pair in zip(pair_rows, pairs, strict=True):
-        points = [strobed(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
+        points = [strobed_radius(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
         if len(points) == 2:
             sections.append((f"H = {number(number_of(row, 'depth_m'))} m", *points))
     if sections:

@@ -8,7 +8,7 @@ import pytest
 
 from analysis import joins, settled
 from campaigns.basins import main, read_order
-from campaigns.basins.grid import PAIRS, Grid
+from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.smallest import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
 from engine import load_scene, simulate, simulate_each
@@ -22,7 +22,7 @@ QUICK = ["--set", "tether.nodes=9", "water.depth_m=21", "waves.steepness=0.05", 
 
 @pytest.mark.parametrize("pair", PAIRS)
 def test_a_turn_and_a_size_are_the_start_of_that_point(pair):
-    grid = Grid(tuple(pair.split()), (7, 12), 3.0)
+    grid = StartGrid(tuple(pair.split()), (7, 12), 3.0)
     names = {column.name for column in KICKS}
     for point in grid.points():
         told, again = grid.start(*point).labels(), grid.at(*grid.polar(*point), "").labels()
@@ -31,7 +31,7 @@ def test_a_turn_and_a_size_are_the_start_of_that_point(pair):
 
 
 def test_the_first_starts_of_a_grid_are_spread_over_it():
-    grid = Grid(("vx", "vz"), (12, 12), 6.0)
+    grid = StartGrid(("vx", "vz"), (12, 12), 6.0)
     order = list(grid.spread(1))
     assert sorted(order) == list(range(144))
     quarters = {(grid.points()[number][0] > 0.0, grid.points()[number][1] > 0.0) for number in order[:8]}

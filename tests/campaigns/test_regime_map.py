@@ -3,16 +3,12 @@
 import numpy as np
 import pytest
 
-from analysis.motions import Settled
 from campaigns import buoy_sweep
-from campaigns.explore import along as module
-from campaigns.explore.along import Lattice
-from campaigns.explore.starts import Ended
+from campaigns.explore.grid import varied
 from campaigns.regime_map import main, read_order
-from campaigns.regime_map.cells import Grid, Quadtree
-from campaigns.sweep import varied
+from campaigns.regime_map.cells import CellGrid, Quadtree
 from tests.campaigns.conftest import finished, rows_of
-from tests.campaigns.explore.test_along import State
+from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
 
 SIDE = 10  # so that no cell lies on the line of symmetry, where an unstable state is reached
@@ -20,7 +16,7 @@ VARY = "--vary", "waves.steepness", 0.02, 0.1, 3, "--vary", "water.depth_m", 21,
 
 
 def grid(*words):
-    return Grid(tuple(varied(one.split(), []) for one in words))
+    return CellGrid(tuple(varied(one.split(), []) for one in words))
 
 
 def square(count=SIDE):
@@ -32,6 +28,10 @@ def run(out, *words, engine=None):
     return main([*map(str, words), *usual], simulate=engine or FakeEngine())
 
 
+def area_of(shape, cell):
+    return np.prod([*shape.widths(cell).values()])
+
+
 def test_cells_beside_each_other_are_so_both_ways_and_parts_fill_their_cell():
     shape, tree = square(4), Quadtree()
     tree.add(shape.coarse())
@@ -39,100 +39,29 @@ def test_cells_beside_each_other_are_so_both_ways_and_parts_fill_their_cell():
         tree.add(cell.parts())
     tree.add(tree.cells[5].parts()[3].parts())
     for at in range(len(tree.cells)):
-        assert all(at in tree.beside(there) for there in tree.beside(at))
-    area = sum(np.prod(shape.widths(cell)) for cell in tree.leaves())
-    assert area == pytest.approx(16 * np.prod(shape.widths(tree.cells[0])))
+        assert all(at in tree.neighbours(there) for there in tree.neighbours(at))
+    area = sum(area_of(shape, cell) for cell in tree.leaves())
+    assert area == pytest.approx(16 * area_of(shape, tree.cells[0]))
     for cell in tree.leaves():
-        (x, y), (wide, high) = shape.labels(cell).values(), shape.widths(cell)
+        (x, y), (wide, high) = shape.labels(cell).values(), shape.widths(cell).values()
         for there in tree.touching(cell):
-            (u, v), (w, h) = shape.labels(there).values(), shape.widths(there)
+            (u, v), (w, h) = shape.labels(there).values(), shape.widths(there).values()
             apart = abs(x - u) - 0.5 * (wide + w), abs(y - v) - 0.5 * (high + h)
             assert max(apart) == pytest.approx(0.0, abs=1e-9)  # a side in common
             assert min(apart) < -1e-9  # and not a corner only
 
 
-class Scene:
-    """x' = p + q x - x^3: two stable states for p^2 < 4 q^3/27, else one."""
-
-    waves = type("Waves", (), {"period_s": 1.0})
-
-    def __init__(self, p, q):
-        self.p, self.q = p, q
-
-    def sample_step_s(self):
-        return 0.01
-
-    def settled(self, x):
-        for _ in range(4000):
-            x += 0.05 * (self.p + self.q * x - x**3)
-        return Settled(1, np.array([[x]]), np.array([[x, x, 2.0 + x]]), np.array([2.0]), "")
-
-
-class Starts:
-    """As `campaigns.explore.starts.Starts`, of this system; count: how many were run."""
-
-    def __init__(self, plan, named):
-        self.ended, self.count = [], 0
-
-    def run(self, said, asked, told=True):
-        found = []
-        for one in asked:
-            begin = one.start.kick[0] if one.start.state is None else one.start.state.x
-            motion = one.scene.settled(begin)
-            x = float(motion.points[0, 0])
-            which = next((i for i, known in enumerate(one.known) if abs(float(known.points[0, 0]) - x) < 1e-3), None)
-            own = {} if which is not None else {"settled": motion, "state": State(x)}
-            found.append(Ended({"status": "ok", "outcome": "joined" if own == {} else ""}, which, **own))
-        self.count += len(asked)
-        self.ended += found
-        return found
-
-
-class Around(Lattice):
-    """The cells about the cusp."""
-
-    like = 0.1
-
-    def __init__(self, shape):
-        super().__init__(type("Plan", (), {"how": type("How", (), {"out": None})}), ())
-        self.tree, self.shape = Quadtree(), shape
-        self.tree.add(shape.coarse())
-        self.add([self.job(cell) for cell in self.tree.cells], [{"run_key": cell} for cell in self.tree.cells])
-
-    def job(self, cell):
-        return type("Job", (), {"labels": {}, "scene": Scene(*self.shape.labels(cell).values()), "key": cell})
-
-    def beside(self, at):
-        return self.tree.beside(at)
-
-
-@pytest.fixture
-def around(monkeypatch):
-    shape = square()
-
-    class Run:
-        def __init__(self, folder, row):
-            self.settled = Scene(*shape.labels(row["run_key"]).values()).settled(-1.0)
-            self.final_state = State(float(self.settled.points[0, 0]))
-
-    monkeypatch.setattr(module, "Starts", Starts)
-    monkeypatch.setattr(module, "run_of", Run)
-    monkeypatch.setattr(module, "settled_of", lambda found, orbits: found.settled)
-    monkeypatch.setattr(module, "proposals", lambda plan, scenes, *how: [[] for _ in scenes])
-    found = Around(shape)
-    found.find(0, 2.0, 1)
-    found.name()
-    return found
-
-
-def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cell(around):
-    for cell, motions in zip(around.tree.cells, around.motions, strict=True):
-        p, q = around.shape.labels(cell).values()
-        assert len(motions) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
-        letters = [one.branch.letter for one in motions]
-        assert len(set(letters)) == len(letters)
-    assert {one.branch.letter for some in around.motions for one in some} <= {"A", "B"}
-    assert around.starts.count < 4 * SIDE**2  # where a neighbour has a like motion, nothing is run
+def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cell(monkeypatch, tmp_path):
+    shape, tree = square(), Quadtree()
+    tree.add(shape.coarse())
+    motions = ToyMotions(tmp_path, shape.columns, tree.neighbours, match_distance=0.1)
+    jobs = [Job(shape.labels(cell), Scene(*shape.labels(cell).values())) for cell in tree.cells]
+    for job, found in zip(jobs, explored(monkeypatch, motions, jobs, kicks=0).at, strict=True):
+        p, q = job.labels.values()
+        assert len(found) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
+        assert len({motion.branch.letter for motion in found}) == len(found)
+    assert {motion.branch.letter for motion in motions.all_motions()} <= {"A", "B"}
+    assert motions.starts.count < 4 * SIDE**2  # where a neighbour has a like motion, nothing is run
 
 
 @pytest.fixture

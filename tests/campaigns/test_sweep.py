@@ -55,6 +55,15 @@ def test_two_keys_are_every_pair_of_their_values(tmp_path):
     assert (columns["waves.steepness"]["digits"], columns["status"]["digits"]) == ("2", "")
 
 
+def test_mass_times_two_kicks_is_one_command_that_ends_with_a_report(tmp_path):
+    keys = ["--vary", "buoy.mass_kg", "1500", "1700", "3", "--vary", "start.buoy_velocity_mps[0]", "0", "4", "2"]
+    words = [*keys, "--periods", "6", "--transient", "2", "--backend", "threading", "--out", str(tmp_path)]
+    assert main(words, simulate=FakeEngine()) == 0, "without a report the exit code is 1"
+    places = {(row["buoy.mass_kg"], row["start.buoy_velocity_mps[0]"]) for row in rows_of(tmp_path)}
+    assert places == {(mass, kick) for mass in ("1500.0", "1600.0", "1700.0") for kick in ("0.0", "4.0")}
+    assert "start.buoy_velocity_mps[0]" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(("words", "left_out"), [((), 2.0), (("--transient", 3), 3.0)])
 def test_of_an_irregular_sea_the_ramp_is_left_out_or_what_is_asked_for(words, left_out, tmp_path):
     sea = ("--set", "waves.jonswap.significant_height_m=1", "waves.ramp_s=10", "--periods", 120)

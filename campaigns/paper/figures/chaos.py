@@ -14,9 +14,8 @@ import numpy as np
 from campaigns.figure_data import Array, Source, source
 from campaigns.machinery.folder import trajectory_path
 from campaigns.paper.measured import LeftOut, Parts, Plan
-from campaigns.paper.measures import strobed
 from engine.natural_frequencies import natural_frequencies
-from engine.views import carried
+from engine.views import carried, strobed_radius
 from tables import LARGE, SMALL
 
 LINEAR_PERIODS = 200  # kept whole, for a linear axis as in the paper; a longer record is drawn on a logarithmic one
@@ -77,7 +76,7 @@ def _thinned(periods: np.ndarray) -> np.ndarray:
 def sections(parts: Parts) -> Plan:
     """Figure 19."""
     trajectory, origin = parts.of_buoy(LARGE)
-    points = strobed(trajectory, int(parts.part("buoy").provenance["transient"]))
+    points = strobed_radius(trajectory, int(parts.part("buoy").provenance["transient"]))
     if len(points) < LEAST_POINTS:
         raise LeftOut(f"the section at kA = {LARGE:g} has {len(points)} points, {LEAST_POINTS} are needed")
     states, numbers, reduced = _oscillator(parts)

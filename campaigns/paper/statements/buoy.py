@@ -7,7 +7,7 @@ is chaotic; then eq. (33) with figure 19b, and the motion across the plane of th
 import math
 from operator import itemgetter
 
-from campaigns.explore.along import from_rest
+from campaigns.explore.motions import from_rest
 from campaigns.paper.measured import STRANGE, Results
 from campaigns.paper.measures import EARLY, WINDOW
 from campaigns.paper.statements import judging

@@ -1,99 +1,33 @@
-"""Law: along a parameter every motion is found, has one letter on its branch, and its range ends where theory says.
-
-The system is x' = p + x - x^3: two stable states for |p| < 2/(3 sqrt 3), one beyond. Starts are integrated here; the
-rounds, the letters and the bisection are the campaign's.
-"""
+"""Law: along a parameter every motion is found, has one letter on its branch, and its range ends where theory says."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
-from analysis.motions import Settled, joins, share_of
-from campaigns.explore import along as module
-from campaigns.explore import ends
-from campaigns.explore.along import Along
+from analysis.motions import share_of
+from campaigns.explore import ends, stages
+from campaigns.explore.motions import in_a_row
 from campaigns.explore.proposals import kicks
-from campaigns.explore.starts import Ended, Start
+from campaigns.explore.starts import Start
 from tables import Column
+from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 
 FOLD = 2.0 / (3.0 * math.sqrt(3.0))
 VALUES = [round(-0.6 + 0.1 * step, 1) for step in range(13)]
 KEY = Column("p", "", "p", "the parameter", 1)
 
 
-def settled(p: float, x: float) -> Settled:
-    for _ in range(4000):
-        x += 0.05 * (p + x - x**3)
-    return Settled(1, np.array([[x]]), np.array([[x, x, 2.0 + x]]), np.array([2.0]), "")
-
-
-@dataclass
-class State:
-    x: float
-
-    def at_zero(self):
-        return self
-
-
-class Scene:
-    waves = type("Waves", (), {"period_s": 1.0})
-
-    def __init__(self, p):
-        self.p = p
-
-    def sample_step_s(self):
-        return 0.01
-
-
-class FakeStarts:
-    """As `campaigns.explore.starts.Starts`, of this system."""
-
-    def __init__(self, plan, named):
-        self.ended, self.count = [], 0
-
-    def run(self, said, asked, told=True):
-        found = []
-        for one in asked:
-            motion = settled(one.scene.p, one.start.kick[0] if one.start.state is None else one.start.state.x)
-            own = np.repeat(motion.points, 12, axis=0), np.repeat(motion.measures, 11, axis=0)
-            which = joins(*own, one.known)
-            kept = {} if which is not None else {"settled": motion, "state": State(float(motion.points[0, 0]))}
-            found.append(Ended({"status": "ok", "outcome": "" if which is None else "joined"}, which, **kept))
-        self.count += len(asked)
-        self.ended += found
-        return found
-
-
-class FakeJob:
-    def __init__(self, p):
-        self.labels, self.scene, self.key = {"p": p}, Scene(p), f"{p}"
-
-
 @pytest.fixture
 def found(monkeypatch, tmp_path):
-    """The motions of a sweep whose runs from rest begin at x = -1, and whose kicks reach both sides."""
-    monkeypatch.setattr(ends, "by_orbits", lambda along, asked: {})  # no cable here
-
-    class Run:
-        def __init__(self, p):
-            self.settled = settled(p, -1.0)
-            self.final_state = State(float(self.settled.points[0, 0]))
-
-    monkeypatch.setattr(module, "Starts", FakeStarts)
-    monkeypatch.setattr(module, "run_of", lambda folder, row: Run(row["p"]))
-    monkeypatch.setattr(module, "settled_of", lambda run, orbits: run.settled)
-    monkeypatch.setattr(module, "proposals", lambda plan, scenes, *how: [[] for _ in scenes])
-    plan = type("Plan", (), {"how": type("How", (), {"out": tmp_path})})
-    along = Along(plan, KEY, [FakeJob(p) for p in VALUES], Scene, [{"run_key": f"{p}", "p": p} for p in VALUES])
-    along.find(4, 2.0, 1)
-    along.name()
-    return along
+    """The motions of a sweep whose kicks reach both sides."""
+    monkeypatch.setattr(ends, "by_orbits", lambda *arguments: {})  # no cable here
+    motions = ToyMotions(tmp_path, [KEY], in_a_row(len(VALUES)))
+    return explored(monkeypatch, motions, [Job({"p": p}, Scene(p)) for p in VALUES], kicks=4)
 
 
 def test_both_branches_are_found_wherever_they_are_and_keep_their_letter(found):
-    for p, motions in zip(VALUES, found.motions, strict=True):
+    for p, motions in zip(VALUES, found.at, strict=True):
         states = sorted((float(one.settled.points[0, 0]), one.branch.letter) for one in motions)
         assert [letter for _, letter in states] == (["A", "B"] if abs(p) < FOLD else ["A"] if p < 0 else ["B"])
         assert all((x < 0) == (letter == "A") for x, letter in states)
@@ -118,13 +52,13 @@ def test_the_interval_of_a_share_holds_the_size_of_the_basin_in_95_of_100():
 
 
 def test_shares_count_every_kick(found):
-    for motions in found.motions:
+    for motions in found.at:
         assert sum(found.labels(one)["share"] for one in motions) == pytest.approx(1.0)
         assert {found.labels(one)["kicks"] for one in motions} == {4}
 
 
 def test_ranges_end_at_the_folds(found):
-    rows = {(row["motion"], row["end"]): row for row in ends.bisect(found)}
+    rows = {(row["motion"], row["end"]): row for row in ends.find_ends(found, Scene)}
     assert set(rows) == {("A", "upper"), ("B", "lower")}
     width = (VALUES[-1] - VALUES[0]) / ends.SHARPNESS
     for (_, end), row in rows.items():
@@ -136,12 +70,12 @@ def test_ranges_end_at_the_folds(found):
 
 def test_what_is_found_again_is_one_motion(found):
     """A longer run shows that two motions of a value are one: one of them stays, with the kicks of both."""
-    middle = found.motions[VALUES.index(0.0)]
+    middle = found.at[VALUES.index(0.0)]
     kicks = sum(one.kicks for one in middle)
-    found.merge({middle[1]: middle[0].settled})
-    (left,) = found.motions[VALUES.index(0.0)]
+    stages.merge(found, {middle[1]: middle[0].settled})
+    (left,) = found.at[VALUES.index(0.0)]
     assert left.kicks == kicks
-    assert all(one.motion is None or one.motion in found.motions[one.motion.at] for one in found.starts.ended)
+    assert all(one.motion is None or one.motion in found.at[one.motion.place] for one in found.starts.endings)
 
 
 def test_a_start_without_a_state_begins_as_it_says():

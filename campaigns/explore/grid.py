@@ -1,0 +1,132 @@
+"""Places to explore: keys of a scene with their values, and the run from rest of every combination of these.
+
+A key is called in tables as it is on the command line, unless its column has another name: `campaigns.buoy_sweep` is
+the sweep of waves.steepness with the column `steepness`.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import reduce
+from itertools import product
+
+from campaigns.judge import judged_job, judged_scene
+from campaigns.machinery import cli
+from campaigns.machinery.plan import Job
+from campaigns.study import Order
+from tables import Column
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A key with its values.
+
+    key: as on the command line, "water.depth_m", "start.buoy_velocity_mps[1]" or "waves.components[0].amplitude_m".
+    name: of the number or of the list in the scene.
+    index: of the element of a list; None for a number.
+    part: the number in an element that is a table; "" for an element that is a number.
+    column: of tables, with its name, unit and symbol.
+    """
+
+    key: str
+    name: str
+    index: int | None
+    values: tuple
+    column: Column
+    part: str = ""
+
+    def put(self, value: float, base, changes: dict[str, object]) -> Iterator[str]:
+        """Put a value into the changes of a scene; yields the fault of a list that has no such element.
+
+        base: the scene whose list it is; two keys may change two elements of one list.
+        """
+        if self.index is None:
+            changes[self.name] = value
+            return
+        elements = changes.get(self.name)
+        if elements is None:
+            elements = reduce(lambda table, name: (table or {}).get(name), self.name.split("."), base.as_dict())
+        if not isinstance(elements, list | tuple) or self.index >= len(elements):
+            yield f"--vary {self.key}: the scene has no such element; {self.name} is {elements}"
+            return
+        element = {**elements[self.index], self.part: value} if self.part else value
+        changes[self.name] = [*elements[: self.index], element, *elements[self.index + 1 :]]
+
+    def of(self, scene) -> float | None:
+        """The value of the key in a scene; None where it has none."""
+        value = reduce(lambda section, name: getattr(section, name, None), self.name.split("."), scene)
+        if self.index is None:
+            return value
+        return value[self.index] if isinstance(value, list | tuple) and self.index < len(value) else None
+
+
+def varied(words: list[str], faults: list[str], option: str = "--vary", of_words: bool = False) -> Varied | None:
+    """The key and values of KEY LO HI COUNT; None where one is at fault. of_words: or of KEY WORD WORD ..."""
+    from engine.scene.faults import suggestion
+    from engine.scene.reference import keys
+
+    key = words[0]
+    element = re.fullmatch(r"(.+)\[(\d+)\](?:\.(\w+))?", key)
+    name, index, part = (element[1], int(element[2]), element[3] or "") if element else (key, None, "")
+    declared_keys, list_name = keys(), name
+    name = f"{name}.{part}" if part else name
+    text = of_words and name in declared_keys and declared_keys[name].kind == "text"
+    values = list(dict.fromkeys(words[1:])) if text else cli.evenly(words[1:], f"{option} {key}", faults)
+    if name not in declared_keys:
+        faults.append(f"{option} {key}: no such key{suggestion(name, list(declared_keys))}")
+        return None
+    declared = declared_keys[name]
+    kind = declared.kind
+    if kind not in ("number", "whole number") and not (kind == "list" and element) and not text:
+        allowed = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
+        faults.append(f"{option} {key}: holds a {kind}; allowed: {allowed}")
+        return None
+    if text and not values:
+        faults.append(f"{option} {key}: given nothing; allowed: its words")
+    if kind == "whole number":
+        values = list(dict.fromkeys(round(value) for value in values))
+    if not values:
+        return None
+    unit = "" if declared.unit == "1" else declared.unit
+    symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
+    digits = None if text else max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
+    meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
+    return Varied(key, list_name, index, tuple(values), Column(key, unit, symbol, meaning, digits), part)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The keys of an exploration; a place has a value of each. Without a key there is one place."""
+
+    keys: tuple[Varied, ...] = ()
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Those that name a place."""
+        return tuple(key.column for key in self.keys)
+
+    def places(self) -> Iterator[dict[str, object]]:
+        """The columns of every place."""
+        names = [column.name for column in self.columns]
+        for values in product(*(key.values for key in self.keys)):
+            yield dict(zip(names, values, strict=True))
+
+    def changes(self, place: dict[str, object], base) -> tuple[dict[str, object], list[str]]:
+        """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
+        changes: dict[str, object] = {}
+        faults: list[str] = []
+        for key in self.keys:
+            faults += key.put(place[key.column.name], base, changes)
+        return changes, faults
+
+    def job(self, order: Order, place: dict[str, object], most: int | None = None, **labels: object) -> Job | None:
+        """The judged run from rest of a place, with more labels; None where there is no such scene: it is told.
+
+        most: as of `campaigns.judge.judged_job`.
+        """
+        changes, faults = self.changes(place, order.base())
+        order.tell(faults)
+        scene = None if faults else judged_scene(order, changes)
+        if scene is None:
+            return None
+        return judged_job(order, {**place, **labels, "dimensions": scene.motion.dimensions}, scene, most=most)

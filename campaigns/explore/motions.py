@@ -1,0 +1,249 @@
+"""The motions of many places (`campaigns.explore.grid`): what is known of each, and how more of them are found.
+
+The stages that find them are in `campaigns.explore.stages`. A motion at one place that, carried to a neighbour, becomes
+a motion there which becomes it in turn, is one branch with that, and has one letter.
+"""
+
+import contextlib
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import NamedTuple
+
+from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts
+from campaigns.machinery.folder import claimed, run_of
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.runner import run
+from campaigns.machinery.store import orbits_in
+from campaigns.study import Order
+from tables import REGIMES, SHEET, Column, write_table
+
+MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
+MOTIONS = (
+    MOTION,
+    Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
+    Column("share_low", "", "share ≥", "lower end of its 95 % interval (Wilson) for independent kicks", 2, REGIMES),
+    Column("share_high", "", "share ≤", "upper end of its 95 % interval (Wilson) for independent kicks", 2, REGIMES),
+    Column("kicks", "", "kicks", "kicks at this value, of which the share is", 0, SHEET),
+    FOUND_BY,
+    Column(
+        "confirmed",
+        symbol="confirmed",
+        meaning="whether its branch stays at a tenth of the tolerance and on a finer grid",
+        page=SHEET,
+    ),
+)
+UP, DOWN = 1, -1
+FROM_REST, CARRIED, KICKED = "rest", {UP: "carried up", DOWN: "carried down"}, "kick"
+
+
+def from_rest(row) -> bool:
+    """Whether a row of a table is that of a run as its scene begins."""
+    return row.get("found_by") in (None, "", FROM_REST)
+
+
+class Search(NamedTuple):
+    """How motions are looked for.
+
+    order: of which the judged runs are.
+    kicks: at each place, besides the run from rest.
+    speed_mps: of a kick along x and z, at most.
+    seed: of the kicks.
+    most: wave periods of a judged run, as of `campaigns.judge.judged_job`.
+    """
+
+    order: Order
+    kicks: int
+    speed_mps: float
+    seed: int
+    most: int | None = None
+
+
+@dataclass(eq=False)
+class Motion:
+    """A motion at one place.
+
+    place: its number.
+    settled: what it has settled to (`analysis.Settled`).
+    state: its last state.
+    found_by: the start that found it.
+    kicks: how many ended in it.
+    becomes: by neighbour the motion that it becomes there; None: none that settled.
+    branch: the first motion of its branch, which has the letter of all.
+    confirmed: of a branch, at the value of its largest tension.
+    """
+
+    place: int
+    settled: object
+    state: object
+    found_by: str
+    kicks: int = 0
+    becomes: dict[int, "Motion | None"] = field(default_factory=dict, repr=False)
+    branch: "Motion | None" = field(default=None, repr=False)
+    letter: str = ""
+    confirmed: str = ""
+
+    @property
+    def tension_N(self) -> float:
+        """Its largest tension while it settled."""
+        return float(self.settled.measures[:, 2].max())
+
+    @property
+    def order(self) -> tuple[int, str]:
+        """Its place among the motions of its place, by letter."""
+        return len(self.branch.letter), self.branch.letter
+
+
+def in_a_row(count: int) -> Callable[[int], dict[int, str]]:
+    """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
+
+    def neighbours(place: int) -> dict[int, str]:
+        return {place + step: found_by for step, found_by in CARRIED.items() if 0 <= place + step < count}
+
+    return neighbours
+
+
+class Motions:
+    """The motions of the places of a grid, by number of the place.
+
+    plan: of the campaign.
+    keys: columns that name a place.
+    neighbours: the places beside a place, and what a start there is called that takes up a motion of this one.
+    match_distance: a motion becomes, without a run, one at a neighbour of its period that is nearer than this
+    (`analysis.distance`).
+    folder: of the judged runs, within that of the campaign; "": that itself.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        keys: Sequence[Column],
+        neighbours: Callable[[int], dict[int, str]],
+        match_distance: float = 0.0,
+        folder: str = "",
+    ):
+        self.plan, self.keys, self.neighbours, self.match_distance = plan, tuple(keys), neighbours, match_distance
+        self.folder = plan.how.out / folder if folder else plan.how.out
+        self.orbits = orbits_in(self.folder)
+        self.starts = Starts(plan, (*self.keys, MOTION))
+        self.kicks = 0  # at each place
+        self.jobs: list[Job] = []  # the runs from rest, by place
+        self.at: list[list[Motion]] = []
+        self.job_keys: dict[Motion, str] = {}  # of the judged runs of motions
+        self.rows: dict[str, dict] = {}  # of judged runs, by key
+        self.times: Counter = Counter()
+        self.computed: set[str] = set()  # keys of the judged runs that were computed, or went on
+
+    def add(self, jobs: Sequence[Job]) -> range:
+        """Add the places of these runs from rest; returns their numbers."""
+        first = len(self.jobs)
+        self.jobs += jobs
+        self.at += [[] for _ in jobs]
+        return range(first, len(self.jobs))
+
+    def all_motions(self) -> Iterator[Motion]:
+        """All motions, place by place."""
+        for motions in self.at:
+            yield from motions
+
+    def name_of(self, place: int) -> dict[str, object]:
+        """The columns that name a place."""
+        labels = self.jobs[place].labels
+        return {key.name: labels[key.name] for key in self.keys}
+
+    def judged_runs(self, title: str, jobs: Sequence[Job], ahead: Sequence[Job] = ()) -> None:
+        """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
+        if not jobs:
+            return
+        own_folder = self.folder == self.plan.how.out
+        with contextlib.nullcontext() if own_folder else claimed(self.folder):
+            plan = replace(self.plan, how=replace(self.plan.how, out=self.folder), title=title)
+            timing, summary = run(plan, list(jobs), ahead)
+        self.times.update(timing)
+        self.computed |= summary.made
+        self.rows |= {row["run_key"]: row for row in summary.rows}
+
+    def judged_run(self, key: str):
+        """The Trajectory of a judged run; None where it has not ended as asked."""
+        return run_of(self.folder, self.rows[key]) if key in self.rows else None
+
+    def fine(self, place: int, start: Start) -> Start:
+        """The start with as many samples as a run of its place, which then takes up its last state to the moment."""
+        scene = self.jobs[place].scene
+        return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
+
+    def run_starts(self, title: str, starts: Sequence[tuple[int, Start]]) -> list[Motion | None]:
+        """Run starts at places; returns the motion in which each ended, None where it did not settle."""
+        motions_before = [list(motions) for motions in self.at]
+        settled = [tuple(motion.settled for motion in motions) for motions in self.at]
+        requests = [
+            Request(self.name_of(place), self.jobs[place].scene, start, settled[place]) for place, start in starts
+        ]
+        for (place, start), ending in zip(starts, endings := self.starts.run(title, requests), strict=True):
+            if ending.joins is not None:
+                ending.motion = motions_before[place][ending.joins]
+            elif ending.settled is not None:
+                ending.motion = self._motion_of(place, start, ending)
+        return [ending.motion for ending in endings]
+
+    def _motion_of(self, place: int, start: Start, ending: Ending) -> Motion:
+        """The motion on which a start has settled: a known one, or a new one."""
+        motions = self.at[place]
+        number = ending.same_as([motion.settled for motion in motions])
+        if number is not None:
+            return motions[number]
+        motions.append(Motion(place, ending.settled, ending.state, start.found_by))
+        return motions[-1]
+
+    def branches(self) -> list[list[Motion]]:
+        """The motions of each branch, by place."""
+        members: dict[Motion, list[Motion]] = {}
+        for motion in self.all_motions():
+            members.setdefault(motion.branch, []).append(motion)
+        return [*members.values()]
+
+    def labels(self, motion: Motion) -> dict[str, object]:
+        """The columns MOTIONS of a motion."""
+        labels: dict[str, object] = {"motion": motion.branch.letter, "found_by": motion.found_by}
+        if self.kicks:
+            from analysis import share_of
+
+            share = share_of(motion.kicks, self.kicks)
+            labels |= {"share": share.share, "share_low": share.low, "share_high": share.high, "kicks": self.kicks}
+        return labels | {"confirmed": motion.branch.confirmed or None}
+
+    def row_of(self, motion: Motion) -> dict:
+        """The row of the judged run of a motion; {} where there is none yet."""
+        key = self.jobs[motion.place].key if motion.found_by == FROM_REST else self.job_keys.get(motion, "")
+        return self.rows.get(key, {})
+
+    def table(self) -> list[dict]:
+        """A row for each motion, by place and letter; of a place whose run from rest has no motion, also that run's."""
+        rows = []
+        for job, motions in zip(self.jobs, self.at, strict=True):
+            if job.key in self.rows and not any(motion.found_by == FROM_REST for motion in motions):
+                rows.append({**self.rows[job.key], **job.labels})
+            for motion in sorted(motions, key=lambda motion: motion.order):
+                rows.append({**self.row_of(motion), **job.labels, **self.labels(motion)})
+        return rows
+
+    def write(self) -> Summary:
+        """Write table.csv, and that of the starts; returns the summary of the rows. Raises OSError."""
+        rows = self.table()
+        write_table(self.folder / "table.csv", self.plan.columns, rows)
+        if self.starts.endings:
+            self.starts.write()
+        reused = sum(row.get("run_key") not in self.computed for row in rows)
+        return Summary(rows, reused, len(rows) - reused, self.times["analysis_s"])
+
+    def timing(self) -> dict[str, float]:
+        """Seconds of all runs, those of the starts among them."""
+        return {name: self.times[name] + self.starts.times[name] for name in ("compile_s", "run_s", "analysis_s")}
+
+
+def subfolder(plan: Plan, name: str) -> Path:
+    """A folder within that of a campaign. Raises OSError."""
+    folder = plan.how.out / name
+    folder.mkdir(exist_ok=True)
+    return folder

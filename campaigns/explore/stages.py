@@ -1,0 +1,240 @@
+"""How the motions of places are found, judged and named, stage by stage.
+
+1. The run from rest of each place is a motion (`run_from_rest`). 2. Starts on the motions of a massless tether find
+others, islands among them (`propose`). 3. The last state of every motion is the start of a run at each neighbour
+(`carry`). 4. Kicks, drawn independently and uniformly at each place: the share of them that ends in a motion estimates
+the size of its basin (`kick`); the motions that they find are carried on too. 5. Each motion has a judged run of its
+own, and motions that these find to be one become one (`judge`). 6. Two motions at neighbours are one branch where each,
+carried to the other, becomes the other (`name`).
+
+The order is that of the continuation of attractors in Attractors.jl (Datseris, Rossi & Wagemakers, Chaos 33, 073151
+(2023)): find at each value from the motions of the one before, then match.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from string import ascii_uppercase
+
+import engine
+from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search
+from campaigns.explore.proposals import kicks, proposals
+from campaigns.explore.starts import DISPLACED, Request, Start, as_it_is, settled_of, start_job
+from campaigns.explore.transients import as_long_as, outlasting
+from campaigns.judge import judged_job
+from campaigns.machinery.plan import Job
+
+
+def explore(motions: Motions, jobs: Sequence[Job], search: Search) -> None:
+    """Find the motions of the places of these runs from rest. Raises as `runner.run`."""
+    places = run_from_rest(motions, jobs)
+    if motions.plan.simulate is engine.simulate:
+        find(motions, places, search)
+    judge(motions, search)
+    name(motions)
+
+
+def find(motions: Motions, places: Sequence[int], search: Search) -> None:
+    """Find the motions of places beside those from rest. Raises as `runner.run`."""
+    propose(motions, places, search)
+    carry(motions)
+    kick(motions, places, search)
+    carry(motions)
+
+
+def run_from_rest(motions: Motions, jobs: Sequence[Job]) -> range:
+    """Add the places of these runs from rest, with the motions to which they lead; returns their numbers."""
+    places, scene = motions.add(jobs), jobs[0].scene
+    ahead = []
+    if motions.plan.simulate is engine.simulate and engine.massless_covers(scene):
+        ahead.append(start_job(Request({}, scene, DISPLACED)))  # what its starts need is compiled at once
+    motions.judged_runs("runs from rest", jobs, ahead)
+    late = outlasting(motions.jobs, motions.rows, motions.neighbours)
+    motions.judged_runs("chaos that may be a transient", late)
+    for place in places:
+        run = motions.judged_run(motions.jobs[place].key)
+        if run is not None:
+            motions.at[place].append(
+                Motion(place, settled_of(run, motions.orbits) or as_it_is(run), run.final_state, FROM_REST)
+            )
+    return places
+
+
+def propose(motions: Motions, places: Sequence[int], search: Search) -> None:
+    """Starts on the motions of a massless tether at each place."""
+    scenes = [motions.jobs[place].scene for place in places]
+    proposed = proposals(motions.plan, scenes, search.speed_mps, search.seed)
+    starts = []
+    for place, of_place in zip(places, proposed, strict=True):
+        starts += [(place, motions.fine(place, start)) for start in of_place]
+    motions.run_starts("starts on motions of a massless tether", starts)
+
+
+def carry(motions: Motions) -> None:
+    """Carry every motion to the neighbours where it has not been, and the motions found there further."""
+    while True:
+        carried, starts = [], []
+        for motion in motions.all_motions():
+            if motion.state is None:
+                continue
+            for neighbour, found_by in motions.neighbours(motion.place).items():
+                if neighbour in motion.becomes:
+                    continue
+                match = nearest_match(motion, motions.at[neighbour], motions.match_distance)
+                if match is not None:
+                    motion.becomes[neighbour] = match
+                    continue
+                carried.append((motion, neighbour))
+                start = Start(found_by, state=motion.state.at_zero())
+                starts.append((neighbour, motions.fine(neighbour, start)))
+        if not starts:
+            return
+        results = motions.run_starts("motions carried to the next value", starts)
+        for (motion, neighbour), result in zip(carried, results, strict=True):
+            motion.becomes[neighbour] = result
+
+
+def nearest_match(motion: Motion, candidates: Sequence[Motion], match_distance: float) -> Motion | None:
+    """The nearest of the candidates with the motion's period that is nearer than match_distance; None: none is."""
+    if not match_distance:
+        return None
+    from analysis import distance
+
+    nearest, least = None, match_distance
+    for candidate in candidates:
+        if candidate.settled.period != motion.settled.period:
+            continue
+        size = distance(motion.settled, candidate.settled)
+        if size < least:
+            nearest, least = candidate, size
+    return nearest
+
+
+def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
+    """Kicks at each place; the share that ends in a motion is that of `Motions.labels`."""
+    motions.kicks = search.kicks
+    starts = []
+    for place in places:
+        for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
+            starts.append((place, Start(KICKED, velocity)))
+    kicked: dict[Motion, tuple[int, Start]] = {}  # the motions that kicks have found, each with its last kick
+    for start, motion in zip(starts, motions.run_starts("kicks", starts), strict=True):
+        if motion is not None:
+            motion.kicks += 1
+            if motion.found_by == KICKED:
+                kicked[motion] = start
+    # few samples are enough to tell a motion, not to take up its state without a shift in the wave
+    requests = []
+    for place, start in kicked.values():
+        requests.append(Request(motions.name_of(place), motions.jobs[place].scene, motions.fine(place, start)))
+    endings = motions.starts.run("kicks that found a motion", requests, listed=False)
+    for motion, ending in zip(kicked, endings, strict=True):
+        motion.state = ending.state or motion.state
+
+
+def judge(motions: Motions, search: Search) -> None:
+    """Do the judged run of every motion that has none, from its state; motions that these find to be one are merged."""
+    jobs = {}
+    for motion in motions.all_motions():
+        if motion.found_by != FROM_REST and motion not in motions.job_keys:
+            jobs[motion] = judged_job_of(motions, motion, search)
+    motions.judged_runs("judged runs of the other motions", list(jobs.values()))
+    settled = {}
+    for motion, job in jobs.items():
+        motions.job_keys[motion] = job.key
+        run = motions.judged_run(job.key)
+        if run is not None:
+            settled[motion] = settled_of(run, motions.orbits) or as_it_is(run)
+    merge(motions, settled)
+
+
+def judged_job_of(motions: Motions, motion: Motion, search: Search) -> Job:
+    """The judged run of a motion from its last state."""
+    order, place = search.order, motions.jobs[motion.place]
+    job = judged_job(order, place.labels, place.scene, motion.state.at_zero(), search.most)
+    return as_long_as(job, order.periods) if motion.found_by == KICKED else job
+
+
+def merge(motions: Motions, settled: Mapping[Motion, object], grouped: Callable | None = None) -> None:
+    """Merge the motions of a place that longer runs have found to be one; the first of them stays.
+
+    settled: what these runs settled to.
+    grouped: a label for each `Settled`, the same for those that are one motion; by default `analysis.grouped`.
+    """
+    if grouped is None:
+        from analysis import grouped
+
+    merged: dict[Motion, Motion] = {}
+    for place, motions_here in enumerate(motions.at):
+        for motion in motions_here:
+            motion.settled = settled.get(motion, motion.settled)
+        first: dict[int, Motion] = {}
+        for label, motion in zip(grouped([motion.settled for motion in motions_here]), motions_here, strict=True):
+            merged[motion] = first.setdefault(int(label), motion)
+            if merged[motion] is not motion:
+                merged[motion].kicks += motion.kicks
+        motions.at[place] = list(first.values())
+    for motion in merged:
+        for neighbour, successor in motion.becomes.items():
+            motion.becomes[neighbour] = merged.get(successor)
+    for ending in motions.starts.endings:
+        ending.motion = merged.get(ending.motion)
+
+
+def name(motions: Motions, matched: Callable | None = None) -> None:
+    """Give every branch its letter: A to the one that begins at the first place, from rest where two do.
+
+    matched: for two lists of `Settled` the number in the second that continues each of the first, or None; by default
+    `analysis.matched`. It is asked where no run tells how motions continue.
+    """
+    if matched is None:
+        from analysis import matched
+
+    ordered = []
+    for motions_here in motions.at:
+        ordered += sorted(motions_here, key=lambda motion: motion.found_by != FROM_REST)
+    branches = {motion: {motion.place: motion} for motion in ordered}  # by motion its branch: a motion by place
+    for place in range(len(motions.at)):
+        for neighbour in sorted(motions.neighbours(place)):
+            if neighbour > place:
+                _continue_unsettled(motions, place, neighbour, matched)
+                _join_branches(motions, place, neighbour, branches)
+    first: dict[int, Motion] = {}
+    for motion in ordered:
+        motion.branch = first.setdefault(id(branches[motion]), motion)
+        if motion.branch is motion:
+            repetition, letter = divmod(len(first) - 1, len(ascii_uppercase))
+            motion.letter = ascii_uppercase[letter] + (str(repetition + 1) if repetition else "")
+
+
+def _continue_unsettled(motions: Motions, place: int, neighbour: int, matched: Callable) -> None:
+    """Say how motions continue that did not settle when they were carried from a place to a neighbour, or back."""
+    own_motions, neighbours = motions.at[place], motions.at[neighbour]
+    _follow_back(own_motions, neighbours, place, neighbour)
+    _follow_back(neighbours, own_motions, neighbour, place)
+    unsettled = [motion for motion in own_motions if motion.becomes.get(neighbour) is None]
+    candidates = [motion for motion in neighbours if motion.becomes.get(place) is None]
+    numbers = matched([motion.settled for motion in unsettled], [motion.settled for motion in candidates])
+    for motion, number in zip(unsettled, numbers, strict=True):
+        if number is not None:
+            motion.becomes[neighbour] = candidates[number]
+            candidates[number].becomes[place] = motion
+
+
+def _follow_back(motions: Sequence[Motion], candidates: Sequence[Motion], place: int, neighbour: int) -> None:
+    """A motion that did not settle at a neighbour becomes the one there that becomes it, if there is but one."""
+    for motion in motions:
+        back = [candidate for candidate in candidates if candidate.becomes.get(place) is motion]
+        if motion.becomes.get(neighbour) is None and len(back) == 1:
+            motion.becomes[neighbour] = back[0]
+
+
+def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[Motion, dict[int, Motion]]) -> None:
+    """Join the branches of motions that become each other, unless both have a motion at one place, as round a cusp."""
+    for motion in motions.at[place]:
+        successor = motion.becomes.get(neighbour)
+        if successor is None or successor.becomes.get(place) is not motion:
+            continue
+        branch, joining = branches[motion], branches[successor]
+        if branch is not joining and branch.keys().isdisjoint(joining):
+            branch.update(joining)
+            for member in joining.values():
+                branches[member] = branch
