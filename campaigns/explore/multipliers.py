@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import engine
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.store import Store, key_of
-from tables import SHEET, Column
+from tables import REGIMES, SHEET, Column
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,7 +32,7 @@ LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
     Column(
         "multiplier_modulus", "", "|μ|",
-        "modulus of the leading multiplier of the periodic orbit: what a period of it makes of a perturbation", 3,
+        "modulus of the leading multiplier of the periodic orbit: what a period of it makes of a perturbation", 3, REGIMES,
     ),
     Column(
         "multiplier_angle_rad", "rad", "arg μ",
