@@ -1,4 +1,4 @@
-"""A hash of sources that only a change of the code moves: comments, docstrings and layout do not count.
+"""A hash of sources that only a change of what they say moves: comments, docstrings and layout do not count.
 
 Runs, rows, reports and machine code are kept under such hashes. A better sentence in a docstring leaves them in use.
 """
@@ -6,6 +6,7 @@ Runs, rows, reports and machine code are kept under such hashes. A better senten
 import ast
 import contextlib
 import os
+import tomllib
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
@@ -21,11 +22,11 @@ def sources_of(root: Path, *endings: str) -> dict[str, Path]:
 
 
 def code_hash(sources: Mapping[str, Path], folder: Path | None = None) -> str:
-    """sha256, hexadecimal, over the names and the code of files; of one that is not .py, over its content.
+    """sha256, hexadecimal, over the names of files and what they say; of one that is not .py or .toml, over its bytes.
 
     folder: where the hash is kept under that of the files' bytes, because to parse all sources takes longer than to
     load the machine code made of them; None: nowhere.
-    Raises OSError for a file that cannot be read, SyntaxError for one that is no Python.
+    Raises OSError for a file that cannot be read, SyntaxError or ValueError for one that is no Python or TOML.
     """
     contents = {name: path.read_bytes() for name, path in sources.items()}
     exact = _digest(contents)
@@ -33,13 +34,22 @@ def code_hash(sources: Mapping[str, Path], folder: Path | None = None) -> str:
         known = "" if folder is None else (folder / exact).read_text("ascii")
         if len(known) == DIGITS:
             return known
-    code_digest = _digest({name: code_of(text) if name.endswith(".py") else text for name, text in contents.items()})
+    code_digest = _digest({name: meaning_of(name, content) for name, content in contents.items()})
     if folder is not None:
         part = folder / f"{exact}.{os.getpid()}"
         with contextlib.suppress(OSError):
             part.write_text(code_digest, "ascii")
             part.replace(folder / exact)
     return code_digest
+
+
+def meaning_of(name: str, content: bytes) -> bytes:
+    """The content of a file without what only a reader needs; name: says by its ending how it is read."""
+    if name.endswith(".py"):
+        return code_of(content)
+    if name.endswith(".toml"):
+        return repr(tomllib.loads(content.decode("utf-8"))).encode("utf-8")
+    return content
 
 
 def code_of(source: str | bytes) -> bytes:

@@ -22,7 +22,7 @@ from engine.parameters import record_of
 from engine.planar.columns import NODE_WIDTH
 from engine.planar.node import shape
 from machine_code.parts import compiled_in_parts
-from machine_code.sources import code_hash, code_of
+from machine_code.sources import code_hash, code_of, meaning_of
 from machine_code.store import compiled, folder_for, hash_of, one_at_a_time
 
 PROCESSES, KINDS = 4, 12
@@ -75,6 +75,13 @@ class C:
 def test_only_code_counts(old, new, same):
     assert old in SOURCE
     assert (code_of(SOURCE.replace(old, new)) == code_of(SOURCE)) == same
+
+
+@pytest.mark.parametrize(
+    ("text", "same"), [("# a head\nlength_m = 20.0  # and why\n", True), ("length_m = 21.0", False)]
+)
+def test_a_comment_in_a_scene_file_leaves_its_hash(text, same):
+    assert (meaning_of("a.toml", text.encode()) == meaning_of("a.toml", b"length_m = 20.0")) == same
 
 
 @pytest.mark.parametrize("damage", [b"", b"short", b"\xff" * 64])

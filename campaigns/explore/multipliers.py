@@ -32,7 +32,8 @@ LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
     Column(
         "multiplier_modulus", "", "|μ|",
-        "modulus of the leading multiplier of the periodic orbit: what a period of it makes of a perturbation", 3, REGIMES,
+        "modulus of the leading multiplier of the periodic orbit: what a period of it makes of a perturbation",
+        3, REGIMES,
     ),
     Column(
         "multiplier_angle_rad", "rad", "arg μ",
