@@ -8,7 +8,7 @@ variants of one scene has its work in `done`.
 import time
 from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 
 import engine
@@ -17,7 +17,7 @@ from campaigns.machinery import cli, session
 from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.progress import counting, last
+from campaigns.machinery.progress import stage
 from campaigns.machinery.runner import run, write_scene
 
 
@@ -100,7 +100,6 @@ class Study:
     parameters(order) -> what its provenance says beside scene, set, periods and transient.
     runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
     that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
-    after: what `beside` takes, as a share of the time of the runs (measured), for the time left; None: not known.
     answer(order, rows of table.csv) -> what was found, in at most eight sentences, for the terminal and answer.txt.
     jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
     module: its command is python -m MODULE; "" for campaigns.NAME.
@@ -121,7 +120,6 @@ class Study:
     runs: Callable[[Order], Callable] | None = None
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
     answer: Callable[[Order, list[dict]], Iterable[str]] | None = None
-    after: float | None = None
     together: bool = True
     jobs: bool = True
     backends: bool = True
@@ -204,15 +202,16 @@ class Study:
         order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
-        after = self.after if self.beside else 0.0
-        then = None if after is None else lambda seconds: after * seconds
-        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together, then=then)
+        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, together)
         write_scene(order.how.out, self.name, order.cases)
-        timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
+        further_steps = list(self.beside(order)) if self.beside else []
+        steps = 1 + len(further_steps)
+        with stage(f"step 1 of {steps}"):
+            timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
         began = time.perf_counter()
-        with counting("after the runs", (after or 0.0) * timing["run_s"]):
-            for more in self.beside(order) if self.beside else ():
-                timing["analysis_s"] += more(replace(plan, then=last), summary)
+        for number, step in enumerate(further_steps, 2):
+            with stage(f"step {number} of {steps}"):
+                timing["analysis_s"] += step(plan, summary)
         timing["run_s"] += time.perf_counter() - began
         return timing, summary
 

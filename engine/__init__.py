@@ -14,7 +14,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "final_state": ["FinalState"],
         "going_on": ["between"],
         "massless": ["MasslessRuns", "massless_covers", "massless_rest", "massless_runs"],
-        "pieces": ["compile_piece", "seconds_of", "shares_of"],
+        "pieces": ["compile_piece", "shares_of"],
         "scene": ["Scene", "SceneError", "list_scenes", "load_scene"],
         "simd.cover": ["goes_in_lanes"],
         "simulation": ["simulate", "simulate_batch", "simulate_each"],

@@ -99,7 +99,7 @@ class Found:
         """Do runs in a folder beside that of the starts; their Trajectories, None for one that ended early."""
         how = replace(self.plan.how, out=self.plan.how.out / folder)
         with claimed(how.out):
-            timing, summary = run(replace(self.plan, how=how, said=said), jobs)
+            timing, summary = run(replace(self.plan, how=how, title=said), jobs)
         self.along.starts.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         return summary, [run_of(how.out, rows[job.key]) if job.key in rows else None for job in jobs]

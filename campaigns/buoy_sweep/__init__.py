@@ -169,7 +169,6 @@ STUDY = Study(
     parameters=parameters,
     runs=runs,
     beside=beside,
-    after=0.25,
     answer=answer,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

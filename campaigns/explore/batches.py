@@ -40,11 +40,11 @@ PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first sna
 class Batch:
     """Jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
 
-    together: whether runs may share a worker, where times are not those of a run alone; said: what they are called.
+    together: whether runs may share a worker, where times are not those of a run alone; title: what they are called.
     """
 
     folder: str
-    said: str
+    title: str
     columns: tuple[Column, ...]
     row: Callable
     jobs: list[Job]
@@ -59,7 +59,7 @@ class Batch:
         if not self.jobs and not out.exists():
             return 0.0
         each = plan.simulate_each if self.together else None
-        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, said=self.said)
+        own = replace(plan, how=replace(plan.how, out=out), columns=self.columns, title=self.title)
         own = replace(own, describe=partial(unchecked, row=self.row))
         with claimed(out):
             return run(replace(own, simulate_each=each), self.jobs)[1].analysis_s

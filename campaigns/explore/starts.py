@@ -241,7 +241,7 @@ class Starts:
         if not jobs:
             return []
         with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, said=said), jobs)
+            timing, summary = run(replace(self.plan, title=said), jobs)
         self.did(timing, summary)
         rows = {row["run_key"]: row for row in summary.rows}
         found = [self._ended(job, rows.get(job.key)) for job in jobs]

@@ -14,7 +14,6 @@ from campaigns.study import Order
 from engine.views import carries_tangents, in_regular_waves
 
 KICKS, SPEED_MPS = 8, 6.0
-OTHERS = 1.2  # time of all other motions, as a share of that of the runs from rest (measured): for the time left
 ONLY = "a number for a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
 REST = "rest"
 MOST_KICKS = 10_000
@@ -112,10 +111,9 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         from campaigns.explore.transients import outlasting
 
         jobs = sorted(jobs, key=lambda job: job.labels[key.name])
-        later = plan.then or (lambda seconds: 0.0)
         real = plan.simulate is engine.simulate
         ahead = [start_job({}, jobs[0].scene, DISPLACED, ())] if real and engine.massless_covers(jobs[0].scene) else []
-        timing, first = run(replace(plan, then=lambda seconds: OTHERS * seconds + later(seconds)), jobs, ahead)
+        timing, first = run(replace(plan, title="runs from rest"), jobs, ahead)
         if not real:
             return timing, first
         rows = {row["run_key"]: row for row in first.rows}

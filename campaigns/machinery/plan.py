@@ -54,14 +54,9 @@ class Job:
     engine: str = field(default_factory=lambda: engine.source_hash())
 
     @property
-    def size(self) -> float:
-        """Its length in seconds times its nodes, and by these again where shorter elements take shorter steps.
-
-        Runs of one campaign take about as long as their sizes say; the speed itself is not known before they run.
-        """
-        waves, tether = self.scene.waves, self.scene.tether
-        length_s = (self.periods or 0.0) * waves.period_s if self.duration_s is None else self.duration_s
-        return length_s * tether.nodes ** (2 if self.scene.solver.courant else 1)
+    def length_s(self) -> float:
+        """Its length in seconds."""
+        return self.periods * self.scene.waves.period_s if self.duration_s is None else self.duration_s
 
     @cached_property
     def key(self) -> str:
@@ -110,8 +105,8 @@ class Plan:
     row_maker: hash of whatever shapes a row (`campaigns.machinery.folder.made_by`); empty: rows are not kept.
     simulate_each(scenes, periods=, duration_s=): yields (number of the scene, Trajectory) as runs end; where it is
     given, runs that can go side by side share a worker (`campaigns.machinery.runner.groups_of`). Both are also given
-    progress=, where they take it. said, then: what the runs are called, and what follows them (`progress.Stage`); told:
-    folder where workers say how far they are. heard(row): told of every row as it comes.
+    progress=, where they take it. title: what the runs are called while they go; reports: folder where workers say how
+    far they are; on_row(row) is called with every row as it comes.
     how.out: None in the plan that a worker gets which does not see the folder.
     """
 
@@ -121,10 +116,9 @@ class Plan:
     columns: tuple[Column, ...]
     row_maker: str = ""
     simulate_each: Callable | None = None
-    said: str = "runs"
-    then: Callable[[float], float] | None = None
-    told: Path | None = None
-    heard: Callable[[dict], None] | None = None
+    title: str = "runs"
+    reports: Path | None = None
+    on_row: Callable[[dict], None] | None = None
 
     @property
     def sends(self) -> bool:
@@ -135,14 +129,3 @@ class Plan:
 def name_of(task: Sequence[Job]) -> str:
     """The name of the file in which a worker says how far it is with these jobs."""
     return f"{len(task)}-{task[0].key}"
-
-
-def length_of(jobs: Sequence[Job]) -> tuple[float, str]:
-    """The length of all runs together, in wave periods where all have waves, and what it is counted in."""
-    in_waves = all(job.scene.waves is not None for job in jobs)
-    lengths = (
-        job.periods if job.periods is not None else job.duration_s / (job.scene.waves.period_s if in_waves else 1.0)
-        for job in jobs
-    )
-    most = " at most" if any(job.going is not None for job in jobs) else ""
-    return sum(lengths), f"{'wave periods' if in_waves else 's'}{most} in {len(jobs)} runs"

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import engine
 from campaigns.machinery.folder import PROGRESS, Table, keep_row, trajectory_path
-from campaigns.machinery.plan import Job, Outcome, Plan, Summary, length_of, name_of
+from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import in_time, shares, stage, tell, teller, ticking
+from campaigns.machinery.progress import reporter, reports, stage, tell
 from campaigns.machinery.worker import failed, reuse, run_jobs
 from engine.atomic import write_atomic
 
@@ -25,7 +25,6 @@ ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
-LANES = 8  # of a worker, as `engine.simd.vector.COUNT`, which is slow to import: for the time left only
 FEWEST = 4  # jobs for each worker below which they are not put together
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
@@ -91,25 +90,21 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     tasks = [{key: scene for key, scene in task.items() if key not in _ready} for task in pieces]
     if not (tasks := [task for task in tasks if task]):
         return
-    costs = [engine.seconds_of(task) for task in tasks]
     where = "loky", min(plan.how.jobs, max(2, len(missing)))
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
         where = "threading", 1
-    ended: set[str] = set()
 
-    def far() -> float:
-        told = shares(Path(place)) | dict.fromkeys(ended, 1.0)
-        return sum(costs[int(number)] * share for number, share in told.items())
+    def compiled() -> float:
+        return sum(count for (count,) in reports(Path(place)).values())
 
     with (
         _progress(plan) as place,
         opened(*where) as execute,
-        stage(ENGINE, sum(costs), "s of one processor", far),
+        stage(ENGINE, sum(map(len, tasks)), "pieces", compiled),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
-        for (number, _), _ in execute(partial(_compiled, Path(place)), list(enumerate(tasks))):
-            ended.add(str(number))
-            _ready.update(tasks[number])
+        for (_, pieces), _ in execute(partial(_compile_pieces, Path(place)), list(enumerate(tasks))):
+            _ready.update(pieces)
 
 
 def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
@@ -120,12 +115,14 @@ def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
     return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=None if plan.sends else plan.how.out.absolute())
 
 
-def _compiled(place: Path, task: tuple[int, dict]) -> None:
+def _compile_pieces(place: Path, task: tuple[int, dict]) -> None:
     number, pieces = task
-    with ticking(teller(place, str(number)), engine.seconds_of(pieces)):
-        for key, scene in pieces.items():
-            with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
-                engine.compile_piece(key, scene)
+    report = reporter(place, str(number))
+    for count, (key, scene) in enumerate(pieces.items()):
+        report(count)
+        with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
+            engine.compile_piece(key, scene)
+    report(len(pieces))
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
@@ -143,14 +140,14 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     analysis_s = sum(outcome.analysis_s for outcome in found.values())
     missing = {key: job for key, job in by_key.items() if key not in found}
     try:
-        for outcome in _computed(plan, missing, list(by_key.values())):
+        for outcome in _computed(plan, missing, len(by_key)):
             if outcome.content:
                 write_atomic(trajectory_path(plan.how.out, outcome.key), outcome.content)
                 keep_row(plan.how.out, outcome.key, plan.row_maker, outcome.row, outcome.content)
             analysis_s += outcome.analysis_s
             table.add(outcome.key, row := _row(by_key[outcome.key], outcome))
-            if plan.heard is not None:
-                plan.heard(row)
+            if plan.on_row is not None:
+                plan.on_row(row)
     except BaseException:
         with contextlib.suppress(OSError):
             table.write()
@@ -167,45 +164,42 @@ def _row(job: Job, outcome: Outcome) -> dict[str, object]:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: dict[str, Job], all_jobs: Sequence[Job]) -> Iterator[Outcome]:
+def _computed(plan: Plan, jobs: dict[str, Job], total: int) -> Iterator[Outcome]:
     """Outcomes of the jobs, by key, as they come: those that can share a worker first, then what these leave undone.
 
-    A run that kills its worker twice, the second time alone, is given up. all_jobs: with those that were found, which
-    count as done from the start.
+    A run that kills its worker twice, the second time alone, is given up. total: runs of the campaign, with those that
+    were found, which count as done from the start.
     """
     if not jobs:
         return
-    left, tasks = dict(jobs), {}
+    left, waiting = dict(jobs), set()
     # A worker kept from an earlier campaign of this process may stand in another folder.
     how = replace(plan.how, out=None if plan.sends else plan.how.out.absolute())
     groups = groups_of(plan, list(jobs.values()))
-    sizes = {job.key: job.size for job in all_jobs}
-    total, unit = length_of(all_jobs)
 
-    def far() -> float:
-        told = {name: share for name, share in shares(Path(place)).items() if name in tasks}
-        told = {
-            name: share if tasks[name][0].going is not None else in_time(share, len(tasks[name]), LANES)
-            for name, share in told.items()
-        }
-        begun = sum(share * sizes[job.key] for name, share in told.items() for job in tasks[name] if job.key in left)
-        return total * (1.0 - (sum(sizes[key] for key in [*left]) - begun) / sum(sizes.values()))
+    def ended() -> float:
+        numbers = reports(Path(place))
+        return total - len(left) + sum(numbers[task][0] for task in waiting & numbers.keys())
+
+    def simulated() -> str:
+        return f"{sum(length_s for _, length_s in reports(Path(place)).values()):,.0f} s simulated"
 
     with (
         _progress(plan) as place,
         opened(plan.how.backend, min(plan.how.jobs, len(jobs)), plan.how.dask_address) as execute,
-        stage(plan.said, total, unit, far, plan.then),
+        stage(plan.title, total, "runs", ended, simulated),
     ):
-        call = partial(run_jobs, replace(plan, how=how, told=Path(place), then=None, heard=None))
+        call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
         while left:
-            tasks = {name_of(task): task for task in groups or [(job,) for job in left.values()]}
+            tasks = groups or [(job,) for job in left.values()]
+            waiting = {name_of(task) for task in tasks}
             try:
-                for task, outcomes in execute(call, [*tasks.values()]):
+                for task, outcomes in execute(call, list(tasks)):
                     groups = [group for group in groups if group is not task]
-                    Path(place, name_of(task)).unlink(missing_ok=True)
+                    waiting = waiting - {name_of(task)}
                     for outcome in outcomes:
                         del left[outcome.key]
-                        yield outcome
+                    yield from outcomes
             except PoolBroken as broken:
                 for task in broken.suspects:
                     if len(task) == 1:

@@ -27,13 +27,12 @@ import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import counting, stage
+from campaigns.machinery.progress import stage
 from engine.atomic import write_atomic
 from engine.streams import open_streams, printed
 
 PROVENANCE, ANSWER = "provenance.json", "answer.txt"
 MOST_LINES = 8  # of an answer
-REPORT_S, ROW_S = 1.5, 0.07  # of a report, and of each row in it (measured): for the time left
 _PACKAGES = (
     "numpy", "scipy", "numba", "llvmlite", "pandas", "xarray", "pydantic", "joblib", "dask", "distributed",
     "matplotlib", "jinja2", "typst",
@@ -93,9 +92,8 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     `command`.
     """
     start, how = time.perf_counter(), order.how
-    report_s = REPORT_S + ROW_S * len(order.cases) if how.report else 0.0
     with claimed(how.out):
-        with stage(study.name, then=lambda _: report_s):
+        with stage(study.name):
             record = begun(how.out, study.name, command_line(study.called, argv), parameters)
             timing, summary = study.work(order)
         if summary.computed or not ended(how.out):
@@ -110,7 +108,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
             try:
                 from reports import build
 
-                with stage(study.name), counting("figures and pages of the report", report_s):
+                with stage(study.name), stage("figures and pages of the report"):
                     build(how.out)
             except OSError:
                 raise

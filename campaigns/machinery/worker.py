@@ -22,13 +22,10 @@ from campaigns.machinery.folder import (
     write_failure,
 )
 from campaigns.machinery.plan import Further, Job, Outcome, Plan, name_of
-from campaigns.machinery.progress import heard, teller
+from campaigns.machinery.progress import reporter, with_progress
 from engine.atomic import write_atomic
 
 SAVED_S = 10.0  # of work that a killed campaign may lose of a run, beside the part at which it is
-# of runs that take as long as they need (measured): share with another part after each of theirs, how much longer they
-# are then, and what a period costs that carries a perturbation
-GO_ON, GROWTH, CARRYING = 0.75, 1.4, 1.7
 
 
 def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
@@ -39,15 +36,20 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[Outcome]:
     first = jobs[0]
     if engine.source_hash() != first.engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
-    told = teller(plan.told, name_of(jobs))
+    report = reporter(plan.reports, name_of(jobs))
     if first.going is not None:
-        return _carried_on(plan, jobs, told)
-    if len(jobs) == 1:
-        return [_run_one(plan, first, told)]
+        return _carried_on(plan, jobs, report)
     outcomes, length = [], {"periods": first.periods, "duration_s": first.duration_s}
+    length_s = sum(job.length_s for job in jobs)
+
+    def progress(share: float) -> None:
+        report(len(outcomes), share * length_s)
+
+    if len(jobs) == 1:
+        return [_run_one(plan, first, progress)]
     try:
         scenes = [job.scene for job in jobs]
-        for i, trajectory in plan.simulate_each(scenes, **length, **heard(plan.simulate_each, told)):
+        for i, trajectory in plan.simulate_each(scenes, **length, **with_progress(plan.simulate_each, progress)):
             outcomes.append(_kept(plan, jobs[i], trajectory))
     except CampaignStopped:
         raise
@@ -67,38 +69,24 @@ class _Standing:
     outcome: Outcome | None = None
     checks: dict[int, object] = field(default_factory=dict)
     further: Further | None = None
-    periods: float = 0.0  # of `further`
-    cost: float = 0.0  # of these
     saved_s: float | None = None
 
-    def still_expected(self, most: float) -> float:
-        """Wave periods after the present part: after each, GO_ON of the runs go on, by GROWTH; none beyond `most`."""
-        if self.further is None or self.further.check:
-            return 0.0
-        reached = self.further.periods + (0.0 if self.outcome is None else self.outcome.row.get("periods") or 0.0)
-        ahead, share = 0.0, GO_ON
-        while reached < most:
-            further = min(GROWTH * reached, most)
-            ahead, share, reached = ahead + share * (further - reached), share * GO_ON, further
-        return ahead
 
-
-def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) -> list[Outcome]:
+def _carried_on(plan: Plan, jobs: Sequence[Job], report: Callable[..., None]) -> list[Outcome]:
     """As `run_jobs`, of jobs that take as long as they need: each goes on when it has been judged, among the others.
 
     What a run has done is on disk when it ends, and every SAVED_S at a look: a killed campaign goes on from there.
     """
     runs = [_so_far(plan, job) for job in jobs]
-    ended = ended_cost = 0.0  # of the parts that have ended: wave periods, and the same by what each costs
+    length_s = 0.0  # of all parts that are known by now
 
     def next_of(i: int) -> Further | None:
-        nonlocal ended, ended_cost
+        nonlocal length_s
         run, job = runs[i], jobs[i]
-        ended, ended_cost = ended + run.periods, ended_cost + run.cost
         row = None if run.outcome is None else run.outcome.row
         run.further = further = job.going(job.scene, run.trajectory, row, run.checks)
-        run.periods = 0.0 if further is None else further.periods
-        run.cost = 0.0 if further is None else further.periods * _cost(further.scene, job.scene)
+        if further is not None:
+            length_s += further.periods * further.scene.waves.period_s
         return further
 
     def judged(i: int, part) -> tuple | None:
@@ -116,10 +104,8 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
             run.outcome, run.saved_s = _kept(plan, job, run.trajectory, run.outcome), time.monotonic()
         return None if further is None else (further.scene, further.periods, further.start)
 
-    def hear(share: float) -> None:
-        periods, cost = sum(run.periods for run in runs), sum(run.cost for run in runs)
-        done = ended_cost + cost * (share * (ended + periods) - ended) / max(periods, 1e-9)
-        told(done / (ended_cost + cost + CARRYING * sum(run.still_expected(jobs[0].periods) for run in runs)))
+    def progress(share: float) -> None:
+        report(sum(run.further is None for run in runs), share * length_s)
 
     try:
         asked = [i for i in range(len(jobs)) if next_of(i) is not None]
@@ -132,7 +118,7 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
         elif asked:
             lengths, starts = [further.periods for further in first], [further.start for further in first]
             scenes, then = [further.scene for further in first], lambda number, part: judged(asked[number], part)
-            more = heard(plan.simulate_each, hear)
+            more = with_progress(plan.simulate_each, progress)
             for _ in plan.simulate_each(scenes, periods=lengths, starts=starts, then=then, **more):
                 pass
     except CampaignStopped:
@@ -145,12 +131,6 @@ def _carried_on(plan: Plan, jobs: Sequence[Job], told: Callable[[float], None]) 
     return [run.outcome for run in runs if run.further is None]
 
 
-def _cost(scene, usual) -> float:
-    """What a wave period of a scene costs, in those of the usual one without perturbations."""
-    tighter = (usual.solver.rtol / scene.solver.rtol) ** 0.25  # the length of a step goes as the root
-    return tighter * (CARRYING if scene.output.tangent_vectors else 1.0)
-
-
 def _so_far(plan: Plan, job: Job) -> _Standing:
     """As much of a run as is there."""
     outcome = reuse(plan, job)
@@ -159,13 +139,13 @@ def _so_far(plan: Plan, job: Job) -> _Standing:
     return _Standing(stored_run(plan.how.out, job.key), outcome)
 
 
-def _run_one(plan: Plan, job: Job, told: Callable[[float], None]) -> Outcome:
+def _run_one(plan: Plan, job: Job, progress: Callable[[float], None]) -> Outcome:
     if (outcome := reuse(plan, job)) is not None:
         return outcome
     simulate = job.simulate or plan.simulate
     try:
         length = {"periods": job.periods, "duration_s": job.duration_s}
-        trajectory = simulate(job.scene, **length, **heard(simulate, told))
+        trajectory = simulate(job.scene, **length, **with_progress(simulate, progress))
     except (Exception, SystemExit) as error:
         if is_full(error):
             raise _stopped(plan, error) from error

@@ -34,7 +34,6 @@ from engine.at_rest import static_tension_N
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them
-AFTER_REST = 0.9  # time of all other rounds of a level, as a share of that of the runs from rest (measured)
 CHEAP, FULL = "cheap", "full"
 
 
@@ -74,7 +73,7 @@ class Map(Lattice):
     like = 0.2
 
     def __init__(self, plan: Plan, order: Order, grid: Grid, coarse: list[Job]):
-        super().__init__(replace(plan, heard=self._hear, then=self._left), grid.columns)
+        super().__init__(replace(plan, on_row=self._hear), grid.columns)
         self.order, self.grid, self.coarse, self.tree = order, grid, coarse, Quadtree()
         self.jobs: list[Job] = []  # from rest, by cell
         self.keys_of: dict[Motion, str] = {}
@@ -83,9 +82,6 @@ class Map(Lattice):
         self.times: Counter = Counter()
         self.made: set[str] = set()
         self.drawn_s = time.monotonic()
-        # seconds of the runs from rest, and of starts before them; cells to come, as a share of those at hand; of the
-        # level at hand, what its runs from rest leave to do, as a share of their time
-        self.rest_s, self.before_s, self.parts, self.after = 0.0, 0.0, 0.0, AFTER_REST
 
     def beside(self, at: int) -> dict[int, str]:
         """`Lattice.beside`."""
@@ -105,22 +101,18 @@ class Map(Lattice):
 
     def level(self, cells: list[Cell], jobs: list[Job]) -> None:
         """Compute cells: from rest, every other motion, and its judged run. Raises as `runner.run`."""
-        own, first, rest_s = self.order.own, jobs[0].scene, self.times["run_s"]
+        own, first = self.order.own, jobs[0].scene
         self.tree.add(cells)
         self.jobs += jobs
         real = self.plan.simulate is engine.simulate
         ahead = [start_job({}, first, DISPLACED, ())] if real and engine.massless_covers(first) else []
-        self.rest_s, self.parts = 0.0, own.refine / len(jobs) if len(self.jobs) == len(jobs) else 0.0
-        self.after = AFTER_REST
         self._run(jobs, "runs from rest", ahead)
         self._run(outlasting(self.jobs, self.rows, self.beside), "chaos that may be a transient")
-        self.rest_s, self.before_s = self.times["run_s"] - rest_s, self.starts.times["run_s"]
         places = self.add(jobs, [self.rows[job.key] for job in jobs if job.key in self.rows])
         if real:
             self.find(own.starts - 1, own.kick_speed, own.seed, places)
         others = {motion: self._job(motion) for motion, _ in self.beside_rest(self.jobs)}
         others = {motion: job for motion, job in others.items() if motion not in self.keys_of}
-        self.after = 0.0
         self._run([*others.values()], "judged runs of the other motions")
         self.keys_of |= {motion: job.key for motion, job in others.items()}
         self.judged(others, [*self.rows.values()])
@@ -130,17 +122,10 @@ class Map(Lattice):
     def _job(self, motion: Motion) -> Job:
         return job_of(self.order, self.jobs[motion.at], motion, {}, self.order.own.budget)
 
-    def _left(self, seconds: float) -> float:
-        """Seconds of what follows a round that takes so many: the other rounds of its level, and finer cells."""
-        if not self.rest_s:
-            return seconds * (AFTER_REST + self.parts * (1.0 + AFTER_REST))
-        others = self.after * self.rest_s - (self.starts.times["run_s"] - self.before_s) - seconds
-        return max(others, 0.0) + self.parts * (1.0 + AFTER_REST) * self.rest_s
-
-    def _run(self, jobs: list[Job], said: str, ahead: Sequence[Job] = ()) -> None:
+    def _run(self, jobs: list[Job], title: str, ahead: Sequence[Job] = ()) -> None:
         if not jobs:
             return
-        timing, summary = run(replace(self.plan, said=said), jobs, ahead)
+        timing, summary = run(replace(self.plan, title=title), jobs, ahead)
         self.made |= summary.made
         self.rows |= {row["run_key"]: row for row in summary.rows}
         self.times.update(timing)
