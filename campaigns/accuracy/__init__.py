@@ -10,36 +10,40 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
-from argparse import Namespace
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import isfinite
+from pathlib import Path
 from statistics import median
 
 import engine
-from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS
+from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
 
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
 
 
-def options(group) -> None:
-    works = f"works (default: {' '.join(FULL.works)})"
-    cli.add(group, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
-    turns = f"turns of every timed setting (default: {FULL.rounds})"
-    cli.add(group, "--rounds", "N", turns, cli.whole(1, len(FACTORS)))
-    quick_help = f"{' and '.join(QUICK.works)} alone, few settings, one round"
-    group.add_argument("--quick", action="store_true", help=quick_help)
-    group.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. effort: what they ask for."""
 
+    works: list[str] | None = cli.option(
+        "A B ...", f"works (default: {' '.join(FULL.works)})", cli.one_of(FULL.works), many=True
+    )
+    rounds: int | None = cli.option(
+        "N", f"turns of every timed setting (default: {FULL.rounds})", cli.whole(1, len(FACTORS))
+    )
+    quick: bool = cli.flag(f"{' and '.join(QUICK.works)} alone, few settings, one round")
+    no_peers: bool = cli.flag("leave out scipy and other codes")
+    effort: Effort = FULL
 
-def read(options: Namespace, faults: list[str]) -> None:
-    """The effort that they ask for."""
-    effort = QUICK if options.quick else FULL
-    chosen = options.works or effort.works
-    works = tuple(name for name in FULL.works if name in chosen)
-    options.effort = replace(effort, works=works, rounds=options.rounds or effort.rounds)
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The effort."""
+        effort = QUICK if self.quick else FULL
+        chosen = self.works or effort.works
+        works = tuple(name for name in FULL.works if name in chosen)
+        self.effort = replace(effort, works=works, rounds=self.rounds or effort.rounds)
 
 
 def done(order: Order):
@@ -53,7 +57,7 @@ def done(order: Order):
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
-    own, out, ours = order.own, order.how.out, order.simulate is None
+    own, out, ours = order.options, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
@@ -75,7 +79,7 @@ def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery.session import machine
 
-    own, fields_shown = order.own, ("title", "measure", "period_s", "duration_s", "rough")
+    own, fields_shown = order.options, ("title", "measure", "period_s", "duration_s", "rough")
     works = [BY_NAME[name] for name in own.effort.works]
     peers = dict.fromkeys(peer for peer, _, _ in taking_part(own.effort.works, own.quick) if not own.no_peers)
     return {
@@ -97,7 +101,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     sentences = []
-    for work in order.own.effort.works:
+    for work in order.options.effort.works:
         shipped_rows = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
         if errors := [known(row, "error") for row in shipped_rows if isfinite(known(row, "error"))]:
             wall_ms = (
@@ -110,7 +114,5 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     yield f"{early} of our timed runs ended early."
 
 
-STUDY = Study(
-    name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done, answer=answer
-)
+STUDY = Study(name="accuracy", protocol=__doc__, options=Options, parameters=parameters, done=done, answer=answer)
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

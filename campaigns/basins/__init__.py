@@ -15,10 +15,12 @@ from rest is found by bisection of states. The order of the starts is drawn by -
 
 import contextlib
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 
 from campaigns.basins.grid import PAIRS, Grid
 from campaigns.explore.settings import ROW_SOURCES
-from campaigns.explore.sweep import ONLY, SPEED_MPS
+from campaigns.explore.sweep import ONLY, kick_speed
 from campaigns.judge import judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.folder import read_rows, write_table
@@ -31,40 +33,34 @@ DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 
 REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m": [0.0, 0.0, 0.0]}
 
 
-def options(group) -> None:
-    what = "what the starts differ in: velocity or place of the buoy, phase of the wave"
-    cli.add(group, "--across", "|".join(PAIRS), what, usual=PAIRS[0])
-    usual = f"starts along both, or along each of the two (default: {COUNT})"
-    cli.add(group, "--grid", "N|N M", usual)
-    above = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
-    cli.add(group, "--kick-speed", "MPS", "velocities go up to this both ways, m/s", above, SPEED_MPS)
-    cli.add(group, "--displacement", "M", "places go so far from that of rest both ways, m", above, MOVED_M)
-    cli.add(
-        group,
-        "--seed",
-        "N",
-        "of the order of the starts, that of a scrambled Halton sequence",
-        cli.whole(0, 2**32 - 1),
-        1,
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. grid: what the starts are, read from the first four."""
+
+    across: list[str] = cli.option(
+        "|".join(PAIRS), "what the starts differ in: velocity or place of the buoy, phase of the wave", usual=PAIRS[0]
     )
+    grid: list[str] | Grid = cli.option("N|N M", "starts along both, or along each of the two", usual=str(COUNT))
+    kick_speed: float = kick_speed("velocities go up to this both ways, m/s")
+    displacement: float = cli.option("M", "places go so far from that of rest both ways, m", cli.POSITIVE, MOVED_M)
+    seed: int = cli.seed("of the order of the starts, that of a scrambled Halton sequence")
 
-
-def read(options, faults: list[str]) -> None:
-    """The grid (`Grid`) in place of the words of --across and --grid."""
-    across = " ".join(options.across or [PAIRS[0]])
-    if across not in PAIRS:
-        faults.append(f"--across: given {across or 'nothing'}; allowed: one of {', '.join(PAIRS)}")
-        across = PAIRS[0]
-    kind, words = cli.whole(2, 199), options.grid if options.grid is not None else [str(COUNT)]
-    try:
-        counts = [kind.convert(word) for word in words]
-        if not 1 <= len(counts) <= 2:
-            raise ValueError(words)
-    except ValueError:
-        faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
-        counts = [COUNT]
-    size = options.displacement if across == "x z" else options.kick_speed
-    options.grid = Grid(tuple(across.split()), (counts[0], counts[-1]), size)
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The grid in place of the words of --across and --grid."""
+        across = " ".join(self.across)
+        if across not in PAIRS:
+            faults.append(f"--across: given {across or 'nothing'}; allowed: one of {', '.join(PAIRS)}")
+            across = PAIRS[0]
+        kind, words = cli.whole(2, 199), self.grid
+        try:
+            counts = [kind.convert(word) for word in words]
+            if not 1 <= len(counts) <= 2:
+                raise ValueError(words)
+        except ValueError:
+            faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
+            counts = [COUNT]
+        size = self.displacement if across == "x z" else self.kick_speed
+        self.grid = Grid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -100,8 +96,8 @@ def runs(order: Order) -> Callable:
         from campaigns.basins.shocks import shocks
         from campaigns.explore import ends
 
-        found = Found(plan, jobs[0], order.own.grid)
-        found.find(order, order.own.kick_speed, order.own.seed)
+        found = Found(plan, jobs[0], order.options.grid)
+        found.find(order, order.options.kick_speed, order.options.seed)
         if len(found.motions) > 1:
             worst = max(found.motions[1:], key=lambda motion: motion.tension_N)  # beside the first, that from rest
             shocks(found, worst)
@@ -119,7 +115,7 @@ def runs(order: Order) -> Callable:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
+    own = order.options
     return {"across": list(own.grid.across), "grid": list(own.grid.counts), "size": own.grid.size, "seed": own.seed}
 
 
@@ -131,7 +127,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     for folder in parts:
         with contextlib.suppress(OSError, ValueError):  # none, as where there is one motion
             parts[folder] = read_rows(order.how.out / folder / "table.csv")
-    return sentences(rows, order.own.grid.across, order.cases[0].scene, parts)
+    return sentences(rows, order.options.grid.across, order.cases[0].scene, parts)
 
 
 STUDY = Study(
@@ -140,8 +136,7 @@ STUDY = Study(
     scene="tethered_buoy",
     in_waves=True,
     taken=dict.fromkeys(REST, "use --across"),
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

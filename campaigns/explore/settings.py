@@ -7,5 +7,5 @@ ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 
 def settings_of(order: Order) -> dict[str, int | None]:
     """How a row is made: transient_periods, full of `rows.buoy_row`."""
-    full = getattr(order.own, "evidence", "") == "full"
+    full = order.options.evidence == "full"
     return {"transient_periods": order.transient, "full": order.periods if full else None}

@@ -1,8 +1,9 @@
 """A sweep over one key with every motion of each value: the options, and what is run in place of the runs from rest."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 import engine
 from campaigns.columns import Column
@@ -19,30 +20,55 @@ REST = "rest"
 MOST_KICKS = 10_000
 
 
-def add_options(group) -> None:
-    """--starts, --kick-speed, --seed, --start-from."""
-    beside = "beside motions of a massless tether and those carried from its neighbours"
-    usual = f"kicks of the buoy at each value, {beside}; rest: one run from rest only"
-    usual += f" (default: {KICKS}; with --periods: rest)"
-    allowed = cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
-    cli.add(group, "--starts", "rest|N", usual, allowed)
-    speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
-    cli.add(group, "--kick-speed", "MPS", "kicks are velocities of up to this along x and z, m/s", speed, SPEED_MPS)
-    cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
-    file = "run from the final state of this run (a file of trajectories/) instead of from rest"
-    cli.add(group, "--start-from", "FILE", file, cli.Kind(str, "a file of a run"))
+def _starts(text: str):
+    return REST if text == REST else cli.whole(0, MOST_KICKS).convert(text)
+
+
+def kick_speed(use: str = "kicks are velocities of up to this along x and z, m/s") -> Any:
+    """--kick-speed. use: of which starts."""
+    return cli.option("MPS", use, cli.POSITIVE, SPEED_MPS)
+
+
+KICKS_BESIDE = (
+    "kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
+    f"rest: one run from rest only (default: {KICKS}; with --periods: rest)"
+)
+SEED_OF_KICKS = "of the kicks, drawn independently and uniformly"
+FULL = "full"
+
+
+@dataclass
+class Starts(cli.Options):
+    """The options of a sweep with every motion of each value."""
+
+    starts: str | int | None = cli.option(
+        "rest|N", KICKS_BESIDE, cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
+    )
+    kick_speed: float = kick_speed()
+    seed: int = cli.seed(SEED_OF_KICKS)
+    start_from: str | None = cli.option(
+        "FILE",
+        "run from the final state of this run (a file of trajectories/) instead of from rest",
+        cli.Kind(str, "a file of a run"),
+    )
+    evidence: str = cli.option(
+        "dynamics|full",
+        "dynamics, or full: Wolf's exponent and the tests for records of unknown origin as well, seconds a run",
+        cli.one_of(("dynamics", FULL)),
+        "dynamics",
+    )
 
 
 def start_of(order: Order, scene):
     """The state of --start-from, or None. What is wrong with it, or with going on from it in this scene, is told."""
-    if order.own.start_from is None:
+    if order.options.start_from is None:
         return None
     from engine.simulation import checked_start
 
     try:
         if scene.waves is None:
             raise ValueError("given for a scene without waves; allowed: with waves")
-        return checked_start(scene, run_in(order.own.start_from)).at_zero()
+        return checked_start(scene, run_in(order.options.start_from)).at_zero()
     except ValueError as error:
         order.tell([f"--start-from: {error}"])
     return None
@@ -54,17 +80,13 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def _starts(text: str):
-    return REST if text == REST else cli.whole(0, MOST_KICKS).convert(text)
-
-
 def kicks_of(order: Order, scenes: Iterable) -> int | None:
     """Kicks at each value; None: runs from rest only. More asked of scenes that can have nothing else is a fault.
 
     scenes: of the runs from rest.
     """
-    asked = order.own.starts
-    if order.own.start_from is not None:
+    asked = order.options.starts
+    if order.options.start_from is not None:
         if asked not in (None, REST):
             order.tell([f"--starts: given {asked} with --start-from; allowed: one of them"])
         return None
@@ -79,8 +101,8 @@ def kicks_of(order: Order, scenes: Iterable) -> int | None:
 def parameters(order: Order, kicks: int | None) -> dict[str, object]:
     """What the provenance says of the starts."""
     if kicks is None:
-        return {"starts": REST if order.own.start_from is None else order.own.start_from}
-    return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
+        return {"starts": REST if order.options.start_from is None else order.options.start_from}
+    return {"starts": kicks, "kick_speed_mps": order.options.kick_speed, "seed": order.options.seed}
 
 
 def job_of(order: Order, job: Job, motion, labels: dict, most: int | None = None) -> Job:
@@ -120,7 +142,7 @@ def every_motion(order: Order, kicks: int, key: Column, name: str, index: int | 
         longer, late = run(plan, outlasting(jobs, rows, lambda at: (at - 1, at + 1)))
         rows |= {row["run_key"]: row for row in late.rows}
         along = Along(plan, key, jobs, Scenes(jobs[0].scene.to_toml(), key.name, name, index), [*rows.values()])
-        along.find(kicks, order.own.kick_speed, order.own.seed)
+        along.find(kicks, order.options.kick_speed, order.options.seed)
 
         others = {motion: job_of(order, job, motion, {}) for motion, job in along.beside_rest(jobs)}
         more, found = run(plan, [*jobs, *others.values()])

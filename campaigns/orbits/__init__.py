@@ -16,7 +16,8 @@ map, and a branch ends. Nothing is random.
 import contextlib
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from campaigns import sweep
 from campaigns.answers import known
@@ -29,37 +30,48 @@ from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 
-KEY, RANGE, VALUES, BUDGET = "waves.steepness", (0.05, 0.16), 9, 700
+USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
 MOTIONS = "motions"
 
 
-def options(group) -> None:
-    usual = f"(default: {KEY} {RANGE[0]:g} {RANGE[1]:g})"
-    cli.add(group, "--vary", "KEY LO HI", f"the key of the scene, and the range over which orbits are followed {usual}")
-    cli.add(group, "--values", "N", "values of it at which motions are looked for", cli.whole(2, 200), VALUES)
-    file = "the orbit under the last state of this run (a file of trajectories/), in its own scene"
-    cli.add(group, "--start-from", "FILE", file, cli.Kind(str, "a file of a run"))
-    letter = "the orbit under this motion alone, by its letter in motions/table.csv"
-    cli.add(group, "--motion", "LETTER", letter, cli.Kind(str, "the letter of a motion"))
-    cli.add(group, "--orbits", "N", "orbits of a branch at most, each way", cli.whole(1, 10_000), ORBITS)
-    cli.add(group, "--branches", "N", "branches that are followed at most", cli.whole(1, 1000), BRANCHES)
-    finer = "do not find folds, flips and torus points again on a finer grid of the line"
-    group.add_argument("--no-accuracy", action="store_true", help=finer)
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign; after them what `campaigns.sweep` reads, and this command does not offer."""
 
+    vary: list = cli.option(
+        "KEY LO HI", "the key of the scene, and the range over which orbits are followed", usual=USUAL
+    )
+    values: int = cli.option("N", "values of it at which motions are looked for", cli.whole(2, 200), VALUES)
+    start_from: str | None = cli.option(
+        "FILE",
+        "the orbit under the last state of this run (a file of trajectories/), in its own scene",
+        cli.Kind(str, "a file of a run"),
+    )
+    motion: str | None = cli.option(
+        "LETTER",
+        "the orbit under this motion alone, by its letter in motions/table.csv",
+        cli.Kind(str, "the letter of a motion"),
+    )
+    orbits: int = cli.option("N", "orbits of a branch at most, each way", cli.whole(1, 10_000), ORBITS)
+    branches: int = cli.option("N", "branches that are followed at most", cli.whole(1, 1000), BRANCHES)
+    no_accuracy: bool = cli.flag("do not find folds, flips and torus points again on a finer grid of the line")
+    starts: int = 0
+    kick_speed: float = motions.SPEED_MPS
+    seed: int = 1
+    duration: float | None = None
+    evidence: str = "dynamics"
 
-def read(options, faults: list[str]) -> None:
-    """The key with its values (`campaigns.sweep.Varied`) in place of the words of --vary."""
-    words = options.vary or [KEY, *map(str, RANGE)]
-    if len(words) != 3:
-        faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
-        words = [KEY, *map(str, RANGE)]
-    found = sweep.varied([*words, str(options.values)], faults)
-    options.vary = [] if found is None else [found]
-    options.starts, options.kick_speed, options.seed = 0, motions.SPEED_MPS, 1
-    options.duration, options.evidence = None, "dynamics"
-    if options.start_from is not None and options.motion is not None:
-        faults.append(f"--motion: given {options.motion} with --start-from; allowed: one of them")
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The key with its values (`campaigns.sweep.Varied`) in place of the words of --vary."""
+        words = self.vary or USUAL.split()
+        if len(words) != 3:
+            faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
+            words = USUAL.split()
+        key = sweep.varied([*words, str(self.values)], faults)
+        self.vary = [] if key is None else [key]
+        if self.start_from is not None and self.motion is not None:
+            faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -67,24 +79,24 @@ def cases(order: Order) -> Iterator[Job]:
     from engine.period_map import why_no_map
 
     order.periods, order.looks, order.transient = BUDGET, True, None
-    if not order.own.vary:
+    if not order.options.vary:
         return
-    jobs = [*_of_file(order)] if order.own.start_from is not None else [*sweep.cases(order)]
+    jobs = [*_of_file(order)] if order.options.start_from is not None else [*sweep.cases(order)]
     grids = {job.scene.tether.nodes for job in jobs}
     for why in dict.fromkeys(filter(None, (why_no_map(job.scene) for job in jobs))):
         order.tell([f"campaigns.orbits: given a scene with {why}; allowed: a buoy in regular waves, a line in a plane "
                     "with bending stiffness, an integrator with error control"])  # fmt: skip
     if len(grids) > 1:
-        order.tell([f"--vary {order.own.vary[0].key}: changes the grid of the line; allowed: a key that does not"])
+        order.tell([f"--vary {order.options.vary[0].key}: changes the grid of the line; allowed: a key that does not"])
     yield from jobs
 
 
 def _of_file(order: Order) -> Iterator[Job]:
     from engine.scene import SceneError, scene_from_toml
 
-    (key,) = order.own.vary
+    (key,) = order.options.vary
     try:
-        run = motions.run_in(order.own.start_from)
+        run = motions.run_in(order.options.start_from)
         scene = scene_from_toml(run.scene.to_toml(), order.changes)
         value = key.of(scene)
         if run.final_state is None:
@@ -111,9 +123,9 @@ def runs(order: Order) -> Callable:
         from campaigns.orbits.tables import tables
         from campaigns.orbits.tree import Tree
 
-        (key,), scene = order.own.vary, jobs[0].scene
+        (key,), scene = order.options.vary, jobs[0].scene
         timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
-        if order.own.start_from is not None:
+        if order.options.start_from is not None:
             starts = [*_under_file(order, jobs[0])]
         else:
             inner = replace(plan, how=replace(plan.how, out=plan.how.out / MOTIONS))
@@ -124,11 +136,11 @@ def runs(order: Order) -> Callable:
         state, value = (starts[0][3], starts[0][1]) if starts else (None, key.values[0])
         low, high = key.values[0], key.values[-1]
         line = Line(Scenes(scene.to_toml(), key.key, key.name, key.index), low, high, high - low, state, value)
-        tree = Tree(plan, line, order.own.orbits, order.own.branches)
+        tree = Tree(plan, line, order.options.orbits, order.options.branches)
         if starts:
             tree.grow(starts)
             tree.across([start[1] for start in starts])
-            if not order.own.no_accuracy:
+            if not order.options.no_accuracy:
                 tree.refine()
         rows = tables(tree, key.column)
         timing["run_s"] += time.perf_counter() - began
@@ -139,11 +151,11 @@ def runs(order: Order) -> Callable:
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
-    (key,) = order.own.vary
+    (key,) = order.options.vary
     found: dict[tuple[str, int], list[dict]] = {}
     for row in read_rows(folder / "table.csv"):
         period = known(row, "strobed_period")
-        if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.own.motion in (None, row["motion"]):
+        if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.options.motion in (None, row["motion"]):
             found.setdefault((str(row["motion"]), int(period)), []).append(row)
     for (letter, period), rows in found.items():
         row = rows[len(rows) // 2]
@@ -156,7 +168,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     """The same of --start-from, where its run repeats."""
     from campaigns.explore.rows import after_transient, sound_part
 
-    (key,), run = order.own.vary, motions.run_in(order.own.start_from)
+    (key,), run = order.options.vary, motions.run_in(order.options.start_from)
     periods = int(run.columns["time_s"][-1] / run.scene.waves.period_s + 1e-6)
     period = after_transient(run, sound_part(run.columns), periods // 2).get("strobed_period")
     if period is not None:
@@ -164,7 +176,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
+    own = order.options
     told = {"vary": {one.key: [one.values[0], one.values[-1]] for one in own.vary}, "motion": own.motion}
     return told | {"start_from": own.start_from, "tolerance": TOLERANCE, "orbits": own.orbits, "branches": own.branches}
 
@@ -177,15 +189,14 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     for name in parts:
         with contextlib.suppress(ValueError):  # a table without rows
             parts[name] = read_rows(order.how.out / name / "table.csv")
-    return sentences(rows, order.own.vary[0].column, parts)
+    return sentences(rows, order.options.vary[0].column, parts)
 
 
 STUDY = Study(
     name="orbits",
     protocol=__doc__,
     scene="tethered_buoy",
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

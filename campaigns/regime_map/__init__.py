@@ -14,6 +14,8 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 import contextlib
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 
 from campaigns.buoy_sweep import STUDY as SWEEP
 from campaigns.explore import sweep as motions
@@ -27,50 +29,58 @@ from campaigns.study import Measures, Order, Study
 from campaigns.sweep import varied
 from engine.views import carries_tangents, in_regular_waves
 
-USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
+USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40"
+BUDGET = SWEEP.lengths.budget
 STARTS, MOST_CELLS = 3, 100_000
 
 
-def options(group) -> None:
-    twice = f"twice: a key of the scene and its values, both ends included (default: {' '.join(USUAL)})"
-    cli.add(group, "--vary", "KEY LO HI COUNT", twice)
-    cli.add(group, "--pages", "KEY LO HI COUNT", "a map for each value of a third key; KEY WORD WORD of a key of words")
-    cli.add(group, "--starts", "N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
-    speed = cli.number("a finite number above 0", lambda found: 0.0 < found < float("inf"))
-    cli.add(group, "--kick-speed", "MPS", "kicks are up to this along x and z, m/s", speed, motions.SPEED_MPS)
-    cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
-    cli.add(group, "--refine", "N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
-    most = SWEEP.lengths.budget
-    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", cli.whole(1, most), most)
-    cli.add(group, "--cut", "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder")
-    group.add_argument("--screen", action="store_true", help="a massless tether only")
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. grid: the keys of the map, read from --vary and --pages; None where at fault."""
 
+    vary: list[str] = cli.option(
+        "KEY LO HI COUNT", "twice: a key of the scene and its values, both ends included", usual=USUAL
+    )
+    pages: list[str] | None = cli.option(
+        "KEY LO HI COUNT", "a map for each value of a third key; KEY WORD WORD of a key of words"
+    )
+    starts: int = cli.option("N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
+    kick_speed: float = motions.kick_speed()
+    seed: int = cli.seed(motions.SEED_OF_KICKS)
+    refine: int = cli.option("N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
+    budget: int = cli.option("N", "wave periods after which a run ends undecided", cli.whole(1, BUDGET), BUDGET)
+    cut: list[str] | dict | None = cli.option(
+        "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder"
+    )
+    screen: bool = cli.flag("a massless tether only")
+    grid: Grid | None = None
 
-def read(options, faults: list[str]) -> None:
-    """The keys of the map (`Grid`) in place of the words of --vary and --pages; the values of --cut."""
-    words = options.vary if options.vary is not None else USUAL
-    page, options.grid = None, None
-    if len(words) != 8:
-        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: twice KEY LO HI COUNT, or none of it")
-        return
-    keys = [varied(words[:4], faults), varied(words[4:], faults)]
-    if options.pages is not None:
-        if len(options.pages) < 2:
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The keys of the map, and the values of --cut."""
+        words = self.vary
+        if len(words) != 8:
             faults.append(
-                f"--pages: given {' '.join(options.pages) or 'nothing'}; allowed: KEY LO HI COUNT, or KEY WORDS"
+                f"--vary: given {' '.join(words) or 'nothing'}; allowed: twice KEY LO HI COUNT, or none of it"
             )
             return
-        page = varied(options.pages, faults, "--pages", of_words=True)
-        keys.insert(0, page)
-    if None in keys:
-        return
-    if len({one.key for one in keys}) < len(keys):
-        faults.append(f"--vary {' '.join(one.key for one in keys)}: given twice; allowed: different keys")
-    for one in keys:
-        if one is not page and len(one.values) < 2:
-            faults.append(f"--vary {one.key}: one value only; allowed: two or more")
-    options.grid = Grid((keys[-2], keys[-1]), page)
-    options.cut = cuts.read(options.cut, options.grid.every, faults)
+        keys, page = [varied(words[:4], faults), varied(words[4:], faults)], None
+        if self.pages is not None:
+            if len(self.pages) < 2:
+                faults.append(
+                    f"--pages: given {' '.join(self.pages) or 'nothing'}; allowed: KEY LO HI COUNT, or KEY WORDS"
+                )
+                return
+            page = varied(self.pages, faults, "--pages", of_words=True)
+            keys.insert(0, page)
+        if None in keys:
+            return
+        if len({key.key for key in keys}) < len(keys):
+            faults.append(f"--vary {' '.join(key.key for key in keys)}: given twice; allowed: different keys")
+        for key in keys:
+            if key is not page and len(key.values) < 2:
+                faults.append(f"--vary {key.key}: one value only; allowed: two or more")
+        self.grid = Grid((keys[-2], keys[-1]), page)
+        self.cut = cuts.read(self.cut, self.grid.every, faults)
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -78,8 +88,8 @@ def cases(order: Order) -> Iterator[Job]:
     from campaigns.regime_map.maps import job_at
     from engine.massless import why_not_covered
 
-    grid = order.own.grid
-    order.periods, order.looks, order.transient = SWEEP.lengths.budget, True, None
+    grid = order.options.grid
+    order.periods, order.looks, order.transient = BUDGET, True, None
     if grid is None:
         return
     order.tell(f"--set {one.key}: this campaign sets it" for one in grid.every if one.key in order.changes)
@@ -96,7 +106,7 @@ def cases(order: Order) -> Iterator[Job]:
             at = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
             order.tell([f"--vary: that is at {at}, the first cell of the map that cannot be"])
             return
-        if order.own.screen and (reason := why_not_covered(job.scene)):
+        if order.options.screen and (reason := why_not_covered(job.scene)):
             order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
             return
         yield job
@@ -107,7 +117,7 @@ def measures(order: Order) -> Measures:
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
-    columns = motion_columns(order.own.grid.columns)
+    columns = motion_columns(order.options.grid.columns)
     return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), {})
 
 
@@ -117,12 +127,12 @@ def runs(order: Order) -> Callable:
     def whole_map(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
         from campaigns.regime_map.maps import Map
 
-        found = Map(plan, order, order.own.grid, jobs)
+        found = Map(plan, order, order.options.grid, jobs)
         found.screened()
         summary = Summary([], 0, 0, 0.0)
-        if not order.own.screen:
-            found.level(order.own.grid.coarse(), jobs)
-            found.refine(order.own.refine)
+        if not order.options.screen:
+            found.level(order.options.grid.coarse(), jobs)
+            found.refine(order.options.refine)
             summary = found.write()
         return found.timing(), summary
 
@@ -130,7 +140,7 @@ def runs(order: Order) -> Callable:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    own = order.own
+    own = order.options
     told: dict[str, object] = {"vary": {one.key: list(one.values) for one in own.grid.keys}}
     if own.grid.page is not None:
         told["pages"] = {own.grid.page.key: list(own.grid.page.values)}
@@ -145,7 +155,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     cells: tuple[dict, ...] = ()
     with contextlib.suppress(OSError, ValueError):
         cells = read_rows(order.how.out / "cells" / "table.csv")
-    keys = [one for one in order.own.grid.every if one.key.startswith("buoy.")]
+    keys = [one for one in order.options.grid.every if one.key.startswith("buoy.")]
     known: dict[tuple, object] = {}
 
     def scene(row: dict) -> object:
@@ -157,7 +167,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
             known[values] = order.scene(changes)
         return known[values]
 
-    return [*sentences(cells, rows, order.own.grid.columns, scene)]
+    return [*sentences(cells, rows, order.options.grid.columns, scene)]
 
 
 STUDY = Study(
@@ -165,8 +175,7 @@ STUDY = Study(
     protocol=__doc__,
     scene="tethered_buoy",
     in_waves=True,
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,
@@ -181,6 +190,6 @@ def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int
     argv = list(sys.argv[1:] if argv is None else argv)
 
     def work(order: Order, words: list[str]) -> int:
-        return cuts.cut(order, simulate) if order.own.cut else STUDY.conduct(order, words, simulate)
+        return cuts.cut(order, simulate) if order.options.cut else STUDY.conduct(order, words, simulate)
 
-    return session.command(STUDY.called, argv, read_order, work)
+    return session.command(STUDY.module, argv, read_order, work)

@@ -35,7 +35,7 @@ def cut(order: Order, simulate: Callable | None = None) -> int:
     """Do the sweep of the key that is left; returns its exit code. simulate: as of `Study.main`."""
     from campaigns import buoy_sweep, sweep
 
-    own, how, chosen = order.own, order.how, order.own.cut
+    own, how, chosen = order.options, order.how, order.options.cut
     free = next(one for one in own.grid.every if one.key not in chosen)
     out = how.out / "cuts" / ",".join(f"{key}={value}" for key, value in chosen.items())
     keys = {case.key for case in order.cases if _of(case.labels, chosen)}
@@ -52,7 +52,7 @@ def cut(order: Order, simulate: Callable | None = None) -> int:
     for one in own.grid.every:
         if one.key in chosen:
             order.tell(one.put(chosen[one.key], order.base(), changes))
-    words += ["--set", *(own.set or []), *(f"{name}={value}" for name, value in changes.items())]
+    words += ["--set", *order.set_words, *(f"{name}={value}" for name, value in changes.items())]
     print(f"cut      {' and '.join(f'{key} = {value}' for key, value in chosen.items())}, in {out}")
     if free.key == buoy_sweep.SWEPT:
         return buoy_sweep.main([*words, "--no-accuracy", "--steepness", *map(str, free.values)], simulate)

@@ -64,7 +64,7 @@ def job_at(order: Order, grid: Grid, cell: Cell) -> Job | None:
     if scene is None:
         return None
     labels = grid.labels(cell) | {"dimensions": scene.motion.dimensions}
-    return judged_job(order, labels, scene, most=order.own.budget)
+    return judged_job(order, labels, scene, most=order.options.budget)
 
 
 class Map(Lattice):
@@ -89,7 +89,7 @@ class Map(Lattice):
 
     def screened(self) -> None:
         """Let a massless tether do the coarse grid. Raises OSError."""
-        own, began = self.order.own, time.perf_counter()
+        own, began = self.order.options, time.perf_counter()
         self.screen = screened(self.plan, [job.scene for job in self.coarse], own.kick_speed, own.seed)
         self.times["run_s"] += time.perf_counter() - began
         tables.write_screen(self.plan.how.out, self.grid, self.coarse, self.screen)
@@ -101,7 +101,7 @@ class Map(Lattice):
 
     def level(self, cells: list[Cell], jobs: list[Job]) -> None:
         """Compute cells: from rest, every other motion, and its judged run. Raises as `runner.run`."""
-        own, first = self.order.own, jobs[0].scene
+        own, first = self.order.options, jobs[0].scene
         self.tree.add(cells)
         self.jobs += jobs
         real = self.plan.simulate is engine.simulate
@@ -120,7 +120,7 @@ class Map(Lattice):
         self.write()
 
     def _job(self, motion: Motion) -> Job:
-        return job_of(self.order, self.jobs[motion.at], motion, {}, self.order.own.budget)
+        return job_of(self.order, self.jobs[motion.at], motion, {}, self.order.options.budget)
 
     def _run(self, jobs: list[Job], title: str, ahead: Sequence[Job] = ()) -> None:
         if not jobs:

@@ -11,9 +11,10 @@ seed. A verdict "unexplained" ends the campaign with exit code 1.
 """
 
 import math
-from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from campaigns.answers import known
 from campaigns.machinery import cli
@@ -24,30 +25,36 @@ FUZZ, QUICK_FUZZ = 1000, 40
 DRIFT_PERIODS = 100_000
 
 
-def options(group) -> None:
-    group.add_argument("--quick", action="store_true", help="fewer cases, fewer random scenes, no long run")
-    scenes = f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)"
-    cli.add(group, "--fuzz", "N", scenes, cli.whole(0))
-    cli.add(group, "--seed", "N", "seed of the random scenes", cli.whole(0), 0)
-    periods = f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)"
-    cli.add(group, "--drift-periods", "N", periods, cli.whole(0))
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign."""
 
+    quick: bool = cli.flag("fewer cases, fewer random scenes, no long run")
+    fuzz: int = cli.option(
+        "N", f"random scenes, N valid and N invalid (default: {FUZZ}; {QUICK_FUZZ} with --quick)", cli.whole(0)
+    )
+    seed: int = cli.option("N", "seed of the random scenes", cli.whole(0), 0)
+    drift_periods: int = cli.option(
+        "N",
+        f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)",
+        cli.whole(0),
+    )
 
-def read(options: Namespace, faults: list[str]) -> None:
-    """What is usual depends on --quick."""
-    if options.fuzz is None:
-        options.fuzz = QUICK_FUZZ if options.quick else FUZZ
-    if options.drift_periods is None:
-        options.drift_periods = 0 if options.quick else DRIFT_PERIODS
-    if 0 < options.drift_periods < 1000:
-        faults.append(f"--drift-periods: given {options.drift_periods}; allowed: 0, or 1000 and above")
+    def read(self, out: Path, faults: list[str]) -> None:
+        """What is usual depends on --quick."""
+        if self.fuzz is None:
+            self.fuzz = QUICK_FUZZ if self.quick else FUZZ
+        if self.drift_periods is None:
+            self.drift_periods = 0 if self.quick else DRIFT_PERIODS
+        if 0 < self.drift_periods < 1000:
+            faults.append(f"--drift-periods: given {self.drift_periods}; allowed: 0, or 1000 and above")
 
 
 def done(order: Order) -> tuple[dict[str, float], Summary]:
     """Tasks and tables."""
     from campaigns.stability import tasks
 
-    return tasks.done(order.own)
+    return tasks.done(order.options, order.how)
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
@@ -71,12 +78,11 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 STUDY = Study(
     name="stability",
     protocol=__doc__,
-    options=options,
-    read=read,
-    parameters=lambda order: {name: getattr(order.own, name) for name in ("seed", "quick", "fuzz", "drift_periods")},
+    options=Options,
+    parameters=lambda order: asdict(order.options),
     done=done,
     answer=answer,
-    backends=False,
+    places=("jobs",),
     strict=True,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -49,13 +49,13 @@ class Task:
         return hashlib.sha256(repr(self).encode()).hexdigest()
 
 
-def planned(order) -> list[Task]:
+def planned(options) -> list[Task]:
     """Every task that workers do, the longest first."""
-    tasks = [Task("case", drift_case(order.drift_periods))] if order.drift_periods else []
-    tasks += [Task("case", case) for case in all_cases() if case.quick or not order.quick]
+    tasks = [Task("case", drift_case(options.drift_periods))] if options.drift_periods else []
+    tasks += [Task("case", case) for case in all_cases() if case.quick or not options.quick]
     for kind, size in CHUNK.items():
-        for first in range(0, order.fuzz, size):
-            tasks.append(Task("random", (kind, order.seed, order.fuzz, first, min(first + size, order.fuzz))))
+        for first in range(0, options.fuzz, size):
+            tasks.append(Task("random", (kind, options.seed, options.fuzz, first, min(first + size, options.fuzz))))
     return tasks
 
 
@@ -86,14 +86,14 @@ def _computed(out: Path, maker: str, task: Task) -> dict:
     return {"rows": rows}
 
 
-def done(order) -> tuple[dict[str, float], Summary]:
+def done(options, how) -> tuple[dict[str, float], Summary]:
     """Do all that is not there yet; write the tables. Returns the times and the summary for the session.
 
     Raises CampaignStopped where a worker dies: cases have their own processes.
     """
-    out, maker = order.how.out, made_by({}, *SOURCES)
+    out, maker = how.out, made_by({}, *SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
-    tasks = planned(order)
+    tasks = planned(options)
     results = {task.key(): kept_row(out, task.key(), maker) for task in tasks}
     missing = [task for task in tasks if results[task.key()] is None]
     start = time.perf_counter()
@@ -104,12 +104,12 @@ def done(order) -> tuple[dict[str, float], Summary]:
     start = time.perf_counter()
     drawn = {}
     with stage("drawing random scenes"):
-        if order.fuzz:
+        if options.fuzz:
             for kind in CHUNK:
-                drawn[kind] = result(out, maker, Task("drawn", (kind, order.seed, order.fuzz)))["scenes"]
+                drawn[kind] = result(out, maker, Task("drawn", (kind, options.seed, options.fuzz)))["scenes"]
     try:
         with (
-            opened("loky", max(1, min(order.how.jobs, len(missing)))) as execute,
+            opened("loky", max(1, min(how.jobs, len(missing)))) as execute,
             stage("cases", len(tasks), "tasks", lambda: len(tasks) - [*results.values()].count(None)),
         ):
             if missing:
@@ -124,14 +124,14 @@ def done(order) -> tuple[dict[str, float], Summary]:
         else:
             random += results[task.key()]["rows"]
     for kind, scenes in drawn.items():
-        rows.append(_of_kind(order, kind, scenes, [row for row in random if row["kind"] == kind]))
+        rows.append(_of_kind(options, kind, scenes, [row for row in random if row["kind"] == kind]))
     write_table(out / "fuzz.csv", fuzz.COLUMNS, random)
     write_table(out / "table.csv", cases.COLUMNS, rows)
     timing |= {"run_s": time.perf_counter() - start, "analysis_s": 0.0}
     return timing, Summary(rows, len(tasks) - len(missing), len(missing), 0.0)
 
 
-def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
+def _of_kind(options, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
     """The row of all random scenes of a kind: outcomes counted, and the smallest unsound scene where there is one."""
     counts = Counter(row["outcome"] for row in rows)
     unsound = sum(count for outcome, count in counts.items() if outcome not in fuzz.SOUND)
@@ -143,7 +143,7 @@ def _of_kind(order, kind: str, drawn: list[dict], rows: list[dict]) -> dict:
             outcome = known.get(json.dumps(raw)) or fuzz.judged(kind, raw)["outcome"]
             return outcome not in fuzz.SOUND
 
-        smallest = random_scenes.smallest(kind, order.seed, order.fuzz, is_unsound)
+        smallest = random_scenes.smallest(kind, options.seed, options.fuzz, is_unsound)
         message += f"; the smallest scene of this kind that is unsound: {json.dumps(smallest)}"
     verdict = cases.UNEXPLAINED if unsound else cases.OK
     return {

@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial, reduce
 from itertools import product
-from math import inf
+from pathlib import Path
 
 from campaigns.columns import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
 from campaigns.explore import sweep as motions
@@ -107,35 +107,37 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
     return Varied(key, in_list, index, tuple(values), Column(key, unit, symbol, meaning, digits), part)
 
 
-def options(group) -> None:
-    cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
-    seconds = cli.number("seconds, a finite number above 0", lambda found: 0.0 < found < inf)
-    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
-    cli.add_evidence(group)
-    motions.add_options(group)
+@dataclass
+class Options(motions.Starts):
+    """The options of this campaign."""
 
+    vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
+    duration: float | None = cli.option("S", "length of every run in seconds, for a scene without waves", cli.SECONDS)
 
-def read(options, faults: list[str]) -> None:
-    """The keys with their values (`Varied`), in place of the words of --vary."""
-    words = options.vary or []
-    allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
-    if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
-        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
-        words = []
-    found = (varied(words[start : start + 4], faults) for start in range(0, len(words), 4))
-    keys = options.vary = [one for one in found if one is not None]
-    if len({one.key for one in keys}) < len(keys):
-        faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The keys with their values (`Varied`), in place of the words of --vary."""
+        words = self.vary or []
+        allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
+        if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
+            faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
+            words = []
+        self.vary = []
+        for start in range(0, len(words), 4):
+            key = varied(words[start : start + 4], faults)
+            if key is not None:
+                self.vary.append(key)
+        if len({key.key for key in self.vary}) < len(self.vary):
+            faults.append(f"--vary {self.vary[0].key}: given twice; allowed: two different keys")
 
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    keys = order.own.vary
+    keys = order.options.vary
     order.tell(f"--set {one.key}: this campaign sets it; use --vary" for one in keys if one.key in order.changes)
     base = order.base(tell=True)
     if base is None or not keys:
         return
-    duration_s, periods = order.own.duration, order.periods if base.waves is not None else None
+    duration_s, periods = order.options.duration, order.periods if base.waves is not None else None
     if base.waves is not None and duration_s is not None:
         order.tell(["--duration: given for a scene with waves; allowed: --periods"])
     if base.waves is None and duration_s is None:
@@ -160,9 +162,9 @@ def cases(order: Order) -> Iterator[Job]:
 
 def starts_of(order: Order, scenes=None) -> int | None:
     """Kicks at each value; None: runs from rest only, as over two keys."""
-    if len(order.own.vary) > 1:
-        if order.own.starts not in (None, motions.REST):
-            order.tell([f"--starts: given {order.own.starts} with two keys; allowed: {motions.REST}, or one key"])
+    if len(order.options.vary) > 1:
+        if order.options.starts not in (None, motions.REST):
+            order.tell([f"--starts: given {order.options.starts} with two keys; allowed: {motions.REST}, or one key"])
         return None
     return motions.kicks_of(order, [case.scene for case in order.cases] if scenes is None else scenes)
 
@@ -172,7 +174,7 @@ def runs(order: Order):
     kicks = starts_of(order)
     if kicks is None:
         return run
-    (one,) = order.own.vary
+    (one,) = order.options.vary
     return motions.every_motion(order, kicks, one.column, one.name, one.index)
 
 
@@ -180,14 +182,14 @@ def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
     from campaigns.explore import rows
 
-    labels = tuple(one.column for one in order.own.vary)
+    labels = tuple(one.column for one in order.options.vary)
     measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
     if any(in_regular_waves(case.scene) for case in order.cases):
         others = (column for column in rows.COLUMNS if not column.name.startswith("planar_"))
         measured = tuple(column for column in others if column is not rows.STEEPNESS)
     columns = (*labels, *(column for column in measured if column.name not in {one.name for one in labels}))
     sources, settings = (*ROW_SOURCES, "campaigns/sweep/__init__.py"), settings_of(order)
-    settings["asked"] = getattr(order.own, "transient", None)  # campaigns of orbits have no such option
+    settings["asked"] = order.given_transient
     return Measures(columns, partial(sweep_row, **settings), sources, settings)
 
 
@@ -218,18 +220,18 @@ def sweep_row(
 
 def parameters(order: Order) -> dict[str, object]:
     told: dict[str, object] = {
-        "vary": {one.key: list(one.values) for one in order.own.vary},
+        "vary": {one.key: list(one.values) for one in order.options.vary},
         "strobe_tolerance": STROBE_TOLERANCE,
         "longest_period": LONGEST_PERIOD,
     }
-    if order.own.duration is not None:
-        told |= {"duration_s": order.own.duration, "periods": None, "transient": 0}
+    if order.options.duration is not None:
+        told |= {"duration_s": order.options.duration, "periods": None, "transient": 0}
     return told | motions.parameters(order, starts_of(order))
 
 
 def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
-    if len(order.own.vary) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
+    if len(order.options.vary) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
         from campaigns.explore.errors import errors
 
         yield errors
@@ -240,7 +242,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     from campaigns.answers import greatest, known
     from campaigns.explore.answer import PEAK, largest, sentences, use_of
 
-    keys = [one.key for one in order.own.vary]
+    keys = [one.key for one in order.options.vary]
     if len(keys) == 1:
         ends: tuple[dict, ...] = ()
         if starts_of(order) is not None:
@@ -261,8 +263,7 @@ STUDY = Study(
     protocol=__doc__,
     scene="tethered_buoy",
     lengths=Lengths(periods=120, transient=40, budget=700),
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

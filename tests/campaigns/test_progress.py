@@ -1,4 +1,4 @@
-"""A command says which step it is at, what is done of how many, and for how long; in a file rarely, in workers' words."""
+"""A command says which step it is at, how much of it is done, and since when; in a file it does so rarely."""
 
 import io
 import sys
