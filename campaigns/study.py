@@ -133,6 +133,7 @@ class Study:
 
     name: str  # of its provenance and of its folder in results/
     protocol: str  # the help of its command
+    module: str = ""  # its command is python -m MODULE; "" for campaigns.NAME
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
@@ -156,16 +157,16 @@ class Study:
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
-        return session.command(self.module, argv, self.read_order, partial(self.conduct, simulate=simulate))
+        return session.command(self.called, argv, self.read_order, partial(self.conduct, simulate=simulate))
 
     @property
-    def module(self) -> str:
+    def called(self) -> str:
         """MODULE of python -m MODULE."""
-        return f"campaigns.{self.name}"
+        return self.module or f"campaigns.{self.name}"
 
     def parser(self) -> ArgumentParser:
         """The options of the command."""
-        parser = cli.parser(self.module, self.protocol)
+        parser = cli.parser(self.called, self.protocol)
         group = parser.add_argument_group("what is run")
         cli.add_options(group, self.options)
         if self.lengths is not None:

@@ -150,7 +150,7 @@ def _clock(began: float) -> str:
 
 
 def reporter(folder: Path | None, task: str) -> Callable[..., None]:
-    """For a worker: a function of numbers that say how far a task is, heard at most once in REPORT_S; folder None: never."""
+    """For a worker: a function of numbers that say how far a task is; folder None: nobody reads them."""
     last_s = -REPORT_S
 
     def report(*numbers: float) -> None:

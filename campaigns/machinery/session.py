@@ -94,7 +94,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     start, how = time.perf_counter(), order.how
     with claimed(how.out):
         with stage(study.name):
-            record = begun(how.out, study.name, command_line(study.module, argv), parameters)
+            record = begun(how.out, study.name, command_line(study.called, argv), parameters)
             timing, summary = study.work(order)
         if summary.computed or not ended(how.out):
             failed = sum(row["status"] != "ok" for row in summary.rows)

@@ -192,4 +192,4 @@ def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int
     def work(order: Order, words: list[str]) -> int:
         return cuts.cut(order, simulate) if order.options.cut else STUDY.conduct(order, words, simulate)
 
-    return session.command(STUDY.module, argv, read_order, work)
+    return session.command(STUDY.called, argv, read_order, work)

@@ -9,9 +9,11 @@ import csv
 import difflib
 import os
 import re
+import warnings
+from array import array
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain, islice
+from itertools import islice
 from math import isfinite
 from pathlib import Path
 
@@ -33,7 +35,6 @@ LEAST_SAMPLES = 100
 UNEVEN = 0.02
 # Beyond, squares of differences leave the range of numbers.
 LARGEST = 1e100
-BLOCK = 100_000  # lines
 _CLOCK = re.compile(r"\d+[-/.]\d+[-/.]\d+|\d+:\d+")
 
 
@@ -91,63 +92,61 @@ def read_record(
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A text file of columns: their names, the mark between them (None: spaces), and the lines below the names."""
+    """A text file of columns: their names, the mark between them (None: spaces), whether its first line has names."""
 
     path: Path
     names: list[str]
     mark: str | None
-    lines: Iterator[str]
+    named: bool
 
-    def rows(self, lines: Iterable[str], begin: int = 0) -> Iterator[list[str]]:
-        """The cells of lines, the first of which is row `begin` below the names.
+    def lines(self) -> Iterator[str]:
+        """The lines below the names."""
+        return islice(_lines(self.path), int(self.named), None)
 
-        Raises ValueError at the first row with more or fewer cells than there are names.
-        """
-        for k, cells in enumerate(_cells(self.path, lines, self.mark)):
+    def rows(self) -> Iterator[list[str]]:
+        """The cells of each line. Raises ValueError at the first row with more or fewer cells than there are names."""
+        for number, cells in enumerate(_cells(self.path, self.lines(), self.mark), 1):
             if len(cells) == len(self.names):
                 yield cells
                 continue
-            fault = f"{self.path}: row {begin + k + 1} below the names has {len(cells)} cells, the names are "
-            fault += f"{len(self.names)}"
+            fault = f"{self.path}: row {number} below the names has {len(cells)} cells, the names are {len(self.names)}"
             if self.mark == "," and len(cells) == 2 * len(self.names):
                 raise ValueError(f"{fault}; allowed: numbers with a dot, not a comma, where commas separate columns")
             shown = ", ".join(self.names)
-            shown = shown if len(shown) <= 60 else f"{shown[:57]}..."
+            if len(shown) > 60:
+                shown = f"{shown[:57]}..."
             raise ValueError(f"{fault} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
 
 
 def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
     """Columns as floats (n,), by what they are called; without those that have faults, one for each way of them.
 
-    places: numbers of the columns. A file is read in blocks, because its cells as text may need more than the memory.
+    places: numbers of the columns.
     """
-    values: dict[str, list] = {name: [] for name in places}
-    wrong: dict[str, dict[str, list]] = {name: {} for name in places}  # what is wrong: its first cell, and its rows
-    begin = 0
-    while block := list(islice(table.lines, BLOCK)):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # of a file without rows
         try:
-            numbers = np.loadtxt(block, delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
-            sound = numbers.shape == (len(block), len(table.names)) and np.isfinite(numbers).all()
-        except ValueError:  # cell by cell, to say what is wrong; other columns may hold words
-            sound = False
-        rows = len(block) if sound else 0
-        if not sound:
-            numbers = np.full((len(block), len(table.names)), np.nan)
-            for rows, cells in enumerate(table.rows(block, begin), 1):
-                for name, place in places.items():
-                    if fault := _is_no_number(cells[place]):
-                        wrong[name].setdefault(fault, [cells[place]]).append(begin + rows)
-                    else:
-                        numbers[rows - 1, place] = float(cells[place])
+            numbers = np.loadtxt(table.lines(), delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
+            if numbers.shape[1] == len(table.names) and np.isfinite(numbers).all():
+                return {name: numbers[:, place].copy() for name, place in places.items()}
+        except (ValueError, UserWarning):  # cell by cell, to say what is wrong; other columns may hold words
+            pass
+    values = {name: array("d") for name in places}
+    wrong: dict[tuple[str, str], list] = {}  # column and what is wrong: its first cell, and its rows
+    for number, cells in enumerate(table.rows(), 1):
         for name, place in places.items():
-            values[name].append(numbers[:rows, place].copy())
-        begin += rows
-    for name, faulty in wrong.items():
-        for fault, (cell, *where) in faulty.items():
+            cell = cells[place]
+            if fault := _is_no_number(cell):
+                wrong.setdefault((name, fault), [cell]).append(number)
+            else:
+                values[name].append(float(cell))
+    for name in places:
+        for fault, (cell, *where) in ((fault, entry) for (column, fault), entry in wrong.items() if column == name):
             further = f" (so are {len(where) - 1} more)" if len(where) > 1 else ""
             allowed = f"finite numbers in every row; {_cure(cell, name, where)}"
             faults.append(f"{name}: row {where[0]} below the names, {cell!r}, {fault}{further}; allowed: {allowed}")
-    return {name: np.concatenate([[], *blocks]) for name, blocks in values.items() if not wrong[name]}
+    faulty = {name for name, _ in wrong}
+    return {name: np.array(values[name]) for name in places if name not in faulty}
 
 
 def _is_no_number(cell: str) -> str:
@@ -209,21 +208,20 @@ def close_to(name: str, names: Iterable[str]) -> str:
 
 
 def read_table(path: Path) -> Table:
-    """The table of a file. Raises ValueError, with what is allowed, where it is none; lines are read when asked for."""
-    lines = _lines(path)
-    first = next(lines, None)
+    """The table of a file. Raises ValueError, with what is allowed, where it is none."""
+    first = next(_lines(path), None)
     if first is None:
         raise ValueError(f"{path}: empty; allowed: {FORMAT}")
     mark = next((mark for mark in ("\t", ";", ",") if mark in first), None)
-    names = next(_cells(path, [first], mark))
+    names, named = next(_cells(path, [first], mark)), True
     with contextlib.suppress(ValueError):  # a file of numbers only has no line of names
         list(map(float, names))
-        names, lines = [str(place + 1) for place in range(len(names))], chain([first], lines)
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise ValueError(f"{path}: two columns are called {twice!r}; allowed: a name of its own for each")
-    begin = [*islice(lines, 1)]
-    table = Table(path, names, mark, chain(begin, lines))
-    next(table.rows(begin), None)  # a title in the place of the names is told before a column that they lack
+        names, named = [str(place) for place in range(1, len(names) + 1)], False
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"{path}: two columns are called {name!r}; allowed: a name of its own for each")
+    table = Table(path, names, mark, named)
+    next(table.rows(), None)  # a title in the place of the names is told before a column that they lack
     return table
 
 
