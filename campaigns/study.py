@@ -129,7 +129,7 @@ class Order:
 
 @dataclass(frozen=True)
 class Study:
-    """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`done`)."""
+    """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
 
     name: str  # of its provenance and of its folder in results/
     protocol: str  # the help of its command
@@ -141,7 +141,7 @@ class Study:
     answer: Callable[[Order, list[dict]], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
-    done: Callable[[Order], tuple[dict[str, float], Summary]] | None = None  # does them; returns times and summary
+    perform: Callable[[Order], tuple[dict[str, float], Summary]] | None = None  # does them; returns times and summary
 
     # runs of scenes
     scene: str = ""  # it starts from this one
@@ -206,8 +206,8 @@ class Study:
         Returns times, with compile_s, run_s and analysis_s among them, and summary. Raises CampaignStopped, OSError,
         KeyboardInterrupt.
         """
-        if self.done is not None:
-            return self.done(order)
+        if self.perform is not None:
+            return self.perform(order)
         together = engine.simulate_each if self.together and order.simulate is None else None
         order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)

@@ -46,7 +46,7 @@ class Options(cli.Options):
         self.effort = replace(effort, works=works, rounds=self.rounds or effort.rounds)
 
 
-def done(order: Order):
+def perform(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them.
 
     Returns times and summary.
@@ -114,5 +114,5 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     yield f"{early} of our timed runs ended early."
 
 
-STUDY = Study(name="accuracy", protocol=__doc__, options=Options, parameters=parameters, done=done, answer=answer)
+STUDY = Study(name="accuracy", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer)
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

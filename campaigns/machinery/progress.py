@@ -77,7 +77,7 @@ def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
                 _close_bar()
 
 
-def tell(text: str) -> None:
+def print_line(text: str) -> None:
     """Write a line of its own to stderr, while a stage may be shown there."""
     with _lock:
         _close_bar()

@@ -17,7 +17,7 @@ import engine
 from campaigns.machinery.folder import PROGRESS, Table, keep_row, trajectory_path
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import reporter, reports, stage, tell
+from campaigns.machinery.progress import print_line, reporter, reports, stage
 from campaigns.machinery.worker import failed, reuse, run_jobs
 from engine.atomic import write_atomic
 
@@ -36,7 +36,7 @@ def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> tuple[dict[st
     missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
     if missing and plan.sends and plan.how.dask_address is not None:
-        tell("each worker compiles the engine in its first run, unless it has done so before")
+        print_line("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
         _compile(plan, [*missing, *ahead])
     compiled = time.perf_counter()
@@ -133,7 +133,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
     with stage("looking for finished runs"):
-        there = {key: reuse(plan, job, tell) for key, job in by_key.items()}
+        there = {key: reuse(plan, job, print_line) for key, job in by_key.items()}
         found = {key: outcome for key, outcome in there.items() if outcome is not None and _ended(by_key[key], outcome)}
     table.rows = {key: _row(by_key[key], outcome) for key, outcome in found.items()}
     table.write()

@@ -102,7 +102,7 @@ STUDY = Study(
     protocol=__doc__,
     options=Options,
     parameters=lambda order: _work().parameters(order.options),
-    done=lambda order: _work().done(order),
+    perform=lambda order: _work().perform(order),
     answer=answer,
     places=(),
 )

@@ -179,7 +179,7 @@ def parameters(options: Options) -> dict:
     }
 
 
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> tuple[dict[str, float], Summary]:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
     options = order.options
     oscillator, out = SnapOscillator(**options.changes), order.how.out

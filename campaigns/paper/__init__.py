@@ -37,7 +37,7 @@ class Options(cli.Options):
                 faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
 
 
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> tuple[dict[str, float], Summary]:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
     from campaigns.machinery.progress import stage
     from campaigns.machinery.session import ended
@@ -75,7 +75,7 @@ STUDY = Study(
     protocol=__doc__,
     options=Options,
     parameters=parameters,
-    done=done,
+    perform=perform,
     answer=answer,
     places=("jobs",),
 )

@@ -24,7 +24,7 @@ from campaigns.explore.transients import outlasting
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery.folder import write_table
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.progress import tell
+from campaigns.machinery.progress import print_line
 from campaigns.machinery.runner import run
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Grid, Quadtree
@@ -217,5 +217,5 @@ class Map(Lattice):
             except OSError:
                 raise
             except Exception as error:  # a map without a picture is a map
-                tell(f"map.png: {type(error).__name__}: {error}")
+                print_line(f"map.png: {type(error).__name__}: {error}")
         self.drawn_s = time.monotonic()

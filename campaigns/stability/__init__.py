@@ -50,11 +50,11 @@ class Options(cli.Options):
             faults.append(f"--drift-periods: given {self.drift_periods}; allowed: 0, or 1000 and above")
 
 
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> tuple[dict[str, float], Summary]:
     """Tasks and tables."""
     from campaigns.stability import tasks
 
-    return tasks.done(order.options, order.how)
+    return tasks.perform(order.options, order.how)
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
@@ -80,7 +80,7 @@ STUDY = Study(
     protocol=__doc__,
     options=Options,
     parameters=lambda order: asdict(order.options),
-    done=done,
+    perform=perform,
     answer=answer,
     places=("jobs",),
     strict=True,

@@ -86,7 +86,7 @@ def _computed(out: Path, maker: str, task: Task) -> dict:
     return {"rows": rows}
 
 
-def done(options, how) -> tuple[dict[str, float], Summary]:
+def perform(options, how) -> tuple[dict[str, float], Summary]:
     """Do all that is not there yet; write the tables. Returns the times and the summary for the session.
 
     Raises CampaignStopped where a worker dies: cases have their own processes.

@@ -36,7 +36,7 @@ class Options(cli.Options):
             faults.append(f"--only: given {' '.join(chosen)}: {reasons[0]}; allowed: a case that can be run here")
 
 
-def done(order: Order):
+def perform(order: Order):
     """All runs, side by side; then each case beside its source. Returns times and summary."""
     from campaigns.machinery.folder import write_table
     from campaigns.machinery.plan import Plan
@@ -99,5 +99,7 @@ def error_in_words(row: dict) -> str:
     return f"{row['error']:.4g} {row['unit']}, bar {row['bar']:g}"
 
 
-STUDY = Study(name="validation", protocol=__doc__, options=Options, parameters=parameters, done=done, answer=answer)
+STUDY = Study(
+    name="validation", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer
+)
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
