@@ -33,7 +33,7 @@ from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import Table, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import stage
-from campaigns.oscillator import Options
+from campaigns.oscillator.options import Options
 from campaigns.study import Order
 from engine.atomic import write_atomic
 
