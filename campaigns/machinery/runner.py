@@ -73,9 +73,10 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
 
 
 def _mixed(jobs: list[Job]) -> list[Job]:
-    """The jobs in an order in which any part of them is like the whole: what some took says what the rest takes.
+    """The jobs in an order in which any part of them is like the whole.
 
-    Not the first one leads, which in a sweep is often the fastest: a slow one that begins late would end alone.
+    The slow ones of a sweep are neighbours; if they began last, they would end alone. The first one, which is often the
+    fastest, does not lead.
     """
     return [jobs[i] for i in sorted(range(len(jobs)), key=lambda i: i * GOLDEN % 1.0, reverse=True)]
 
@@ -94,8 +95,10 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
         where = "threading", 1
 
+    finished: dict[str, list[float]] = {}
+
     def compiled() -> float:
-        return sum(count for (count,) in reports(Path(place)).values())
+        return sum(count for (count,) in (reports(Path(place)) | finished).values())
 
     with (
         _progress(plan) as place,
@@ -103,7 +106,8 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
         stage(ENGINE, sum(map(len, tasks)), "pieces", compiled),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
-        for (_, pieces), _ in execute(partial(_compile_pieces, Path(place)), list(enumerate(tasks))):
+        for (number, pieces), _ in execute(partial(_compile_pieces, Path(place)), list(enumerate(tasks))):
+            finished[str(number)] = [len(pieces)]
             _ready.update(pieces)
 
 
@@ -122,7 +126,6 @@ def _compile_pieces(place: Path, task: tuple[int, dict]) -> None:
         report(count)
         with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
             engine.compile_piece(key, scene)
-    report(len(pieces))
 
 
 def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
