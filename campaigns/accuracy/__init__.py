@@ -10,6 +10,7 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import isfinite
@@ -19,6 +20,7 @@ from statistics import median
 import engine
 from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
 from campaigns.machinery import cli
+from campaigns.machinery.progress import stage
 from campaigns.study import Order, Study
 
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
@@ -57,40 +59,45 @@ def perform(order: Order):
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
 
-    own, out, ours = order.options, order.how.out, order.simulate is None
+    options, out, of_engine = order.options, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
-    timing, known, made = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], set()
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
-    phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
-    for phase_plan, phase in zip((plan, plan, plan, one_at_a_time), phases, strict=True):
-        if phase and not known:
+    plans = plan, plan, plan, one_at_a_time
+    phases = jobs.phases(out, options.effort, options.quick, of_engine and not options.no_peers)
+    timing, jobs_so_far, computed = Counter(compile_s=0.0, run_s=0.0, analysis_s=0.0), [], set()
+    for number, (phase_plan, phase) in enumerate(zip(plans, phases, strict=True), 1):
+        if phase and not jobs_so_far:
             write_scene(out, STUDY.name, phase)
-        known += phase
-        phase_timing, summary = run(phase_plan, known)
-        made |= summary.made
-        timing = {name: timing[name] + phase_timing[name] for name in timing}
+        jobs_so_far += phase
+        with stage(f"step {number} of {len(plans)}"):
+            phase_timing, summary = run(phase_plan, jobs_so_far)
+        computed |= summary.made
+        timing.update(phase_timing)
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
-    return timing, replace(summary, computed=len(made), found=len(summary.rows) - len(made))
+    return dict(timing), replace(summary, computed=len(computed), found=len(summary.rows) - len(computed))
 
 
 def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery.session import machine
 
-    own, fields_shown = order.options, ("title", "measure", "period_s", "duration_s", "rough")
-    works = [BY_NAME[name] for name in own.effort.works]
-    peers = dict.fromkeys(peer for peer, _, _ in taking_part(own.effort.works, own.quick) if not own.no_peers)
+    options = order.options
+    works, notes = {}, {}
+    for name in options.effort.works:
+        work = BY_NAME[name]
+        works[name] = {"title": work.title, "measure": work.measure, "period_s": work.period_s}
+        works[name] |= {"duration_s": work.duration_s, "rough": work.rough, "unit": UNITS[work.measure]}
+    if not options.no_peers:
+        for peer, _, _ in taking_part(options.effort.works, options.quick):
+            notes[f"{peer.name} {version(peer) or '(not installed)'}"] = peer.notes
     return {
-        "works": {
-            work.name: {name: getattr(work, name) for name in fields_shown} | {"unit": UNITS[work.measure]}
-            for work in works
-        },
-        "quick": own.quick,
-        "rounds": own.effort.rounds,
-        "peers": not own.no_peers,
-        "peer_notes": {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers},
+        "works": works,
+        "quick": options.quick,
+        "rounds": options.effort.rounds,
+        "peers": not options.no_peers,
+        "peer_notes": notes,
         "machine": machine(),
     }
 
@@ -101,13 +108,16 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     sentences = []
-    for work in order.options.effort.works:
-        shipped_rows = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
-        if errors := [known(row, "error") for row in shipped_rows if isfinite(known(row, "error"))]:
-            wall_ms = (
-                1e3 * median(row["wall_s"] for row in shipped_rows) * BY_NAME[work].period_s / BY_NAME[work].duration_s
-            )
-            sentences.append(f"{work} {median(errors):.2g} {UNITS[BY_NAME[work].measure]} in {wall_ms:.2g} ms")
+    for name in order.options.effort.works:
+        work, errors, times_s = BY_NAME[name], [], []
+        for row in rows:
+            if row["work"] == name and shipped.items() <= row.items():
+                times_s.append(row["wall_s"])
+                if isfinite(known(row, "error")):
+                    errors.append(known(row, "error"))
+        if errors:
+            wall_ms = 1e3 * median(times_s) * work.period_s / work.duration_s
+            sentences.append(f"{name} {median(errors):.2g} {UNITS[work.measure]} in {wall_ms:.2g} ms")
     if sentences:
         yield f"Error of the shipped setting, and its time for a wave period: {'; '.join(sentences)}."
     early = sum(row["status"] != "ok" for row in rows if row["kind"] == "point")
