@@ -71,7 +71,8 @@ def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
     finally:
         with _lock:
             if entered.total and not _terminal() and time.monotonic() - entered.began > LINE_S:
-                _write(f"{_text()}, ended after {_clock(entered.began)}\n")
+                with contextlib.suppress(OSError):  # the folder of reports is gone
+                    _write(f"{_text()}, ended after {_clock(entered.began)}\n")
             _open.remove(entered)
             if not _open:
                 _close_bar()
