@@ -2,7 +2,7 @@
 
 A `Study` says which runs there are (`cases`), how a run becomes a row (`measures`), and what its command line offers
 beside the options that all studies share. docs/developing.md shows a complete one. A campaign that does not run
-variants of one scene has its work in `done`.
+variants of one scene has its work in `perform`.
 """
 
 import time
@@ -230,8 +230,7 @@ class Study:
         order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
-        functions = order.simulate, measures.row, measures.columns, maker, measures.judge, together
-        plan = Plan(order.how, *functions)
+        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
         write_scene(order.how.out, self.name, order.cases)
         further_steps = list(self.beside(order))
         steps = 1 + len(further_steps)

@@ -2,7 +2,7 @@
 
 argparse splits the words, and stops at the first bad value. Here an option says what its words may be (`Kind`), and
 whatever is wrong is appended to one list of faults, to be shown together with the faults of the scene. Nothing heavy is
-imported, because `--help` has to appear at once (libraries weighed: docs/design.md).
+imported, because `--help` has to appear at once (libraries weighed: docs/developing.md).
 
     @dataclass
     class Options(cli.Options):
