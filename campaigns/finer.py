@@ -1,6 +1,6 @@
 """The same run, finer: by how much its numbers change, they are not known."""
 
-from engine.scene import scene_from_toml
+import engine.scene
 
 
 def finer(scene, elements: int = 1, steps: int = 1, changes: dict | None = None):
@@ -15,4 +15,4 @@ def finer(scene, elements: int = 1, steps: int = 1, changes: dict | None = None)
         step_s = scene.solver.step_s
         key, value = ("solver.step_s", step_s) if step_s else ("solver.rtol", scene.solver.rtol)
         changes[key] = value / steps
-    return scene_from_toml(scene.to_toml(), changes)
+    return engine.scene.scene_from_toml(scene.to_toml(), changes)

@@ -2,7 +2,7 @@
 
 A `Study` says which runs there are (`cases`), how a run becomes a row (`measures`), and what its command line offers
 beside the options that all studies share. docs/developing.md shows a complete one. A campaign that does not run
-variants of one scene has its work in `done`.
+variants of one scene has its work in `perform`.
 """
 
 import time
@@ -10,10 +10,10 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 import engine
 from campaigns.machinery import cli, session
-from campaigns.machinery.cli import Lengths
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import stage
@@ -37,25 +37,64 @@ class Measures:
     judge: Callable | None = None
 
 
-@dataclass
-class Order:
-    """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow.
+@dataclass(frozen=True)
+class Lengths:
+    """The usual length of a run and of its transient, in wave periods.
 
-    own: the study's own options, as `Study.read` leaves them. periods, transient: None and 0 without `Study.lengths`.
-    looks: whether runs take as long as their regime needs, `periods` at most, with a transient of their own (None).
-    simulate: in place of engine.simulate, None for the engine.
+    share: the transient is at most periods/share where none is given. budget: of a study whose runs take as long as
+    their regime needs where no length is given: the most that they may take; 0: `periods` is the length then.
     """
 
+    periods: int
+    transient: int
+    share: int = 3
+    budget: int = 0
+
+    def add_to(self, group) -> None:
+        """Add --budget, --periods and --transient to a parser."""
+        lasting = cli.whole(1, cli.MOST_PERIODS)
+        transient = f"(default: {self.transient}, at most 1/{self.share} of --periods)"
+        length, usual = "length of every run in wave periods", self.periods
+        if self.budget:
+            length += " (default: as long as it takes to tell its regime)"
+            transient, usual = f"with --periods {transient}", None
+            budget = "wave periods after which a run ends undecided; without --periods"
+            cli.Option("N", budget, lasting, self.budget).add_to(group, "--budget")
+        cli.Option("N", length, lasting, usual).add_to(group, "--periods")
+        left_out = f"wave periods left out of the analysis {transient}"
+        cli.Option("N", left_out, cli.whole(0)).add_to(group, "--transient")
+
+    def read(self, values: Namespace, order: "Order") -> None:
+        """Put the values of these options into an order."""
+        periods, transient = values.periods, values.transient
+        order.given_transient = transient
+        if self.budget and periods is None:
+            if transient is not None:
+                order.tell([f"--transient: given {transient} without --periods; allowed: with --periods"])
+            order.looks, order.periods, order.transient = True, values.budget, None
+            return
+        if transient is None:
+            transient = min(self.transient, periods // self.share)
+        if transient >= periods:
+            order.tell([f"--transient: given {transient} of {periods} periods; allowed: less than --periods"])
+        order.periods, order.transient = periods, transient
+
+
+@dataclass
+class Order:
+    """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow."""
+
     how: cli.Running
-    name: str = ""
-    changes: dict[str, object] = field(default_factory=dict)
-    periods: int | None = None
-    transient: int | None = 0
-    looks: bool = False
-    own: Namespace = field(default_factory=Namespace)
+    options: Any = None  # the study's own (`Study.options`)
+    name: str = ""  # of the scene
+    changes: dict[str, object] = field(default_factory=dict)  # of the scene, by --set
+    periods: int | None = None  # of a run, None without `Study.lengths`; at most, where `looks`
+    transient: int | None = 0  # wave periods left out of the analysis; None: found by each run
+    given_transient: int | None = None  # as the command line says, None: not at all
+    looks: bool = False  # whether runs take as long as their regime needs
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
-    simulate: Callable | None = None
+    simulate: Callable | None = None  # in place of engine.simulate
 
     def tell(self, faults: Iterable[str]) -> None:
         """Add faults, each once."""
@@ -91,42 +130,31 @@ class Order:
 
 @dataclass(frozen=True)
 class Study:
-    """A campaign.
+    """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
 
-    name: of its provenance and of its folder in results/. protocol: its help. scene: it starts from this one, "" where
-    `done` is given. cases(order) -> its runs (`Job`), None for one that cannot be; measures(order) -> Measures.
-    done(order) -> times and summary, in place of these two; `Order.own` then has the whole order, `how` among it.
-    lengths: None for a study whose cases have lengths of their own. in_waves: whether it refuses scenes without a buoy
-    in regular waves. taken: keys that it sets itself -> what to use instead of --set.
-    options(group): adds options of its own; read(options, faults) judges and amends their values (`Order.own`).
-    parameters(order) -> what its provenance says beside scene, set, periods and transient.
-    runs(order) -> in place of `runner.run`; beside(order) -> what is done after the runs: functions of (plan, summary)
-    that return seconds of analysis. together: whether runs may share a worker, side by side in the lanes.
-    answer(order, rows of table.csv) -> what was found, in at most eight sentences, for the terminal and answer.txt.
-    jobs, backends: whether there is a choice of these. strict: whether a row that is not ok is exit code 1.
-    module: its command is python -m MODULE; "" for campaigns.NAME.
-    """
+    name: str  # of its provenance and of its folder in results/
+    protocol: str  # the help of its command
+    module: str = ""  # its command is python -m MODULE; "" for campaigns.NAME
+    options: type[cli.Options] = cli.Options  # that it adds
+    places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
+    strict: bool = False  # whether a row that is not ok is exit code 1
+    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
+    answer: Callable[[Order, list[dict]], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
-    name: str
-    protocol: str
-    scene: str = ""
-    cases: Callable[[Order], Iterable[Job | None]] | None = None
+    # tasks
+    perform: Callable[[Order], tuple[dict[str, float], Summary]] | None = None  # does them; returns times and summary
+
+    # runs of scenes
+    scene: str = ""  # it starts from this one
+    taken: Mapping[str, str] = field(default_factory=dict)  # keys that it sets itself -> what to use instead of --set
+    in_waves: bool = False  # whether it refuses scenes without a buoy in regular waves
+    lengths: Lengths | None = None  # None: its cases have lengths of their own
+    cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    done: Callable[[Order], tuple[dict[str, float], Summary]] | None = None
-    lengths: Lengths | None = None
-    in_waves: bool = False
-    taken: Mapping[str, str] = field(default_factory=dict)
-    options: Callable[[object], None] | None = None
-    read: Callable[[Namespace, list[str]], None] | None = None
-    parameters: Callable[[Order], Mapping[str, object]] | None = None
-    runs: Callable[[Order], Callable] | None = None
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] | None = None
-    answer: Callable[[Order, list[dict]], Iterable[str]] | None = None
-    together: bool = True
-    jobs: bool = True
-    backends: bool = True
-    strict: bool = False
-    module: str = ""
+    runs: Callable[[Order], Callable] = lambda order: run  # what does the runs
+    together: bool = True  # whether runs may share a worker, side by side in the lanes
+    # done after the runs: functions of (plan, summary) that return seconds of analysis
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
@@ -140,39 +168,31 @@ class Study:
     def parser(self) -> ArgumentParser:
         """The options of the command."""
         parser = cli.parser(self.called, self.protocol)
-        what = parser.add_argument_group("what is run")
-        if self.options is not None:
-            self.options(what)
+        group = parser.add_argument_group("what is run")
+        cli.add_options(group, self.options)
         if self.lengths is not None:
-            usual, whole = self.lengths, cli.whole
-            most = f"(default: {usual.transient}, at most 1/{usual.share} of --periods)"
-            lasting = whole(1, cli.MOST_PERIODS)
-            length, default = "length of every run in wave periods", usual.periods
-            if usual.budget:
-                length += " (default: as long as it takes to tell its regime)"
-                most, default = f"with --periods {most}", None
-                budget = "wave periods after which a run ends undecided; without --periods"
-                cli.add(what, "--budget", "N", budget, lasting, usual.budget)
-            cli.add(what, "--periods", "N", length, lasting, default)
-            cli.add(what, "--transient", "N", f"wave periods left out of the analysis {most}", whole(0))
+            self.lengths.add_to(group)
         if self.scene:
             name = cli.Kind(str, "a scene file or the name of a scene")
-            cli.add(what, "--scene", "FILE_OR_NAME", "scene to start from", name, self.scene)
-            cli.add(what, "--set", "KEY=VALUE ...", "change values of the scene, as water.depth_m=22.5 tether.nodes=81")
-        cli.add_running(parser.add_argument_group("how and where"), self.name, self.jobs, self.backends)
+            cli.Option("FILE_OR_NAME", "scene to start from", name, self.scene).add_to(group, "--scene")
+            changes = "change values of the scene, as water.depth_m=22.5 tether.nodes=81"
+            cli.Option("KEY=VALUE ...", changes).add_to(group, "--set")
+        cli.add_running(parser.add_argument_group("how and where"), self.name, self.places)
         return parser
 
     def read_order(self, argv: list[str], faults: list[str]) -> Order:
         """The order in the words of the command line; every fault, of options and scenes, is appended to `faults`."""
-        options = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
-        length = self._length(options, faults)
-        if self.read is not None:
-            self.read(options, faults)
-        how = options.how = cli.running(options, self.name, faults)
+        values = cli.split(self.parser(), argv, faults)  # `--help` ends here, and has loaded nothing heavy
+        how = cli.running(values, self.places, self.name, faults)
+        order = Order(how, cli.options_of(self.options, values), faults=faults)
+        if self.lengths is not None:
+            self.lengths.read(values, order)
+        order.options.read(how.out, faults)
         if self.cases is None:
-            return Order(how, own=options, faults=faults)
-        changes = cli.assignments(options.set, self.taken, faults)
-        return self._with_cases(Order(how, options.scene, changes, *length, options, faults))
+            return order
+        order.name = values.scene
+        order.changes = cli.assignments(values.set, self.taken, faults)
+        return self._with_cases(order)
 
     def order(self, how: cli.Running, scene: str, changes: dict[str, object], **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
@@ -180,25 +200,12 @@ class Study:
         options: of this study by name, as `read` leaves them; the others have their usual values.
         """
         faults: list[str] = []
-        own = cli.split(self.parser(), [], faults)
-        vars(own).update(vars(how) | {"how": how} | options)
-        return self._with_cases(Order(how, scene, changes, *self._length(own, faults), own, faults))
-
-    def _length(self, options: Namespace, faults: list[str]) -> tuple[int | None, int | None, bool]:
-        """Wave periods of a run and of its transient, and whether it takes as long as it needs (`Order`)."""
-        if (usual := self.lengths) is None:
-            return None, 0, False
-        periods, transient = options.periods, options.transient
-        looks = usual.budget > 0 and periods is None
-        if looks:
-            if transient is not None:
-                faults.append(f"--transient: given {transient} without --periods; allowed: with --periods")
-            return options.budget, None, True
-        if transient is None:
-            transient = min(usual.transient, periods // usual.share)
-        if transient >= periods:
-            faults.append(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
-        return periods, transient, False
+        values = cli.split(self.parser(), [], faults)
+        vars(values).update(options)
+        order = Order(how, cli.options_of(self.options, values), scene, changes, faults=faults)
+        if self.lengths is not None:
+            self.lengths.read(values, order)
+        return self._with_cases(order)
 
     def _with_cases(self, order: Order) -> Order:
         """The order with its cases; none of a scene that the study refuses."""
@@ -207,7 +214,8 @@ class Study:
         base = order.base() if self.in_waves else None
         refused = [] if base is None else list(without_waves(order.name, base))
         order.tell(refused)
-        order.cases = [] if refused else [case for case in self.cases(order) if case is not None]
+        if not refused:
+            order.cases = [case for case in self.cases(order) if case is not None]
         return order
 
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:
@@ -216,20 +224,22 @@ class Study:
         Returns times, with compile_s, run_s and analysis_s among them, and summary. Raises CampaignStopped, OSError,
         KeyboardInterrupt.
         """
-        if self.done is not None:
-            return self.done(order)
+        if self.perform is not None:
+            return self.perform(order)
         together = engine.simulate_each if self.together and order.simulate is None else None
         order.simulate = order.simulate or engine.simulate
         measures = self.measures(order)
         maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
-        functions = order.simulate, measures.row, measures.columns, maker, measures.judge, together
-        plan = Plan(order.how, *functions)
+        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
         write_scene(order.how.out, self.name, order.cases)
-        timing, summary = (self.runs(order) if self.runs else run)(plan, order.cases)
+        further_steps = list(self.beside(order))
+        steps = 1 + len(further_steps)
+        with stage(f"step 1 of {steps}"):
+            timing, summary = self.runs(order)(plan, order.cases)
         began = time.perf_counter()
-        with stage("after the runs"):
-            for more in self.beside(order) if self.beside else ():
-                timing["analysis_s"] += more(plan, summary)
+        for number, step in enumerate(further_steps, 2):
+            with stage(f"step {number} of {steps}"):
+                timing["analysis_s"] += step(plan, summary)
         timing["run_s"] += time.perf_counter() - began
         return timing, summary
 
@@ -237,8 +247,9 @@ class Study:
         """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""
         order.simulate = simulate
         parameters = {"scene": order.name, "set": order.changes} if self.scene else {}
-        parameters |= {} if self.lengths is None else {"periods": order.periods, "transient": order.transient}
-        parameters |= self.parameters(order) if self.parameters else {}
-        where = ("backend", "jobs", "dask_address")
-        parameters |= {name: getattr(order.own, name) for name in where if hasattr(order.own, name)}
+        if self.lengths is not None:
+            parameters |= {"periods": order.periods, "transient": order.transient}
+        parameters |= self.parameters(order)
+        for name in self.places:
+            parameters[name] = getattr(order.how, name)
         return session.conduct(self, order, argv, parameters)

@@ -14,7 +14,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "trajectory.final_state": ["FinalState"],
         "run.going_on": ["between"],
         "massless": ["MasslessRuns", "massless_covers", "massless_rest", "massless_runs"],
-        "run.pieces": ["compile_piece", "seconds_of", "shares_of"],
+        "run.pieces": ["compile_piece", "shares_of"],
         "scene": ["Scene", "SceneError", "list_scenes", "load_scene"],
         "parameters.cover": ["goes_in_lanes"],
         "run.simulation": ["simulate", "simulate_batch", "simulate_each"],

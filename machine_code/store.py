@@ -25,7 +25,6 @@ from .sources import code_hash, sources_of
 PATIENCE_S = 20.0  # for a lock that is held for milliseconds
 _ROOT = Path(__file__).parent
 _given_up: set[Path] = set()
-_in_use: list[Path] = []
 _NOT_KEPT = "machine code cannot be kept in {} ({}); every process compiles it anew"
 
 
@@ -61,21 +60,11 @@ def folder_for(name: str, sources: str, count: int) -> Path | None:
             older = sorted((path.stat().st_mtime, path) for path in root.glob(f"{name}-*") if path != folder)
             for _, old in older[: -count or None]:
                 shutil.rmtree(old, ignore_errors=True)
-        _in_use.append(folder)
         return folder
     return None
 
 
 folder_of = cache(folder_for)  # asked once a process, for every kernel
-
-
-def made_since(time_s: float) -> int:
-    """How many pieces of machine code any process has left in the folders of this one since a time of the clock."""
-    count = 0
-    for path in (path for folder in _in_use for path in folder.rglob("*.nbc")):
-        with contextlib.suppress(OSError):
-            count += path.stat().st_mtime >= time_s
-    return count
 
 
 def _roots() -> Iterator[Path]:

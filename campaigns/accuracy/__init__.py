@@ -10,39 +10,45 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
-from argparse import Namespace
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import isfinite
+from pathlib import Path
 from statistics import median
 
 import engine
-from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS
+from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
 from campaigns.machinery import cli
+from campaigns.machinery.progress import stage
 from campaigns.study import Order, Study
 
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
 
 
-def options(group) -> None:
-    works = f"works (default: {' '.join(FULL.works)})"
-    cli.add(group, "--works", "A B ...", works, cli.one_of(FULL.works), many=True)
-    turns = f"turns of every timed setting (default: {FULL.rounds})"
-    cli.add(group, "--rounds", "N", turns, cli.whole(1, len(FACTORS)))
-    quick_help = f"{' and '.join(QUICK.works)} alone, few settings, one round"
-    group.add_argument("--quick", action="store_true", help=quick_help)
-    group.add_argument("--no-peers", action="store_true", help="leave out scipy and other codes")
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. effort: what they ask for."""
+
+    works: list[str] | None = cli.option(
+        "A B ...", f"works (default: {' '.join(FULL.works)})", cli.one_of(FULL.works), many=True
+    )
+    rounds: int | None = cli.option(
+        "N", f"turns of every timed setting (default: {FULL.rounds})", cli.whole(1, len(FACTORS))
+    )
+    quick: bool = cli.flag(f"{' and '.join(QUICK.works)} alone, few settings, one round")
+    no_peers: bool = cli.flag("leave out scipy and other codes")
+    effort: Effort = FULL
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The effort."""
+        effort = QUICK if self.quick else FULL
+        chosen = self.works or effort.works
+        works = tuple(name for name in FULL.works if name in chosen)
+        self.effort = replace(effort, works=works, rounds=self.rounds or effort.rounds)
 
 
-def read(options: Namespace, faults: list[str]) -> None:
-    """The effort that they ask for."""
-    effort = QUICK if options.quick else FULL
-    chosen = options.works or effort.works
-    works = tuple(name for name in FULL.works if name in chosen)
-    options.effort = replace(effort, works=works, rounds=options.rounds or effort.rounds)
-
-
-def done(order: Order):
+def perform(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them.
 
     Returns times and summary.
@@ -54,40 +60,45 @@ def done(order: Order):
     from campaigns.machinery.runner import run, write_scene
     from tables import write_table
 
-    own, out, ours = order.own, order.how.out, order.simulate is None
+    options, out, of_engine = order.options, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
     maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
-    timing, known, made = {"compile_s": 0.0, "run_s": 0.0, "analysis_s": 0.0}, [], set()
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
-    phases = jobs.phases(out, own.effort, own.quick, ours and not own.no_peers)
-    for phase_plan, phase in zip((plan, plan, plan, one_at_a_time), phases, strict=True):
-        if phase and not known:
+    plans = plan, plan, plan, one_at_a_time
+    phases = jobs.phases(out, options.effort, options.quick, of_engine and not options.no_peers)
+    timing, jobs_so_far, computed = Counter(compile_s=0.0, run_s=0.0, analysis_s=0.0), [], set()
+    for number, (phase_plan, phase) in enumerate(zip(plans, phases, strict=True), 1):
+        if phase and not jobs_so_far:
             write_scene(out, STUDY.name, phase)
-        known += phase
-        phase_timing, summary = run(phase_plan, known)
-        made |= summary.made
-        timing = {name: timing[name] + phase_timing[name] for name in timing}
+        jobs_so_far += phase
+        with stage(f"step {number} of {len(plans)}"):
+            phase_timing, summary = run(phase_plan, jobs_so_far)
+        computed |= summary.made
+        timing.update(phase_timing)
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
-    return timing, replace(summary, computed=len(made), found=len(summary.rows) - len(made))
+    return dict(timing), replace(summary, computed=len(computed), found=len(summary.rows) - len(computed))
 
 
 def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery.session import machine
 
-    own, fields_shown = order.own, ("title", "measure", "period_s", "duration_s", "rough")
-    works = [BY_NAME[name] for name in own.effort.works]
-    peers = dict.fromkeys(peer for peer, _, _ in taking_part(own.effort.works, own.quick) if not own.no_peers)
+    options = order.options
+    works, notes = {}, {}
+    for name in options.effort.works:
+        work = BY_NAME[name]
+        works[name] = {"title": work.title, "measure": work.measure, "period_s": work.period_s}
+        works[name] |= {"duration_s": work.duration_s, "rough": work.rough, "unit": UNITS[work.measure]}
+    if not options.no_peers:
+        for peer, _, _ in taking_part(options.effort.works, options.quick):
+            notes[f"{peer.name} {version(peer) or '(not installed)'}"] = peer.notes
     return {
-        "works": {
-            work.name: {name: getattr(work, name) for name in fields_shown} | {"unit": UNITS[work.measure]}
-            for work in works
-        },
-        "quick": own.quick,
-        "rounds": own.effort.rounds,
-        "peers": not own.no_peers,
-        "peer_notes": {f"{peer.name} {version(peer) or '(not installed)'}": peer.notes for peer in peers},
+        "works": works,
+        "quick": options.quick,
+        "rounds": options.effort.rounds,
+        "peers": not options.no_peers,
+        "peer_notes": notes,
         "machine": machine(),
     }
 
@@ -98,20 +109,21 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     sentences = []
-    for work in order.own.effort.works:
-        shipped_rows = [row for row in rows if row["work"] == work and shipped.items() <= row.items()]
-        if errors := [number_of(row, "error") for row in shipped_rows if isfinite(number_of(row, "error"))]:
-            wall_ms = (
-                1e3 * median(row["wall_s"] for row in shipped_rows) * BY_NAME[work].period_s / BY_NAME[work].duration_s
-            )
-            sentences.append(f"{work} {median(errors):.2g} {UNITS[BY_NAME[work].measure]} in {wall_ms:.2g} ms")
+    for name in order.options.effort.works:
+        work, errors, times_s = BY_NAME[name], [], []
+        for row in rows:
+            if row["work"] == name and shipped.items() <= row.items():
+                times_s.append(row["wall_s"])
+                if isfinite(number_of(row, "error")):
+                    errors.append(number_of(row, "error"))
+        if errors:
+            wall_ms = 1e3 * median(times_s) * work.period_s / work.duration_s
+            sentences.append(f"{name} {median(errors):.2g} {UNITS[work.measure]} in {wall_ms:.2g} ms")
     if sentences:
         yield f"Error of the shipped setting, and its time for a wave period: {'; '.join(sentences)}."
     early = sum(row["status"] != "ok" for row in rows if row["kind"] == "point")
     yield f"{early} of our timed runs ended early."
 
 
-STUDY = Study(
-    name="accuracy", protocol=__doc__, options=options, read=read, parameters=parameters, done=done, answer=answer
-)
+STUDY = Study(name="accuracy", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer)
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from functools import partial
 from importlib import metadata
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -34,31 +35,40 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
 
     The runs of each phase have to be in `out` before the next is asked for. with_peers: whether there are other codes.
     """
-    first, second, third = plan.phases(effort)
+    references, untimed, timed = plan.phases(effort)
     wanted = taking_part(effort.works, quick) if with_peers else []
-    installed = [(peer, work) for peer, work, _ in wanted if version(peer)]
     known: Samples = {}
-    ours = {(point.work, point.kind): engine_job(point, known) for point in first}
-    for peer, work in installed:
-        if peer.ours:  # our refined run with the changes that another code is to be compared with
+    ours = {(point.work, point.kind): engine_job(point, known) for point in references}
+    for peer, work, _ in wanted:
+        if version(peer) and peer.ours:  # our refined run with the changes that another code is to be compared with
             nodes, rtol = OURS_REFINED
             scene = BY_NAME[work].made({**peer.ours, "tether.nodes": nodes, "solver.rtol": rtol})
             point = Point(work, OURS, BEST, nodes, "rtol", rtol)
             ours[work, OURS + peer.name] = job_of(point, scene, f"{OURS} {peer.name}")
     yield list(ours.values())
-    known |= {(work, role): kept_samples(BY_NAME[work], out, job.key) for (work, role), job in ours.items()}
-    refined = [(peer, work, peer.refined[work]) for peer, work in installed if work in peer.refined]
-    theirs = {(work, peer.name): peer_job(peer, work, REFERENCE, runs[0], known) for peer, work, runs in refined}
+    keep_samples(known, out, ours)
+    refined = [(peer, work) for peer, work, _ in wanted if version(peer) and work in peer.refined]
+    theirs = {}
+    for peer, work in refined:
+        theirs[work, peer.name] = peer_job(peer, work, REFERENCE, peer.refined[work][0], known)
     yield list(theirs.values())
-    known |= {(work, name): kept_samples(BY_NAME[work], out, job.key) for (work, name), job in theirs.items()}
-    checks = [peer_job(peer, work, CHECK, setting, known) for peer, work, runs in refined for setting in runs[1:]]
-    yield [engine_job(point, known) for point in second] + checks
-    timed = [
-        peer_job(peer, work, TIMED, setting, known)
-        for peer, work, settings in wanted
-        for setting in (settings if version(peer) else settings[:1])
-    ]
-    yield side_by_side([engine_job(point, known) for point in third], timed, effort.rounds)
+    keep_samples(known, out, theirs)
+    jobs = [engine_job(point, known) for point in untimed]
+    for peer, work in refined:
+        for setting in peer.refined[work][1:]:
+            jobs.append(peer_job(peer, work, CHECK, setting, known))
+    yield jobs
+    timed_peers = []
+    for peer, work, settings in wanted:
+        for setting in settings if version(peer) else settings[:1]:
+            timed_peers.append(peer_job(peer, work, TIMED, setting, known))
+    yield side_by_side([engine_job(point, known) for point in timed], timed_peers, effort.rounds)
+
+
+def keep_samples(known: Samples, out: Path, jobs: dict[tuple[str, str], Job]) -> None:
+    """Add the samples of finished runs, by work and what they are."""
+    for (work, role), job in jobs.items():
+        known[work, role] = kept_samples(BY_NAME[work], out, job.key)
 
 
 def job_of(
@@ -88,11 +98,17 @@ def side_by_side(ours: list[Job], peers: list[Job], rounds: int) -> list[Job]:
     """Timed jobs in the order in which they run: those of other codes, which run once, in the middle round of ours on
     the same work, so that the machine's noise meets both."""
     middle = rounds // 2
-    jobs = [job for job in ours if job.labels["round"] < middle]
-    rest = [*(job for job in ours if job.labels["round"] == middle), *peers]
-    for work in dict.fromkeys(job.labels["work"] for job in rest):
-        jobs += [job for job in rest if job.labels["work"] == work]
-    return jobs + [job for job in ours if job.labels["round"] > middle]
+    earlier, of_works, later = [], {}, []
+    for job in ours:
+        if job.labels["round"] < middle:
+            earlier.append(job)
+        elif job.labels["round"] > middle:
+            later.append(job)
+        else:
+            of_works.setdefault(job.labels["work"], []).append(job)
+    for job in peers:
+        of_works.setdefault(job.labels["work"], []).append(job)
+    return [*earlier, *chain.from_iterable(of_works.values()), *later]
 
 
 def version(peer: Peer) -> str:
@@ -102,8 +118,13 @@ def version(peer: Peer) -> str:
 
 def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, list]]:
     """(code, work, its settings) of all that is asked of other codes."""
-    chosen = ((peer, peer.quick if quick else peer.settings) for peer in PEERS)
-    return [(peer, work, settings[work]) for peer, settings in chosen for work in works if settings.get(work)]
+    parts = []
+    for peer in PEERS:
+        settings = peer.quick if quick else peer.settings
+        for work in works:
+            if settings.get(work):
+                parts.append((peer, work, settings[work]))
+    return parts
 
 
 def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known: Samples) -> Job:
@@ -120,8 +141,12 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
 
 def scene_of(peer: Peer, work: str, nodes: int):
     """The scene of a work for another code: no shock viscosity, nodes where they matter to it."""
-    changes = {"tether.nodes": nodes} if peer.package == "scipy" else {}
-    return BY_NAME[work].made(changes | ({"solver.shock_viscosity": None} if work.startswith("break") else {}))
+    changes: dict[str, object] = {}
+    if peer.package == "scipy":
+        changes["tether.nodes"] = nodes
+    if work.startswith("break"):
+        changes["solver.shock_viscosity"] = None
+    return BY_NAME[work].made(changes)
 
 
 def other_code(scene, periods=None, duration_s=None, *, peer: Peer, settings: tuple) -> Trajectory:

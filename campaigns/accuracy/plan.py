@@ -26,6 +26,7 @@ the one named, and tables give medians over the rounds.
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from pathlib import Path
 
 import engine
@@ -60,11 +61,11 @@ class Work:
 
     def made(self, changes: dict):
         """The scene with further changes. Raises SceneError."""
-        changes_here = {**FILE["sets"][self.set], **self.changes}
-        return engine.load_scene(
-            self.scene,
-            {key: None if changes_here[key] == "none" else changes_here[key] for key in changes_here} | changes,
-        )
+        own = FILE["sets"][self.set] | self.changes
+        for key, value in own.items():
+            if value == "none":
+                own[key] = None
+        return engine.load_scene(self.scene, own | changes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +90,6 @@ class Peer:
 
 FILE = tomllib.loads(Path(__file__).with_name("works.toml").read_text(encoding="utf-8"))
 BY_NAME = {name: Work(name, **row) for name, row in FILE["works"].items()}
-WORKS = tuple(BY_NAME.values())
 PEERS = tuple(Peer(name, **row) for name, row in FILE["peers"].items())
 
 FACTORS = (1.0, 0.9, 1.1)
@@ -112,7 +112,7 @@ LINE_WAVE_MPS = 1000.0  # about the fastest wave of the breaking line: steps are
 MOST_ADAPTIVE_LINE = 401  # nodes of breaking lines with steps under control: beyond, some take minutes to fail
 TOLERANCE_NODES = 161
 TOLERANCE_REFERENCE = TOLERANCE_NODES, 1e-6  # nodes, rtol
-COURANTS, LINE_RTOLS = (4.0, 2.0, 1.0, 0.5), (0.01, 1e-3, 1e-4)  # of breaking lines
+COURANTS, LINE_RTOLS = (4.0, 2.0, 0.5), (0.01, 1e-3, 1e-4)  # of breaking lines, beside a Courant number of one
 BOX_NODES, BOX_STEPS = 21, (50, 100, 200)  # of the paper's scheme
 Setting = tuple[str, int, str, float]  # method, nodes, control, its value
 
@@ -182,58 +182,69 @@ QUICK = Effort(**FILE["effort"]["quick"])
 def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
     """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
     works' settings in turns, round by round, and the paper's scheme once."""
-    works = [work for work in WORKS if work.name in effort.works]
+    works = [BY_NAME[name] for name in BY_NAME if name in effort.works]
     # The reference of a work, and that of its tolerances: on their grid, at a tolerance beyond them, so that errors
     # against it are those in time alone.
-    first = [
-        Point(work.name, kind, BEST, nodes, "rtol", rtol)
-        for work in works
-        if work.reference is not None
-        for kind, (nodes, rtol) in (("reference", work.reference), ("grid", TOLERANCE_REFERENCE))
-    ]
-    second = [point for work in works for point in series(work, effort)]
-    third = [
-        Point(work.name, "point", *setting, round)
-        for round in range(effort.rounds)
-        for work in works
-        if work.timed
-        for setting in (of_a_line if work.measure == STRAIN else of_a_motion)(work, effort)
-        if round == 0 or setting[0] != "paper-box"
-    ]
-    return first, second, third
+    references, untimed, timed = [], [], []
+    for work in works:
+        untimed += series(work, effort)
+        if work.reference is not None:
+            for kind, (nodes, rtol) in (("reference", work.reference), ("grid", TOLERANCE_REFERENCE)):
+                references.append(Point(work.name, kind, BEST, nodes, "rtol", rtol))
+    for number in range(effort.rounds):
+        for work in works:
+            for setting in timed_settings(work, effort):
+                if number == 0 or setting[0] != "paper-box":
+                    timed.append(Point(work.name, "point", *setting, number))
+    return references, untimed, timed
+
+
+def timed_settings(work: Work, effort: Effort) -> list[Setting]:
+    """The settings that are timed on a work."""
+    if not work.timed:
+        return []
+    if work.measure == STRAIN:
+        return of_a_line(work, effort)
+    return of_a_motion(work, effort)
 
 
 def series(work: Work, effort: Effort) -> list[Point]:
     """All of a work that is not timed."""
-    tolerances = [(method, TOLERANCE_NODES, "rtol", rtol) for method in ADAPTIVE for rtol in effort.rtols]
-    orders = {"both": in_both} if work.measure == STRAIN else {"time": in_time, "space": in_space}
-    kinds = {
-        "check": [(BEST, nodes, "rtol", rtol) for nodes, rtol in work.checks],
-        **{kind: settings(work, effort) for kind, settings in orders.items()},
-        "tolerance": tolerances if work.reference is not None else [],
-    }
-    return [Point(work.name, kind, *setting) for kind, settings in kinds.items() for setting in settings]
+    kinds = {"check": [(BEST, nodes, "rtol", rtol) for nodes, rtol in work.checks]}
+    if work.measure == STRAIN:
+        kinds["both"] = in_both(work, effort)
+    else:
+        kinds |= {"time": in_time(work), "space": in_space(work)}
+    if work.reference is not None:
+        kinds["tolerance"] = list(product(ADAPTIVE, [TOLERANCE_NODES], ["rtol"], effort.rtols))
+    points = []
+    for kind, settings in kinds.items():
+        for setting in settings:
+            points.append(Point(work.name, kind, *setting))
+    return points
 
 
-def own(table: dict, work: Work):
+def entry_of(table: dict, work: Work):
     """The entry for a work, or for its scene."""
-    return table[work.name if work.name in table else work.scene]
+    return table.get(work.name, table.get(work.scene))
 
 
-def in_time(work: Work, effort: Effort) -> list[Setting]:
+def in_time(work: Work) -> list[Setting]:
     """Fixed steps, halved; every method but the paper's scheme, which is too slow for them."""
-    return [
-        (method, own(TIME_NODES, work), "step_s", work.period_s / (FIRST_STEPS[order] << halving))
-        for method, order in ORDERS.items()
-        if method != "paper-box"
-        for halving in range(DOUBLINGS + 1)
-    ]
+    settings, nodes = [], entry_of(TIME_NODES, work)
+    for method, order in ORDERS.items():
+        if method != "paper-box":
+            for halving in range(DOUBLINGS + 1):
+                settings.append((method, nodes, "step_s", work.period_s / (FIRST_STEPS[order] << halving)))
+    return settings
 
 
-def in_space(work: Work, effort: Effort) -> list[Setting]:
+def in_space(work: Work) -> list[Setting]:
     """Elements halved."""
-    control, setting = ("rtol", SPACE_RTOL) if work.rough else ("step_s", work.period_s / SPACE_STEPS)
-    coarsest = own(SPACE_NODES, work) - 1
+    control, setting = "step_s", work.period_s / SPACE_STEPS
+    if work.rough:
+        control, setting = "rtol", SPACE_RTOL
+    coarsest = entry_of(SPACE_NODES, work) - 1
     return [(BEST, (coarsest << doubling) + 1, control, setting) for doubling in range(DOUBLINGS + 2)]
 
 
@@ -241,29 +252,32 @@ def in_both(work: Work, effort: Effort) -> list[Setting]:
     """Elements and steps halved together, every method with and without shock viscosity."""
     length_m = work.made({}).tether.length_m
     methods = (*(method + VISCOUS for method in FIXED), *FIXED, *ADAPTIVE)
-    nodes = own(effort.nodes, work)
-    return [(method, n, "step_s", length_m / (n - 1) / LINE_WAVE_MPS) for method in methods for n in nodes]
+    nodes = entry_of(effort.nodes, work)
+    return [(method, n, "step_s", length_m / (n - 1) / LINE_WAVE_MPS) for method, n in product(methods, nodes)]
 
 
 def of_a_motion(work: Work, effort: Effort) -> list[Setting]:
     """Timed settings of a buoy or a pendulum."""
-    nodes, steps = own(effort.nodes, work), own(effort.steps, work)
-    points = [(method, n, "rtol", rtol) for method in ADAPTIVE for n in nodes for rtol in effort.rtols]
-    points += [(method, n, "step_s", work.period_s / m) for method in FIXED for n in nodes[:3] for m in steps]
+    nodes = entry_of(effort.nodes, work)
+    steps_s = [work.period_s / count for count in entry_of(effort.steps, work)]
+    settings = list(product(ADAPTIVE, nodes, ["rtol"], effort.rtols))
+    settings += product(FIXED, nodes[:3], ["step_s"], steps_s)
     if work.scene == BUOY and work.name != "pendulum":
-        points += [(BEST + STRETCHED, n, "rtol", rtol) for n in nodes[:4] for rtol in effort.rtols[:3]]
-        points += [("paper-box", BOX_NODES, "step_s", work.period_s / m) for m in BOX_STEPS if effort.whole]
-    return points
+        settings += product([BEST + STRETCHED], nodes[:4], ["rtol"], effort.rtols[:3])
+        if effort.whole:
+            settings += [("paper-box", BOX_NODES, "step_s", work.period_s / count) for count in BOX_STEPS]
+    return settings
 
 
 def of_a_line(work: Work, effort: Effort) -> list[Setting]:
     """Timed settings of a breaking line."""
-    nodes = own(effort.nodes, work)
+    nodes = entry_of(effort.nodes, work)
     middle, coarse = nodes[len(nodes) // 2], [n for n in nodes if n <= MOST_ADAPTIVE_LINE]
-    points = []
+    settings = []
     for viscous in (VISCOUS, ""):
         for method in FIXED:
-            points += [(method + viscous, n, "courant", 1.0) for n in nodes]
-            points += [(method + viscous, middle, "courant", courant) for courant in COURANTS if courant != 1.0]
-        points += [(method + viscous, n, "rtol", rtol) for method in ADAPTIVE for n in coarse for rtol in LINE_RTOLS]
-    return points
+            settings += product([method + viscous], nodes, ["courant"], [1.0])
+            settings += product([method + viscous], [middle], ["courant"], COURANTS)
+        for method in ADAPTIVE:
+            settings += product([method + viscous], coarse, ["rtol"], LINE_RTOLS)
+    return settings

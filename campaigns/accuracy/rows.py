@@ -11,6 +11,7 @@ of the error against the tolerance, least squares.
 
 import functools
 import math
+from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
@@ -18,7 +19,7 @@ import numpy as np
 
 from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
 from campaigns.machinery.folder import run_of
-from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted
+from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted, number_of
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
@@ -77,7 +78,9 @@ def samples_of(work: Work, trajectory) -> np.ndarray:
 def kept_samples(work: Work, out: Path, key: str) -> np.ndarray | None:
     """The samples of a finished run; None where there is none, or where it ended early."""
     run = run_of(out, {"run_key": key, "status": "ok"})
-    return samples_of(work, run) if run is not None and run.status == "ok" else None
+    if run is None or run.status != "ok":
+        return None
+    return samples_of(work, run)
 
 
 def rms_mm(samples: np.ndarray, reference: np.ndarray) -> float:
@@ -85,7 +88,9 @@ def rms_mm(samples: np.ndarray, reference: np.ndarray) -> float:
     if samples.shape != reference.shape:
         return math.inf
     square = (samples - reference) ** 2
-    return 1e3 * float(np.sqrt(np.mean(square.sum(axis=1) if square.ndim == 2 else square)))
+    if square.ndim == 2:
+        square = square.sum(axis=1)
+    return 1e3 * float(np.sqrt(np.mean(square)))
 
 
 def strain_error(trajectory) -> float:
@@ -133,62 +138,85 @@ def orders(out: Path, rows: list[dict]) -> list[dict]:
     for row in rows:
         if row["kind"] in KINDS and plain(row["method"]) in ORDERS:
             series.setdefault((row["work"], row["kind"], row["method"]), []).append(row)
-    slack = {name: first_slack(out, work, rows) for name, work in BY_NAME.items() if work.rough}
-    slopes = []
+    slack, order_rows = {}, []
+    for name, work in BY_NAME.items():
+        if work.rough:
+            slack[name] = first_slack(out, work, rows)
     for (work, kind, method), members in series.items():
         members.sort(key=lambda row: (row["nodes"], -row["setting"]))  # coarse to fine
-        known = [row for row in members if row.get("error") is not None]
         if kind == "both":  # theory: the order in space; the viscosity's limiter leaves it alone
-            errors = [math.nan if row.get("error") is None else row["error"] for row in members]
-            slopes.append(_judged(kind, min(2, ORDERS[plain(method)]), members, errors))
-        elif kind == "tolerance" and len(known) > 2:
-            errors = [row["error"] for row in known]
-            logs = np.log([row["setting"] for row in known]), np.log(np.maximum(errors, 1e-12))
-            row = _judged(kind, TOLERANCE_SLOPE[method], known, errors)
-            slopes.append(row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""})
-        elif kind != "tolerance":
-            samples = [kept_samples(BY_NAME[work], out, row["run_key"]) for row in members]
-            theory = ORDERS[method] if kind == "time" else 2
-            slopes.append(_judged(kind, theory, members, _differences(samples)))
-            if early := slack.get(work):
-                cut = [values if values is None else values[:early] for values in samples]
-                slopes.append(
-                    _judged(kind, theory, members, _differences(cut)) | {"kind": f"{kind}-early", "rough": ""}
-                )
-    return slopes
+            errors = [number_of(row, "error") for row in members]
+            order_rows.append(_judged(kind, min(2, ORDERS[plain(method)]), members, errors))
+        elif kind == "tolerance":
+            order_rows += _over_tolerances(method, members)
+        else:
+            order_rows += _of_differences(out, BY_NAME[work], kind, method, members, slack.get(work, 0))
+    return order_rows
+
+
+def _over_tolerances(method: str, series: list[dict]) -> Iterator[dict]:
+    """The slope of the errors over the tolerance; none of fewer than three."""
+    series = [row for row in series if row.get("error") is not None]
+    if len(series) > 2:
+        errors = [row["error"] for row in series]
+        logs = np.log([row["setting"] for row in series]), np.log(np.maximum(errors, 1e-12))
+        row = _judged("tolerance", TOLERANCE_SLOPE[method], series, errors)
+        yield row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""}
+
+
+def _of_differences(out: Path, work: Work, kind: str, method: str, series: list[dict], early: int) -> Iterator[dict]:
+    """The order of a series in time or in space; where the rope goes slack also that of the `early` samples before."""
+    samples = [kept_samples(work, out, row["run_key"]) for row in series]
+    theory = ORDERS[method] if kind == "time" else 2
+    yield _judged(kind, theory, series, _differences(samples))
+    if early:
+        row = _judged(kind, theory, series, _differences(samples, early))
+        yield row | {"kind": f"{kind}-early", "rough": ""}
 
 
 def first_slack(out: Path, work: Work, rows: list[dict]) -> int:
     """Number of samples of a rough work's reference before its rope first goes slack; 0 where it does not."""
     wanted = {"work": work.name, "kind": "reference", "status": "ok"}
-    reference = next((row for row in rows if wanted.items() <= row.items()), None)
-    return 0 if reference is None else int(np.argmax(run_of(out, reference).columns["tension_min_N"] <= 0.0))
+    for row in rows:
+        if wanted.items() <= row.items():
+            return int(np.argmax(run_of(out, row).columns["tension_min_N"] <= 0.0))
+    return 0
 
 
-def _differences(samples: list) -> list[float]:
-    """Distances of neighbours; nan where one of them gave nothing."""
-    return [math.nan if coarse is None or fine is None else rms_mm(coarse, fine) for coarse, fine in pairwise(samples)]
+def _differences(samples: list, count: int | None = None) -> list[float]:
+    """Distances of neighbours, nan where one of them gave nothing; count: of so many samples, None: of all."""
+    differences = []
+    for coarse, fine in pairwise(samples):
+        difference = math.nan
+        if coarse is not None and fine is not None:
+            difference = rms_mm(coarse[:count], fine[:count])
+        differences.append(difference)
+    return differences
 
 
 def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -> dict:
     work = BY_NAME[series[0]["work"]]
     with np.errstate(all="ignore"):
-        slopes = np.log2(np.divide(errors[:-1], errors[1:])) if len(errors) > 1 else np.array([])
-    known = slopes[np.isfinite(slopes)]
-    within = len(known) and abs(known[-1] - theory) <= WITHIN and np.all(np.abs(known - theory) <= STEADY)
+        slopes = np.log2(np.divide(errors[:-1], errors[1:]))
+    finite = slopes[np.isfinite(slopes)]
+    order, within, note = "", "", ""
+    if len(finite):
+        order = float(finite[-1])
+        within = int(abs(order - theory) <= WITHIN and np.all(np.abs(finite - theory) <= STEADY))
     failed = [row["status"] for row in series if row["status"] != "ok"]
-    statuses = ", ".join(dict.fromkeys(failed))
+    if failed:
+        note = f"{len(failed)} of {len(series)} runs ended early: {', '.join(dict.fromkeys(failed))}"
     return {
         "work": work.name,
         "kind": kind,
         "method": series[0]["method"],
         "theory": theory,
-        "order": float(known[-1]) if len(known) else "",
+        "order": order,
         "slopes": " ".join(f"{slope:.3f}" for slope in slopes),
         "errors": " ".join(f"{error:.4g}" for error in errors),
         "unit": UNITS[work.measure],
         "settings": " ".join(f"{row['setting' if kind in ('time', 'tolerance') else 'nodes']:g}" for row in series),
-        "within": int(bool(within)) if len(known) else "",
+        "within": within,
         "rough": work.rough,
-        "note": f"{len(failed)} of {len(series)} runs ended early: {statuses}" if failed else "",
+        "note": note,
     }

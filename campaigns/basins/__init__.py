@@ -14,10 +14,12 @@ from rest is found by bisection of states. The order of the starts is drawn by -
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.settings import BUDGET, columns_of, measures_of
-from campaigns.explore.sweep import ONLY, SPEED_MPS, tables_of
+from campaigns.explore.sweep import ONLY, kick_speed, tables_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -30,40 +32,34 @@ DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 
 REST = {"start.buoy_velocity_mps": [0.0, 0.0, 0.0], "start.buoy_displacement_m": [0.0, 0.0, 0.0]}
 
 
-def options(group) -> None:
-    differences = "what the starts differ in: velocity or place of the buoy, phase of the wave"
-    cli.add(group, "--across", "|".join(PAIRS), differences, usual=PAIRS[0])
-    usual = f"starts along both, or along each of the two (default: {COUNT})"
-    cli.add(group, "--grid", "N|N M", usual)
-    above = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
-    cli.add(group, "--kick-speed", "MPS", "velocities go up to this both ways, m/s", above, SPEED_MPS)
-    cli.add(group, "--displacement", "M", "places go so far from that of rest both ways, m", above, MOVED_M)
-    cli.add(
-        group,
-        "--seed",
-        "N",
-        "of the order of the starts, that of a scrambled Halton sequence",
-        cli.whole(0, 2**32 - 1),
-        1,
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. grid: what the starts are, read from the first four."""
+
+    across: list[str] = cli.option(
+        "|".join(PAIRS), "what the starts differ in: velocity or place of the buoy, phase of the wave", usual=PAIRS[0]
     )
+    grid: list[str] | StartGrid = cli.option("N|N M", "starts along both, or along each of the two", usual=str(COUNT))
+    kick_speed: float = kick_speed("velocities go up to this both ways, m/s")
+    displacement: float = cli.option("M", "places go so far from that of rest both ways, m", cli.POSITIVE, MOVED_M)
+    seed: int = cli.seed("of the order of the starts, that of a scrambled Halton sequence")
 
-
-def read(options, faults: list[str]) -> None:
-    """The grid (`StartGrid`) in place of the words of --across and --grid."""
-    across = " ".join(options.across or [PAIRS[0]])
-    if across not in PAIRS:
-        faults.append(f"--across: given {across or 'nothing'}; allowed: one of {', '.join(PAIRS)}")
-        across = PAIRS[0]
-    kind, words = cli.whole(2, 199), options.grid if options.grid is not None else [str(COUNT)]
-    try:
-        counts = [kind.convert(word) for word in words]
-        if not 1 <= len(counts) <= 2:
-            raise ValueError(words)
-    except ValueError:
-        faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
-        counts = [COUNT]
-    size = options.displacement if across == "x z" else options.kick_speed
-    options.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The grid in place of the words of --across and --grid."""
+        across = " ".join(self.across)
+        if across not in PAIRS:
+            faults.append(f"--across: given {across or 'nothing'}; allowed: one of {', '.join(PAIRS)}")
+            across = PAIRS[0]
+        kind, words = cli.whole(2, 199), self.grid
+        try:
+            counts = [kind.convert(word) for word in words]
+            if not 1 <= len(counts) <= 2:
+                raise ValueError(words)
+        except ValueError:
+            faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
+            counts = [COUNT]
+        size = self.displacement if across == "x z" else self.kick_speed
+        self.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -98,8 +94,8 @@ def runs(order: Order) -> Callable:
         from campaigns.explore.ends import confirm
         from campaigns.explore.motions import Search
 
-        grid = order.own.grid
-        search = Search(order, kicks=0, speed_mps=order.own.kick_speed, seed=order.own.seed)
+        grid = order.options.grid
+        search = Search(order, kicks=0, speed_mps=order.options.kick_speed, seed=order.options.seed)
         exploration = Exploration(plan, jobs[0], grid, search)
         exploration.find()
         rest, *kicked = exploration.motions or [None]
@@ -118,7 +114,7 @@ def runs(order: Order) -> Callable:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    options = order.own
+    options = order.options
     return {
         "across": list(options.grid.across),
         "grid": list(options.grid.counts),
@@ -132,7 +128,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     from campaigns.basins.answer import sentences
 
     tables = tables_of(order.how.out, "motions", "shock", "edge")  # without the last two where there is one motion
-    return sentences(rows, order.own.grid.across, order.cases[0].scene, tables)
+    return sentences(rows, order.options.grid.across, order.cases[0].scene, tables)
 
 
 STUDY = Study(
@@ -141,8 +137,7 @@ STUDY = Study(
     scene="tethered_buoy",
     in_waves=True,
     taken=dict.fromkeys(REST, "use --across"),
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

@@ -12,6 +12,7 @@ shock, and a series of grids for case 4 and for case 3', which stays smooth. Not
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -36,12 +37,20 @@ DOUBLED_STEP_S = 0.002  # of the profiles on doubled grids
 LONGEST_S = 0.2
 
 
-def options(group) -> None:
-    """Add the options that other studies do not have."""
-    cases = f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)"
-    cli.add(group, "--cases", "A B ...", cases, cli.one_of(CASES), CASES, many=True)
-    leave_out = "leave out the doubled grids, the other bending stiffnesses and the breaks without gravity"
-    group.add_argument("--no-companions", action="store_true", help=leave_out)
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign."""
+
+    cases: list[str] = cli.option(
+        "A B ...",
+        f"cases of the paper (default: {' '.join(CASES)}; p: fracture in 50 ms)",
+        cli.one_of(CASES),
+        CASES,
+        many=True,
+    )
+    no_companions: bool = cli.flag(
+        "leave out the doubled grids, the other bending stiffnesses and the breaks without gravity"
+    )
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -51,7 +60,7 @@ def cases(order: Order) -> Iterator[Job]:
     even grid up to the arrival of the front, "straight" (fine) and "series" (grid by grid).
     """
     plain = {}
-    for case in order.own.cases:
+    for case in order.options.cases:
         scene = order.scene(_changes(order, case, {}), LENGTHS_S[case[0]])
         if scene is None:
             return
@@ -60,7 +69,7 @@ def cases(order: Order) -> Iterator[Job]:
         return
     for case, scene in plain.items():
         yield Job({"case": case, "kind": "case"}, scene, duration_s=LENGTHS_S[case[0]])
-    if order.own.no_companions:
+    if order.options.no_companions:
         return
     finer = {}
     for case, scene in plain.items():
@@ -160,10 +169,10 @@ STUDY = Study(
     protocol=__doc__,
     scene=SCENE,
     taken=dict.fromkeys(("end", "end.force_N", "end.force_decay_s", "end.kind"), "use --cases"),
-    options=options,
+    options=Options,
     cases=cases,
     measures=measures,
-    parameters=lambda order: {"cases": list(order.own.cases), "companions": not order.own.no_companions},
+    parameters=lambda order: {"cases": list(order.options.cases), "companions": not order.options.no_companions},
     beside=beside,
     answer=answer,
     together=False,

@@ -13,7 +13,9 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 
 import engine
 from campaigns.explore import sweep as motions
@@ -32,28 +34,33 @@ SWEPT = "waves.steepness"
 DIMENSIONS = ("2", "3", "auto")
 
 
-def options(group) -> None:
-    usual = "wave steepnesses kA (default: 49 values from 0.016 to 0.16)"
-    cli.add(group, "--steepness", "A B ...", usual, cli.fraction, many=True)
-    cli.add(group, "--steepness-range", "LO HI COUNT", "evenly spaced steepnesses, both ends included")
-    three = "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)"
-    cli.add(group, "--dimensions", "|".join(DIMENSIONS), three, cli.one_of(DIMENSIONS))
-    cli.add_evidence(group)
-    without = "leave out the errors of the largest tensions and the runs with the wetted cap"
-    group.add_argument("--no-accuracy", action="store_true", help=without)
-    fewer = "do not run further values between for the orbit diagram of a sweep of nine values or more"
-    group.add_argument("--no-between", action="store_true", help=fewer)
-    motions.add_options(group)
+@dataclass
+class Options(motions.Starts):
+    """The options of this campaign."""
 
+    steepness: list[float] | None = cli.option(
+        "A B ...", "wave steepnesses kA (default: 49 values from 0.016 to 0.16)", cli.FRACTION, many=True
+    )
+    steepness_range: list | None = cli.option("LO HI COUNT", "evenly spaced steepnesses, both ends included")
+    dimensions: str | None = cli.option(
+        "|".join(DIMENSIONS),
+        "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)",
+        cli.one_of(DIMENSIONS),
+    )
+    no_accuracy: bool = cli.flag("leave out the errors of the largest tensions and the runs with the wetted cap")
+    no_between: bool = cli.flag(
+        "do not run further values between for the orbit diagram of a sweep of nine values or more"
+    )
 
-def read(options, faults: list[str]) -> None:
-    """The steepnesses (`grid_of`): those of --steepness or --steepness-range, or STEEPNESS without either."""
-    steepness, evenly = options.steepness, options.steepness_range
-    if steepness is not None and evenly is not None:
-        faults.append("--steepness and --steepness-range: given both; allowed: one of them")
-    elif evenly is not None:
-        steepness = cli.evenly(evenly, "--steepness-range", faults, least=0.0)
-    options.grid = grid_of(steepness or STEEPNESS)
+    grid: Grid | None = None  # the steepnesses
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The steepnesses of --steepness or --steepness-range, or STEEPNESS without either."""
+        if self.steepness is not None and self.steepness_range is not None:
+            faults.append("--steepness and --steepness-range: given both; allowed: one of them")
+        elif self.steepness_range is not None:
+            self.steepness = cli.evenly(self.steepness_range, "--steepness-range", faults, least=0.0)
+        self.grid = grid_of(self.steepness or STEEPNESS)
 
 
 def grid_of(values) -> Grid:
@@ -67,8 +74,8 @@ def cases(order: Order) -> Iterator[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
     dimensions, base = dimensions_of(order), order.base()
     scenes = []
-    for place in order.own.grid.places():
-        changes, _ = order.own.grid.changes(place, base)
+    for place in order.options.grid.places():
+        changes, _ = order.options.grid.changes(place, base)
         scene = judged_scene(order, {"motion.dimensions": 3 if dimensions == "3" else 2, **changes})
         if scene is not None and dimensions != "2":
             try:
@@ -86,8 +93,8 @@ def cases(order: Order) -> Iterator[Job]:
 
 def dimensions_of(order: Order) -> str:
     """One of DIMENSIONS: as the command line says, or the scene."""
-    if order.own.dimensions is not None:
-        return order.own.dimensions
+    if order.options.dimensions is not None:
+        return order.options.dimensions
     scene = order.base()
     return "2" if scene is None else str(scene.motion.dimensions)
 
@@ -106,7 +113,7 @@ def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.explore.rows import COLUMNS
 
-    return measures_of(order, COLUMNS, full=order.own.evidence == "full")
+    return measures_of(order, COLUMNS, full=order.options.evidence == "full")
 
 
 def parameters(order: Order) -> dict[str, object]:
@@ -119,7 +126,7 @@ def parameters(order: Order) -> dict[str, object]:
         "longest_period": LONGEST_PERIOD,
         "dimensions": dimensions,
         "push_mps": SEED_MPS if pushed else None,
-        "accuracy": not order.own.no_accuracy,
+        "accuracy": not order.options.no_accuracy,
         **motions.parameters(order, kicks_of(order)),
     }
 
@@ -129,9 +136,9 @@ def beside(order: Order) -> Iterator[Callable]:
     from campaigns.explore import batches
     from campaigns.explore.errors import errors
 
-    if order.looks and not order.own.no_between and len(order.cases) >= batches.LEAST_VALUES:
+    if order.looks and not order.options.no_between and len(order.cases) >= batches.LEAST_VALUES:
         yield partial(batches.between, key=SWEPT, cases=order.cases)
-    if not order.own.no_accuracy:
+    if not order.options.no_accuracy:
         yield partial(batches.companions, key=SWEPT, periods=order.periods)
         yield errors
     yield partial(batches.close_up, periods=order.periods)
@@ -141,7 +148,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     """The findings of the sweep (`campaigns.explore.answer`)."""
     from campaigns.explore.answer import sentences
 
-    folders = [] if order.own.no_accuracy else ["companions"]
+    folders = [] if order.options.no_accuracy else ["companions"]
     if kicks_of(order) is not None:
         folders.append("ends")
     tables = motions.tables_of(order.how.out, *folders)
@@ -159,8 +166,7 @@ STUDY = Study(
         "waves.amplitude_m": "use --steepness",
         "motion.dimensions": "use --dimensions",
     },
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

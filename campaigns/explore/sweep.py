@@ -2,8 +2,10 @@
 
 import contextlib
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import engine
 from campaigns.explore.grid import Varied
@@ -20,30 +22,55 @@ REST = "rest"
 MOST_KICKS = 10_000
 
 
-def add_options(group) -> None:
-    """--starts, --kick-speed, --seed, --start-from."""
-    sources = "beside motions of a massless tether and those carried from its neighbours"
-    usual = f"kicks of the buoy at each value, {sources}; rest: one run from rest only"
-    usual += f" (default: {KICKS}; with --periods: rest)"
-    allowed = cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
-    cli.add(group, "--starts", "rest|N", usual, allowed)
-    speed = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
-    cli.add(group, "--kick-speed", "MPS", "kicks are velocities of up to this along x and z, m/s", speed, SPEED_MPS)
-    cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
-    file = "run from the final state of this run (a file of trajectories/) instead of from rest"
-    cli.add(group, "--start-from", "FILE", file, cli.Kind(str, "a file of a run"))
+def _starts(text: str):
+    return REST if text == REST else cli.whole(0, MOST_KICKS).convert(text)
+
+
+def kick_speed(use: str = "kicks are velocities of up to this along x and z, m/s") -> Any:
+    """--kick-speed. use: of which starts."""
+    return cli.option("MPS", use, cli.POSITIVE, SPEED_MPS)
+
+
+KICKS_BESIDE = (
+    "kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
+    f"rest: one run from rest only (default: {KICKS}; with --periods: rest)"
+)
+SEED_OF_KICKS = "of the kicks, drawn independently and uniformly"
+FULL = "full"
+
+
+@dataclass
+class Starts(cli.Options):
+    """The options of a sweep with every motion of each value."""
+
+    starts: str | int | None = cli.option(
+        "rest|N", KICKS_BESIDE, cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
+    )
+    kick_speed: float = kick_speed()
+    seed: int = cli.seed(SEED_OF_KICKS)
+    start_from: str | None = cli.option(
+        "FILE",
+        "run from the final state of this run (a file of trajectories/) instead of from rest",
+        cli.Kind(str, "a file of a run"),
+    )
+    evidence: str = cli.option(
+        "dynamics|full",
+        "dynamics, or full: Wolf's exponent and the tests for records of unknown origin as well, seconds a run",
+        cli.one_of(("dynamics", FULL)),
+        "dynamics",
+    )
 
 
 def start_of(order: Order, scene):
     """The state of --start-from, or None. What is wrong with it, or with going on from it in this scene, is told."""
-    if order.own.start_from is None:
+    if order.options.start_from is None:
         return None
     from engine.run.start import checked_start
 
     try:
         if scene.waves is None:
             raise ValueError("given for a scene without waves; allowed: with waves")
-        return checked_start(scene, run_in(order.own.start_from)).at_zero()
+        return checked_start(scene, run_in(order.options.start_from)).at_zero()
     except ValueError as error:
         order.tell([f"--start-from: {error}"])
     return None
@@ -55,17 +82,13 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def _starts(text: str):
-    return REST if text == REST else cli.whole(0, MOST_KICKS).convert(text)
-
-
 def kicks_of(order: Order, scenes: Iterable) -> int | None:
     """Kicks at each value; None: runs from rest only. Kicks asked for scenes that allow none are a fault.
 
     scenes: of the runs from rest.
     """
-    starts = order.own.starts
-    if order.own.start_from is not None:
+    starts = order.options.starts
+    if order.options.start_from is not None:
         if starts not in (None, REST):
             order.tell([f"--starts: given {starts} with --start-from; allowed: one of them"])
         return None
@@ -81,16 +104,16 @@ def kicks_of(order: Order, scenes: Iterable) -> int | None:
 def parameters(order: Order, kicks: int | None) -> dict[str, object]:
     """The starts, for the provenance."""
     if kicks is None:
-        return {"starts": REST if order.own.start_from is None else order.own.start_from}
-    return {"starts": kicks, "kick_speed_mps": order.own.kick_speed, "seed": order.own.seed}
+        return {"starts": REST if order.options.start_from is None else order.options.start_from}
+    return {"starts": kicks, "kick_speed_mps": order.options.kick_speed, "seed": order.options.seed}
 
 
 def runs(order: Order, kicks: int | None) -> Callable:
     """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
     if kicks is None:
         return run
-    (key,) = order.own.grid.keys
-    return every_motion(order, key, kicks, order.own.kick_speed, order.own.seed)
+    (key,) = order.options.grid.keys
+    return every_motion(order, key, kicks, order.options.kick_speed, order.options.seed)
 
 
 def every_motion(order: Order, key: Varied, kicks: int, speed_mps: float, seed: int) -> Callable:

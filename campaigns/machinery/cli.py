@@ -1,19 +1,26 @@
-"""Command-line pieces shared by the campaigns: options that collect their faults instead of stopping at the first.
+"""Command lines of the campaigns: options as fields of records, whose faults are collected instead of ending at one.
 
-argparse stops at the first bad value. Here an option says what its words may be (`Kind`), `split` turns them into
-values, and whatever is wrong is appended to one list of faults, to be shown together with the faults of the scene.
-Nothing heavy is imported: `--help` has to appear at once.
+argparse splits the words, and stops at the first bad value. Here an option says what its words may be (`Kind`), and
+whatever is wrong is appended to one list of faults, to be shown together with the faults of the scene. Nothing heavy is
+imported, because `--help` has to appear at once (libraries weighed: docs/developing.md).
+
+    @dataclass
+    class Options(cli.Options):
+        effort: float = cli.option("SHARE", "share of the usual work", SHARE, usual=1.0)      --effort SHARE
+        quick: bool = cli.flag("fewer cases")                                                 --quick
 """
 
 import argparse
 import difflib
+import inspect
 import json
 import math
 import os
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import Field, dataclass, field, fields
 from pathlib import Path
+from typing import Any
 
 import engine.scene
 
@@ -34,39 +41,101 @@ class Kind:
     allowed: str
 
 
-def number(allowed: str, sound: Callable[[float], bool]) -> Kind:
-    """Numbers for which `sound` holds."""
-    return Kind(lambda text: _if(sound, float(text)), allowed)
+def number(allowed: str, is_sound: Callable[[float], bool]) -> Kind:
+    """Numbers for which `is_sound` holds."""
+    return Kind(lambda text: _checked(is_sound, float(text)), allowed)
 
 
 def whole(least: int, most: float = math.inf) -> Kind:
     """Whole numbers from `least` to `most`."""
     above = f"{least} or above" + (f" and at most {most}" if most < math.inf else "")
-    return Kind(lambda text: _if(lambda found: least <= found <= most, int(text)), f"a whole number, {above}")
+    return Kind(lambda text: _checked(lambda count: least <= count <= most, int(text)), f"a whole number, {above}")
 
 
 def one_of(words: tuple[str, ...]) -> Kind:
     """Some words only."""
-    return Kind(lambda text: _if(lambda found: found in words, text), "one of " + ", ".join(words))
+    return Kind(lambda text: _checked(lambda word: word in words, text), "one of " + ", ".join(words))
 
 
-def _if(sound: Callable, found):
-    if not sound(found):
-        raise ValueError(found)
-    return found
+def _checked(is_sound: Callable, value):
+    if not is_sound(value):
+        raise ValueError(value)
+    return value
 
 
 def _scheduler(text: str) -> str:
-    found = re.fullmatch(r"((tcp|tls|ws|wss)://)?([^\s:/]+|\[[0-9A-Fa-f:]+\]):(\d{1,5})/?", text)
-    if not found or not 0 < int(found[4]) < 65536:
+    parts = re.fullmatch(r"((tcp|tls|ws|wss)://)?([^\s:/]+|\[[0-9A-Fa-f:]+\]):(\d{1,5})/?", text)
+    if not parts or not 0 < int(parts[4]) < 65536:
         raise ValueError(text)
     return text
 
 
-fraction = number("a finite number, 0 or above", lambda found: 0.0 <= found < math.inf)
-scheduler = Kind(_scheduler, "the address of a scheduler, as tcp://HOST:PORT")
+FRACTION = number("a finite number, 0 or above", lambda value: 0.0 <= value < math.inf)
+POSITIVE = number("a finite number above 0", lambda value: 0.0 < value < math.inf)
+SECONDS = number("seconds, a finite number above 0", lambda value: 0.0 < value < math.inf)
+SCHEDULER = Kind(_scheduler, "the address of a scheduler, as tcp://HOST:PORT")
 # an empty name, as of a shell variable that is not set, would be the current folder
-folder_name = Kind(lambda text: Path(_if(str.strip, text)), "a folder")
+FOLDER = Kind(lambda text: Path(_checked(str.strip, text)), "a folder")
+
+
+@dataclass(frozen=True)
+class Option:
+    """What an option of a command takes.
+
+    metavar: its words in the help.
+    kind: of its one value, or of each of its `many`; None: its words stay as they are.
+    usual: its value where it is not given; of words a text.
+    """
+
+    metavar: str
+    help: str
+    kind: Kind | None = None
+    usual: object = None
+    many: bool = False
+
+    def add_to(self, group, name: str) -> None:
+        """Add it to a group of a parser; given twice, the words add up (so `--set A --set B` is `--set A B`)."""
+        shown = self.help if self.usual is None or self.many else f"{self.help} (default: {self.usual})"
+        action = group.add_argument(name, metavar=self.metavar, nargs="*", action="extend", help=shown)
+        action.option = self
+
+    def value(self, name: str, words: list[str] | None, faults: list[str]) -> object:
+        """Its value in these words; None: it was not given."""
+        if self.kind is not None:
+            return value(words, name, self.usual, self.kind, faults, self.many)
+        return self.usual.split() if words is None and self.usual is not None else words
+
+
+def option(*declared: object, **more: object) -> Any:
+    """A field of a record of options that takes words, declared as an `Option`."""
+    return field(default=None, metadata={"option": Option(*declared, **more)})
+
+
+def flag(help: str) -> Any:
+    """A field of a record of options that is given alone, or not."""
+    return field(default=False, metadata={"flag": help})
+
+
+def seed(use: str) -> Any:
+    """--seed. use: of which random numbers."""
+    return option("N", use, whole(0, 2**32 - 1), 1)
+
+
+@dataclass
+class Options:
+    """The options of one command, beside those that all share; `read` fills fields that are no `option` or `flag`."""
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """Judge and amend the values; out: folder of the results."""
+
+    @classmethod
+    def offered(cls) -> Iterator[Field]:
+        """Its fields in the order of the help: its own ones before those that it inherits."""
+        known = {entry.name: entry for entry in fields(cls)}
+        for base in cls.__mro__:
+            for name in inspect.get_annotations(base):
+                if name in known:
+                    yield known.pop(name)
 
 
 @dataclass(frozen=True)
@@ -80,18 +149,13 @@ class Running:
     report: bool = True
 
 
-@dataclass(frozen=True)
-class Lengths:
-    """The usual length of a run and of its transient, in wave periods.
-
-    share: the transient is at most periods/share where none is given. budget: of a study whose runs take as long as
-    their regime needs where no length is given: the most that they may take; 0: `periods` is the length then.
-    """
-
-    periods: int
-    transient: int
-    share: int = 3
-    budget: int = 0
+PLACES = {  # options that say where runs are done
+    "jobs": Option(
+        "N", "runs at the same time, but on a cluster of your own", whole(1, MOST_JOBS), min(2, os.cpu_count() or 1)
+    ),
+    "backend": Option("|".join(BACKENDS), "processes (loky), threads or a dask cluster", one_of(BACKENDS), BACKENDS[0]),
+    "dask_address": Option("ADDRESS", "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)", SCHEDULER),
+}
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
@@ -107,50 +171,68 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
-    """An empty parser for `python -m module`; add options with `add`, read the line with `split`."""
+    """An empty parser for `python -m module`; read the line with `split`."""
     words = {"description": description, "epilog": epilog, "formatter_class": _Formatter}
     return _Parser(prog=f"python -m {module}", allow_abbrev=False, **words)
 
 
-def add(group, option: str, metavar: str, help: str, kind: Kind | None = None, usual=None, many: bool = False) -> None:
-    """Add an option that takes words; given twice, the words add up (so `--set A --set B` is `--set A B`).
+def add_options(group, record: type[Options]) -> None:
+    """Add the options of a record."""
+    for entry in record.offered():
+        name = option_name(entry.name)
+        if "option" in entry.metadata:
+            entry.metadata["option"].add_to(group, name)
+        elif "flag" in entry.metadata:
+            group.add_argument(name, action="store_true", help=entry.metadata["flag"])
 
-    kind: of its one value, or of each of its `many`; None: its words stay as they are. usual: where it is not given.
-    """
-    told = help if usual is None or many else f"{help} (default: {usual})"
-    action = group.add_argument(option, metavar=metavar, nargs="*", action="extend", help=told)
-    action.read = None if kind is None else lambda words, faults: value(words, option, usual, kind, faults, many)
+
+def option_name(field_name: str) -> str:
+    """--dask-address of dask_address."""
+    return "--" + field_name.replace("_", "-")
 
 
-def add_running(group, campaign: str, jobs: bool = True, backends: bool = True) -> None:
-    """Add the options that say how and where a campaign runs. jobs, backends: whether there is a choice of these."""
-    if jobs:
-        at_once = "runs at the same time, but on a cluster of your own"
-        add(group, "--jobs", "N", at_once, whole(1, MOST_JOBS), min(2, os.cpu_count() or 1))
-    if backends:
-        where = "processes (loky), threads or a dask cluster"
-        add(group, "--backend", "|".join(BACKENDS), where, one_of(BACKENDS), BACKENDS[0])
-        address = "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)"
-        add(group, "--dask-address", "ADDRESS", address, scheduler)
-    found = "folder of the results; what is found there is not done again"
-    add(group, "--out", "DIR", found, folder_name, Path("results", campaign))
+def add_running(group, campaign: str, places: tuple[str, ...]) -> None:
+    """Add the options that say how and where a campaign runs; places: which of PLACES."""
+    for name in places:
+        PLACES[name].add_to(group, option_name(name))
+    held = "folder of the results; what is found there is not done again"
+    Option("DIR", held, FOLDER, Path("results", campaign)).add_to(group, "--out")
     group.add_argument("--no-report", action="store_true", help="leave out report.html and report.pdf")
 
 
-def add_evidence(group) -> None:
-    """Add --evidence."""
-    more = "dynamics, or full: Wolf's exponent and the tests for records of unknown origin as well, seconds a run"
-    add(group, "--evidence", "dynamics|full", more, one_of(("dynamics", "full")), "dynamics")
+def options_of(record: type[Options], values: argparse.Namespace) -> Options:
+    """The record of the values that `split` found, and of those that a program has put beside them."""
+    names = {entry.name for entry in fields(record)}
+    return record(**{name: value for name, value in vars(values).items() if name in names})
+
+
+def running(values: argparse.Namespace, places: tuple[str, ...], campaign: str, faults: list[str]) -> Running:
+    """What the options of `add_running` say."""
+    where = {name: getattr(values, name) for name in places}
+    how = Running(values.out, **where, report=not values.no_report)
+    if how.dask_address is not None and how.backend != "dask":
+        faults.append(f"--dask-address: given with --backend {how.backend}; allowed: with --backend dask only")
+    if how.backend == "dask":
+        from importlib.util import find_spec
+
+        if find_spec("distributed") is None:
+            faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
+    if fault := fault_of(how.out, campaign):
+        faults.append(fault)
+    return how
 
 
 def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:
     """The values of the options, or their words where an option has no kind; what is not allowed becomes faults."""
     try:
-        options, unknown = parser.parse_known_args(argv)
+        values, unknown = parser.parse_known_args(argv)
     except ValueError as error:
-        found = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", str(error))
-        faults.append(f"{found[1]}: given {found[2]}; allowed: the option alone" if found else str(error))
-        options, unknown = parser.parse_args([]), []
+        explicit = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", str(error))
+        fault = str(error)
+        if explicit:
+            fault = f"{explicit[1]}: given {explicit[2]}; allowed: the option alone"
+        faults.append(fault)
+        values, unknown = parser.parse_args([]), []
     known = [name for action in parser._actions for name in action.option_strings]
     for word in unknown:
         if not word.startswith("-") and unknown[0].startswith("-"):
@@ -159,9 +241,10 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         faults.append(f"{name}: no such option" + (f"; did you mean {close[0]}?" if close else ""))
     for action in parser._actions:
-        if read := getattr(action, "read", None):
-            setattr(options, action.dest, read(getattr(options, action.dest), faults))
-    return options
+        if hasattr(action, "option"):
+            words = getattr(values, action.dest)
+            setattr(values, action.dest, action.option.value(action.option_strings[0], words, faults))
+    return values
 
 
 def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[str], many: bool = False):
@@ -172,15 +255,15 @@ def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[
         count = "one value or more, each" if many else "one value,"
         faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {count} {kind.allowed}")
         return usual
-    found = []
+    values = []
     for word in words:
         try:
-            found.append(kind.convert(word))
+            values.append(kind.convert(word))
         except ValueError:
             faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}{_parted(word, kind)}")
-    if len(found) < len(words):
+    if len(values) < len(words):
         return usual
-    return list(dict.fromkeys(found)) if many else found[0]
+    return list(dict.fromkeys(values)) if many else values[0]
 
 
 def _parted(word: str, kind: Kind) -> str:
@@ -194,22 +277,6 @@ def _parted(word: str, kind: Kind) -> str:
         return ""
     decimal = len(parts) == 2 and all(map(str.isdigit, parts))
     return f"; with a dot: {'.'.join(parts)}" if decimal else f"; separated by spaces: {' '.join(parts)}"
-
-
-def running(options: argparse.Namespace, campaign: str, faults: list[str]) -> Running:
-    """What the options of `add_running` say."""
-    given = {name: entry for name, entry in vars(options).items() if name in Running.__dataclass_fields__}
-    how = Running(**given, report=not options.no_report)
-    if how.dask_address is not None and how.backend != "dask":
-        faults.append(f"--dask-address: given with --backend {how.backend}; allowed: with --backend dask only")
-    if how.backend == "dask":
-        from importlib.util import find_spec
-
-        if find_spec("distributed") is None:
-            faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
-    if fault := fault_of(how.out, campaign):
-        faults.append(fault)
-    return how
 
 
 def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
@@ -232,7 +299,7 @@ def assignments(words: list[str] | None, taken: Mapping[str, str], faults: list[
 
     taken: keys that the campaign itself sets -> what to use instead.
     """
-    found = {}
+    changes = {}
     for word in words or []:
         try:
             key, given = engine.scene.parse_assignment(word)
@@ -242,10 +309,10 @@ def assignments(words: list[str] | None, taken: Mapping[str, str], faults: list[
         if key in taken:
             faults.append(f"--set {key}: this campaign sets it; {taken[key]}")
         else:
-            found[key] = given
+            changes[key] = given
     if words == []:
         faults.append("--set: given nothing; allowed: KEY=VALUE, one or more")
-    return found
+    return changes
 
 
 def fault_of(out: Path, campaign: str) -> str | None:

@@ -41,13 +41,9 @@ class Job:
     engine: str = field(default_factory=lambda: engine.source_hash())
 
     @property
-    def size(self) -> float:
-        """Its length in seconds times its nodes, and by these again where shorter elements take shorter steps.
-
-        Runs of one campaign take about as long as their sizes say; the speed itself is not known before they run.
-        """
-        length_s = (self.periods or 0.0) * self.scene.waves.period_s if self.duration_s is None else self.duration_s
-        return length_s * self.scene.tether.nodes ** (2 if self.scene.solver.courant else 1)
+    def length_s(self) -> float:
+        """Its length in seconds."""
+        return self.periods * self.scene.waves.period_s if self.duration_s is None else self.duration_s
 
     @cached_property
     def key(self) -> str:

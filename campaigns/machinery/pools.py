@@ -132,27 +132,32 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
         if address is None:
             # A run whose worker dies is not tried again by dask: the runner does that, one run at a time.
             stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 0}))
-            own = {"n_workers": jobs, "threads_per_worker": 1, "dashboard_address": None, "silence_logs": "CRITICAL"}
-            own["preload"] = __name__  # see `dask_setup`
-            address = stack.enter_context(LocalCluster(**own))
+            options = {
+                "n_workers": jobs,
+                "threads_per_worker": 1,
+                "dashboard_address": None,
+                "silence_logs": "CRITICAL",
+            }
+            options["preload"] = __name__  # see `dask_setup`
+            address = stack.enter_context(LocalCluster(**options))
         # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
         stack.callback(logging.disable, logging.root.manager.disable)
         logging.disable(logging.CRITICAL)
         try:
-            found = stack.enter_context(Client(address, timeout=JOIN_S))
+            client = stack.enter_context(Client(address, timeout=JOIN_S))
         except (OSError, TimeoutError, TypeError, ValueError) as error:  # TypeError: tls:// without certificates
             raise CampaignStopped(f"no dask cluster at {address}: {first_line(error)}") from error
         try:
-            found.wait_for_workers(1, timeout=JOIN_S)
-            found.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
+            client.wait_for_workers(1, timeout=JOIN_S)
+            client.run_on_scheduler(facts)  # it computes nothing, but dask unpacks there what it hands on
         except TimeoutError:
             start = f"start one: dask worker {address} --nthreads 1"
             raise CampaignStopped(f"the scheduler at {address} has no worker after {JOIN_S:g} s; {start}") from None
         except ImportError as error:
             raise CampaignStopped(_REFUSED.format(f"the scheduler: {first_line(error)}")) from error
-        if faults := "; ".join(_differences(found)):
+        if faults := "; ".join(_differences(client)):
             raise CampaignStopped(_REFUSED.format(faults))
-        yield found
+        yield client
 
 
 @cache
@@ -163,41 +168,46 @@ def facts() -> dict[str, str]:
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
 
 
-def _differences(found) -> Iterator[str]:
-    """What sets workers apart from this process, as far as they say so within ASK_S."""
-    said: dict[str, object] = {}
+def _differences(client) -> Iterator[str]:
+    """What sets workers apart from this process, as far as they answer within ASK_S."""
+    answers: dict[str, object] = {}
 
-    def ask() -> None:
+    def collect() -> None:
         with contextlib.suppress(Exception):
-            said.update(found.run(facts, on_error="return"))
+            answers.update(client.run(facts, on_error="return"))
 
-    # dask waits for a worker that is stopped as long as it stays so; who does not answer is asked with its first run.
-    asking = threading.Thread(target=ask, daemon=True)
-    asking.start()
-    asking.join(ASK_S)
-    for worker, there in list(said.items()):
-        if isinstance(there, OSError):
+    # dask waits for a worker that is stopped as long as it stays so; it is asked again with its first run.
+    thread = threading.Thread(target=collect, daemon=True)
+    thread.start()
+    thread.join(ASK_S)
+    for worker, answer in list(answers.items()):
+        if isinstance(answer, OSError):
             continue  # it has just gone; whoever comes in its place is asked with its first run
-        if off := first_line(there) if isinstance(there, Exception) else _difference(there, facts()):
-            yield f"{worker}: {off}"
+        difference = first_line(answer) if isinstance(answer, Exception) else _difference(answer, facts())
+        if difference:
+            yield f"{worker}: {difference}"
 
 
-def _difference(there: dict[str, str], here: dict[str, str]) -> str:
-    off = [f"{name} {there.get(name, 'none')} (here: {here[name]})" for name in here if there.get(name) != here[name]]
-    return ", ".join(off)
+def _difference(of_worker: dict[str, str], of_campaign: dict[str, str]) -> str:
+    """Where the facts of a worker are not those of this campaign; "" where they are."""
+    differences = []
+    for name, fact in of_campaign.items():
+        if of_worker.get(name) != fact:
+            differences.append(f"{name} {of_worker.get(name, 'none')} (here: {fact})")
+    return ", ".join(differences)
 
 
-def _dask_results(found, call: Callable, tasks: list, alone: bool = False) -> Iterator:
+def _dask_results(client, call: Callable, tasks: list, alone: bool = False) -> Iterator:
     """(task, call(task)) as results come. Raises PoolBroken with the tasks that dask gave up, CampaignStopped."""
     from distributed import KilledWorker
 
-    ask = partial(_asked, call, facts())
-    futures = {found.submit(ask, task, pure=False): task for task in tasks}
-    left, killed = set(futures), {}
+    checked_call = partial(_checked_call, call, facts())
+    futures = {client.submit(checked_call, task, pure=False): task for task in tasks}
+    unfinished, killed = set(futures), {}
     try:
-        while left:
-            for future in _done(found, left):
-                left.discard(future)
+        while unfinished:
+            for future in _finished(client, unfinished):
+                unfinished.discard(future)
                 try:
                     result = future.result()
                 except KilledWorker as error:
@@ -208,39 +218,40 @@ def _dask_results(found, call: Callable, tasks: list, alone: bool = False) -> It
     except CampaignStopped:
         raise
     except Exception as error:
-        raise CampaignStopped(_said(error)) from error
+        raise CampaignStopped(_reason(error)) from error
     finally:
         with contextlib.suppress(Exception):  # of a scheduler that is gone: there is nothing to cancel
-            found.cancel(list(left))
+            client.cancel(list(unfinished))
     if killed:
         raise PoolBroken([futures[future] for future in killed], first_line(killed.popitem()[1]))
 
 
-def _asked(call: Callable, here: dict[str, str], task: object) -> object:
+def _checked_call(call: Callable, of_campaign: dict[str, str], task: object) -> object:
     """Runs in the worker; one that joined late has not been asked before."""
-    if off := _difference(facts(), here):
+    difference = _difference(facts(), of_campaign)
+    if difference:
         from distributed import get_worker
 
-        raise CampaignStopped(_REFUSED.format(f"{get_worker().address}: {off}"))
+        raise CampaignStopped(_REFUSED.format(f"{get_worker().address}: {difference}"))
     return call(task)
 
 
-def _done(found, left: set) -> set:
+def _finished(client, futures: set) -> set:
     """The futures that have ended, however long it takes, while there is somebody who could be at them."""
     from distributed import wait
 
-    alone_s, said = 0.0, False
-    while alone_s <= GONE_S:
+    without_worker_s, warned = 0.0, False
+    while without_worker_s <= GONE_S:
         with contextlib.suppress(TimeoutError):
-            return wait(left, timeout=LOOK_S, return_when="FIRST_COMPLETED").done
-        alone_s = 0.0 if found.nthreads() else alone_s + LOOK_S
-        if alone_s > 0.1 * GONE_S and not said:
+            return wait(futures, timeout=LOOK_S, return_when="FIRST_COMPLETED").done
+        without_worker_s = 0.0 if client.nthreads() else without_worker_s + LOOK_S
+        if without_worker_s > 0.1 * GONE_S and not warned:
             print(f"\nthe dask cluster has no worker; waiting {GONE_S:g} s for one to join", file=sys.stderr)
-            said = True
+            warned = True
     raise CampaignStopped(f"the dask cluster has had no worker for {GONE_S:g} s; {_GO_ON}")
 
 
-def _said(error: Exception) -> str:
+def _reason(error: Exception) -> str:
     """Why a cluster cannot go on, in a line."""
     if isinstance(error, ImportError):
         return _REFUSED.format(first_line(error))

@@ -1,164 +1,134 @@
-"""What a command is doing, how far it is and how long it will take: one line of stderr that moves.
+"""What a command is doing and how far it is: one line of stderr, drawn by tqdm.
 
-    with stage("runs", 14_700, "wave periods", far=lambda: 350.0):
+    with stage("runs from rest", 120, "runs", count=lambda: 40):
         ...
 
-A thread of its own keeps the line up to date, so that it moves while this process waits for workers or compiles. On a
-terminal one line is drawn again and again; elsewhere (a file, a pipe) a stage that lasts says a line now and then.
-Stages nest: the names of all are shown, and how far the innermost one is that counts something.
+Stages nest: the titles of all are shown, with what the innermost counting one has done, and the time since the start of
+the outermost. On a terminal the line is drawn again and again by a thread of its own, so that it moves while this
+process waits for workers. Elsewhere (a file, a pipe) it is written at most once in LINE_S, and when a long stage that
+counts ends.
+Nothing is said of the time left: runs differ in cost and so do machines.
 
-A worker says how far its task is by a small file in a folder that the main process looks into (`teller`, `shares`).
-That does for processes, threads and dask alike; a worker that does not see the folder says nothing.
+Workers write how far they are into small files of a folder that the main process reads (`report`, `reports`). This
+works for processes, threads and dask alike; of a worker that does not see the folder nothing is known until it ends.
 """
 
 import contextlib
 import inspect
 import os
-import shutil
 import sys
 import threading
 import time
-from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-DRAWN_S = 0.25  # between two drawings on a terminal
-FIRST_S, SAID_S = 1.5, 8.0  # to the first line elsewhere, and between two lines
-ASKED_S = 3.0  # of a stage before its time left is told
-TOLD_S = 0.3  # between two words of a worker
-BAR = 20  # characters
-RECENT = 0.7  # share of the time so far from which the speed is taken: runs that come later may be slower
+DRAW_S = 0.25  # between two drawings on a terminal
+FIRST_S, LINE_S = 2.0, 10.0  # to the first line elsewhere, and between two lines
+REPORT_S = 0.3  # between two reports of a worker
+BAR = "{desc}, {elapsed} since the start |{bar:20}|"
 
 
-@dataclass
+@dataclass(eq=False)
 class Stage:
-    """A piece of work that takes a while. far() -> how much of `total` is done; without a total only the time is told.
+    """A piece of work that takes a while.
 
-    then(seconds that it takes in all) -> seconds of what follows it, to the end of the stage around it; None: unknown.
-    How many kernels are compiled meanwhile, by whichever process, is said too.
+    title: what is done. total, unit: how many of which things there are to do, 0: this is not known.
+    count() -> how many of them are done. detail() -> further words on how far it is.
     """
 
-    what: str
-    total: float = 0.0
+    title: str
+    total: int = 0
     unit: str = ""
-    far: Callable[[], float] | None = None
-    then: Callable[[float], float] | None = None
+    count: Callable[[], float] = lambda: 0
+    detail: Callable[[], str] = str
     began: float = field(default_factory=time.monotonic)
-    seen: deque = field(default_factory=lambda: deque([(0.0, 0.0)], maxlen=4096))  # (seconds, done)
 
-    def look(self) -> tuple[float, float]:
-        """Seconds since it began, and how much is done by then: kept for `left_s`."""
-        now = time.monotonic() - self.began
-        self.seen.append((now, min(self.far(), self.total) if self.far is not None else 0.0))
-        return self.seen[-1]
-
-    def left_s(self) -> float | None:
-        """Seconds to its end at the speed of the last RECENT of its time; None where that is not known yet."""
-        now, done = self.seen[-1]
-        since, before = next(one for one in self.seen if one[0] >= (1.0 - RECENT) * now)
-        known = now >= ASKED_S and before < done < self.total
-        return (self.total - done) * (now - since) / (done - before) if known else None
-
-    def told(self, around: list["Stage"]) -> str:
-        """The line behind its name: how far, how long so far, how long still; what it counts, what is compiled.
-
-        around: the stages that it lies in, the innermost first.
-        """
-        now, done = self.look()
-        parts = [_clock(now), *([f"{kernels} kernels compiled"] if (kernels := self._kernels()) else [])]
-        if self.total:
-            bar = f"[{'#' * int(BAR * done / self.total):-<{BAR}}] {done / self.total:3.0%}"
-            parts = [bar, *parts, self._left([self, *around]), f"of {self.total:,.0f} {self.unit}"]
-        return ", ".join(parts)
-
-    def _kernels(self) -> int:
-        """How many any process has compiled since it began."""
-        made_since = getattr(sys.modules.get("machine_code.store"), "made_since", None)  # not while it is imported
-        return made_since(time.time() - self.seen[-1][0]) if made_since is not None else 0
-
-    def _left(self, stages: list["Stage"]) -> str:
-        left = self.left_s()
-        if left is None:
-            return "time left not known"
-        if any(one.then is None for one in stages):
-            return f"about {_clock(left)} left of this"
-        for one in stages:  # what is around it does not end before it
-            now = one.look()[0]
-            left = max(left, one.left_s() or 0.0)
-            left += one.then(now + left)
-        return f"about {_clock(left)} left"
-
-    def ended(self) -> str:
-        """The last line; "" of a stage that was short or counted nothing."""
-        now = self.look()[0]
-        return f"{_named()}: ended, {_clock(now)}\n" if self.far is not None and now > ASKED_S else ""
+    def words(self) -> str:
+        """How far it is."""
+        counted = f"{self.count():.0f} of {self.total:.0f} {self.unit}" if self.total else ""
+        return ", ".join(filter(None, (self.title, counted, self.detail())))
 
 
 _open: list[Stage] = []
 _lock = threading.RLock()
-_next = {"s": 0.0}  # when the next line of a file is due
+_next_line = {"s": 0.0}  # when the next line of a file is due
+_bars: list = []  # the bar that is drawn on a terminal
 
 
 @contextlib.contextmanager
-def stage(what: str, *counted: object, **more: object) -> Iterator[Stage]:
+def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
     """Show a `Stage` of these fields for as long as the `with` lasts."""
-    one = Stage(what, *counted, **more)
+    entered = Stage(title, *counted, **options)
     with _lock:
         if not _open:
-            _next["s"] = one.began + FIRST_S
-        _open.append(one)
-    _drawn()
+            _next_line["s"] = entered.began + FIRST_S
+        _open.append(entered)
+    _start_drawing()
     try:
-        yield one
+        yield
     finally:
         with _lock:
-            _write(one.ended())
-            _open.remove(one)
+            if entered.total and not _terminal() and time.monotonic() - entered.began > LINE_S:
+                with contextlib.suppress(OSError):  # the folder of reports is gone
+                    _write(f"{_text()}, ended after {_clock(entered.began)}\n")
+            _open.remove(entered)
+            if not _open:
+                _close_bar()
 
 
-def counting(what: str, seconds: float) -> contextlib.AbstractContextManager[Stage]:
-    """The last `stage` within another one, whose time is known beforehand."""
-    began = time.monotonic()
-    return stage(what, seconds, "s", lambda: time.monotonic() - began, last)
-
-
-def last(_seconds: float) -> float:
-    """`Stage.then` of a stage that nothing follows."""
-    return 0.0
-
-
-def tell(text: str) -> None:
-    """A line of its own on stderr, while a stage may be shown there."""
+def print_line(text: str) -> None:
+    """Write a line of its own to stderr, while a stage may be shown there."""
     with _lock:
+        _close_bar()
         _write(f"{text}\n")
 
 
 @cache
-def _drawn() -> None:
+def _start_drawing() -> None:
     threading.Thread(target=_keep_drawing, daemon=True).start()
 
 
 def _keep_drawing() -> None:
     while True:
-        with _lock:
-            if _open:
+        time.sleep(DRAW_S)
+        with _lock, contextlib.suppress(OSError, ValueError):  # nobody listens any more
+            if _open and _terminal():
                 _draw()
-        time.sleep(DRAWN_S)
+            elif _open and time.monotonic() >= _next_line["s"]:
+                _write(f"{_text()}, {_clock(_open[0].began)} since the start\n")
+                _next_line["s"] = time.monotonic() + LINE_S
 
 
 def _draw() -> None:
-    shown = next((i for i in reversed(range(len(_open))) if _open[i].far), len(_open) - 1)
-    text = _open[shown].told(_open[:shown][::-1])
-    if _terminal():
-        names, width = [one.what for one in _open], shutil.get_terminal_size().columns - 1
-        while len(names) > 1 and len(": ".join([*names, text])) > width:
-            names.pop(0)
-        _write(": ".join([*names, text])[:width])
-    elif time.monotonic() >= _next["s"]:
-        _write(f"{_named()}: {text}\n")
-        _next["s"] = time.monotonic() + SAID_S
+    from tqdm import tqdm
+
+    if not _bars:
+        _bars.append(tqdm(desc=_text(), file=sys.stderr, leave=False, dynamic_ncols=True, bar_format=BAR))
+    (bar,) = _bars
+    counting = _counting()
+    bar.start_t = time.time() - (time.monotonic() - _open[0].began)
+    bar.total, bar.n = counting.total or None, min(counting.count(), counting.total)
+    bar.set_description_str(_text())
+
+
+def _close_bar() -> None:
+    for bar in _bars:
+        with contextlib.suppress(OSError, ValueError):
+            bar.close()
+    _bars.clear()
+
+
+def _counting() -> Stage:
+    """The innermost stage that counts something; without one the innermost of all."""
+    return next((entered for entered in reversed(_open) if entered.total), _open[-1])
+
+
+def _text() -> str:
+    counting = _counting()
+    titles = [entered.words() if entered is counting else entered.title for entered in _open]
+    return ": ".join(titles)
 
 
 def _terminal() -> bool:
@@ -168,76 +138,45 @@ def _terminal() -> bool:
 
 
 def _write(text: str) -> None:
-    """In place of the line of a terminal, behind the lines of a file."""
-    with contextlib.suppress(OSError, ValueError, AttributeError):  # nobody listens any more
-        sys.stderr.write(("\r\x1b[K" if _terminal() else "") + text)
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        sys.stderr.write(text)
         sys.stderr.flush()
 
 
-def _named() -> str:
-    return ": ".join(one.what for one in _open)
+def _clock(began: float) -> str:
+    """The time since then, as 1:23 or 1:02:03."""
+    from tqdm import tqdm
+
+    return tqdm.format_interval(time.monotonic() - began).removeprefix("0")
 
 
-def _clock(seconds: float) -> str:
-    """ "0:07", "1:02:03"."""
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
+def reporter(folder: Path | None, task: str) -> Callable[..., None]:
+    """For a worker: a function of numbers that say how far a task is; folder None: nobody reads them."""
+    last_s = -REPORT_S
 
-
-def teller(folder: Path | None, name: str) -> Callable[[float], None]:
-    """For a worker: a function of the share of its task that is done; folder None: nobody asks."""
-    last_s = -TOLD_S
-
-    def told(fraction: float) -> None:
+    def report(*numbers: float) -> None:
         nonlocal last_s
         now = time.monotonic()
-        if folder is not None and now - last_s >= TOLD_S:
+        if folder is not None and now - last_s >= REPORT_S:
             last_s = now
             with contextlib.suppress(OSError):  # another machine, or a campaign that has ended
-                begun = folder / f"{name}.{os.getpid()}"
-                begun.write_text(f"{fraction:.6f}", encoding="ascii")
-                begun.rename(folder / name)
+                draft = folder / f"{task}.{os.getpid()}"
+                draft.write_text(" ".join(f"{number:g}" for number in numbers), encoding="ascii")
+                draft.rename(folder / task)
 
-    return told
-
-
-@contextlib.contextmanager
-def ticking(told: Callable[[float], None], seconds: float) -> Iterator[None]:
-    """Tell, while the `with` lasts, how much of so many seconds of processor time this process has taken."""
-    began, ended = time.process_time(), threading.Event()
-
-    def tick() -> None:
-        while not ended.wait(TOLD_S):
-            told(min((time.process_time() - began) / seconds, 1.0))
-
-    threading.Thread(target=tick, daemon=True).start()
-    try:
-        yield
-    finally:
-        ended.set()
+    return report
 
 
-def shares(folder: Path) -> dict[str, float]:
-    """The last word of every `teller` of a folder, by name."""
-    found = {}
-    for path in (path for path in folder.iterdir() if not path.suffix):  # of a file that is being written
-        with contextlib.suppress(OSError, ValueError):
-            found[path.name] = float(path.read_text(encoding="ascii"))
-    return found
+def reports(folder: Path) -> dict[str, list[float]]:
+    """The last numbers of every `reporter` of a folder, by its task."""
+    numbers = {}
+    for path in folder.iterdir():
+        if not path.suffix:  # else it is being written
+            with contextlib.suppress(OSError, ValueError):
+                numbers[path.name] = [float(word) for word in path.read_text(encoding="ascii").split()]
+    return numbers
 
 
-def in_time(done: float, runs: int, lanes: int) -> float:
-    """Share of the time of a task whose runs go in so many lanes, from the share of the runs that is done.
-
-    Runs that cost alike end together, round after round; the last round takes as long where it has fewer runs.
-    """
-    rounds, rest = divmod(runs, lanes)
-    full = min(done * runs, rounds * lanes)
-    last = (done * runs - full) / rest if rest else 0.0
-    return (full / lanes + last) / (rounds + bool(rest))
-
-
-def heard(function: Callable, told: Callable[[float], None]) -> dict[str, Callable]:
-    """{"progress": told} for a function that takes it, as engine.simulate does."""
-    return {"progress": told} if "progress" in inspect.signature(function).parameters else {}
+def with_progress(simulate: Callable, report: Callable[[float], None]) -> dict[str, Callable]:
+    """{"progress": report} for a function that takes it, as engine.simulate does."""
+    return {"progress": report} if "progress" in inspect.signature(simulate).parameters else {}

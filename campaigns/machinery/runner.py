@@ -18,7 +18,7 @@ from campaigns.machinery.folder import PROGRESS, Table, trajectory_path
 from campaigns.machinery.long_runs import LongRun
 from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
-from campaigns.machinery.progress import shares, stage, tell
+from campaigns.machinery.progress import print_line, reports, stage
 from campaigns.machinery.store import orbits_in
 from campaigns.machinery.tasks import as_completed
 from campaigns.machinery.worker import failed, keep_row, reuse, run_jobs
@@ -39,7 +39,7 @@ def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> tuple[dict[st
     missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
     if missing and plan.sends and plan.how.dask_address is not None:
-        tell("each worker compiles the engine in its first run, unless it has done so before")
+        print_line("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
         _compile(plan, [*missing, *ahead])
     compiled = time.perf_counter()
@@ -80,9 +80,10 @@ def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
 
 
 def _mixed(jobs: list[Job]) -> list[Job]:
-    """The jobs in an order in which any part of them is like the whole: what some took says what the rest takes.
+    """The jobs in an order in which any part of them is like the whole.
 
-    Not the first one leads, which in a sweep is often the fastest: a slow one that begins late would end alone.
+    The slow ones of a sweep are neighbours; if they began last, they would end alone. The first one, which is often the
+    fastest, does not lead.
     """
     order = sorted(range(len(jobs)), key=lambda place: place * GOLDEN % 1.0, reverse=True)
     return [jobs[place] for place in order]
@@ -144,7 +145,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     finished: dict[str, Outcome] = {}
     with stage("looking for finished runs"):
         for key, job in by_key.items():
-            outcome = reuse(plan, job, tell)
+            outcome = reuse(plan, job, print_line)
             if outcome is not None and _ended(job, outcome):
                 finished[key] = outcome
                 table.rows[key] = _row(job, outcome)
@@ -198,15 +199,18 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
             groups.append(single)
 
     def count() -> float:
-        """Runs that have ended; of groups and of a single run under way, what their workers tell."""
+        """Runs that have ended; of groups under way those that their workers report."""
         ended = total - len(unfinished)
-        for name, runs in shares(Path(place)).items():
+        for name, (runs, *_) in reports(Path(place)).items():
             if all(job.key in unfinished for job in by_name[name]):
                 ended += runs
         return ended
 
+    def simulated() -> str:
+        return f"{sum(length_s for _, length_s in reports(Path(place)).values()):,.0f} s simulated"
+
     by_name = {name_of(group): group for group in [*groups, *singles.values()]}
-    with _progress(plan) as place, stage(plan.title, total, "runs", count):
+    with _progress(plan) as place, stage(plan.title, total, "runs", count, simulated):
         call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
         for key, outcome in as_completed(plan.how, groups, call, _given_up):
             unfinished.discard(key)

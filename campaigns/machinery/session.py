@@ -27,13 +27,12 @@ import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import counting, stage
+from campaigns.machinery.progress import stage
 from engine.atomic import write_atomic
 from engine.streams import open_streams, printed
 from tables import ANSWER, PROVENANCE
 
 MOST_LINES = 8  # of an answer
-REPORT_S, ROW_S = 1.5, 0.07  # of a report, and of each row in it (measured): for the time left
 _PACKAGES = (
     "numpy", "scipy", "numba", "llvmlite", "pandas", "xarray", "pydantic", "joblib", "dask", "distributed",
     "matplotlib", "jinja2", "typst",
@@ -56,27 +55,35 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
         with stage(module.rpartition(".")[2]):
             order = read_order(argv, faults)
     except KeyboardInterrupt:
-        return _told("\ninterrupted; nothing was run or written", EXIT_INTERRUPTED)
+        return _stopped("\ninterrupted; nothing was run or written", EXIT_INTERRUPTED)
     except ModuleNotFoundError as missing:
         install = ".venv/bin/pip install -c constraints.txt -e ."
-        return _told(f"python -m {module}: no package {missing.name!r} in {sys.executable}: {install}", EXIT_FAILED)
-    if faults := list(dict.fromkeys(faults)):
-        said = [f" {faults[0]}"] if len(faults) == 1 else [f" {len(faults)} faults", *(f"\n  {one}" for one in faults)]
-        return _told(f"python -m {module}:{''.join(said)}\nnothing was run or written", EXIT_BAD_INPUT)
+        return _stopped(f"python -m {module}: no package {missing.name!r} in {sys.executable}: {install}", EXIT_FAILED)
+    if faults:
+        return _stopped(f"python -m {module}:{listed(faults)}\nnothing was run or written", EXIT_BAD_INPUT)
     out = order.how.out
     try:
         return work(order, argv)
     except KeyboardInterrupt:
-        kept = sum(1 for _ in (out / "trajectories").glob("*.nc"))
-        again = f"to go on with the rest: {shlex.join(command_line(module, argv))}"
-        return _told(f"\ninterrupted; {kept} finished runs are in {out}\n{again}", EXIT_INTERRUPTED)
+        count = sum(1 for _ in (out / "trajectories").glob("*.nc"))
+        rest = f"to go on with the rest: {shlex.join(command_line(module, argv))}"
+        return _stopped(f"\ninterrupted; {count} finished runs are in {out}\n{rest}", EXIT_INTERRUPTED)
     except CampaignStopped as reason:
-        return _told(f"python -m {module}: {reason}", EXIT_FAILED)
+        return _stopped(f"python -m {module}: {reason}", EXIT_FAILED)
     except OSError as error:
-        return _told(f"python -m {module}: {write_failure(out, error)}", EXIT_FAILED)
+        return _stopped(f"python -m {module}: {write_failure(out, error)}", EXIT_FAILED)
 
 
-def _told(text: str, code: int) -> int:
+def listed(faults: list[str]) -> str:
+    """One fault behind the name of the command, or several below it, each once."""
+    faults = list(dict.fromkeys(faults))
+    if len(faults) == 1:
+        return f" {faults[0]}"
+    lines = "".join(f"\n  {fault}" for fault in faults)
+    return f" {len(faults)} faults{lines}"
+
+
+def _stopped(text: str, code: int) -> int:
     print(text, file=sys.stderr)
     return code
 
@@ -93,31 +100,31 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     `command`.
     """
     start, how = time.perf_counter(), order.how
-    report_s = REPORT_S + ROW_S * len(order.cases) if how.report else 0.0
-    with claimed(how.out):
-        with stage(study.name, then=lambda _: report_s):
-            record = begun(how.out, study.name, command_line(study.called, argv), parameters)
-            timing, summary = study.work(order)
+    fault = ""
+    with claimed(how.out), stage(study.name):
+        record = begun(how.out, study.name, command_line(study.called, argv), parameters)
+        timing, summary = study.work(order)
         if summary.computed or not ended(how.out):
             failed = sum(row["status"] != "ok" for row in summary.rows)
-            done = {"found": summary.found, "computed": summary.computed}
-            counts = {"total": sum(done.values()), **done, "failed": failed}
+            counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
             rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
-            write_json(how.out / PROVENANCE, record | {"runs": counts, "finished_utc": _now_utc(), "timing": rounded})
+            record |= {"runs": counts | {"failed": failed}, "finished_utc": _now_utc(), "timing": rounded}
+            write_json(how.out / PROVENANCE, record)
         answer = write_answer(how.out, study.answer(order, summary.rows)) if study.answer is not None else []
-        fault, began = "", time.perf_counter()
+        start_of_report = time.perf_counter()
         if how.report and not summary.whole:
             try:
                 from reports import build
 
-                with stage(study.name), counting("figures and pages of the report", report_s):
+                with stage("figures and pages of the report"):
                     build(how.out)
             except OSError:
                 raise
             except Exception as error:  # the results stand without a report
                 fault = f"{type(error).__name__}: {error}"
-        timing |= {"report_s": time.perf_counter() - began, "total_s": time.perf_counter() - start}
-    code = printed(partial(say, how, summary, answer, timing, fault))
+        now = time.perf_counter()
+        timing |= {"report_s": now - start_of_report, "total_s": now - start}
+    code = printed(partial(print_summary, how, summary, answer, timing, fault))
     return EXIT_FAILED if study.strict and any(row["status"] != "ok" for row in summary.rows) else code
 
 
@@ -149,17 +156,20 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
         "git": git_state(Path(__file__).parents[1]),
         "engine_source_hash": engine.source_hash(),
     } | parameters
-    old = read_json(out / PROVENANCE) if ended(out) else {}
-    now, before = ({key: entry for key, entry in one.items() if key not in _OF_THE_OCCASION} for one in (record, old))
-    if json.loads(json.dumps(now)) != before:
+    if not ended(out) or _lasting(json.loads(json.dumps(record))) != _lasting(read_json(out / PROVENANCE)):
         write_json(out / PROVENANCE, record)
     return record
 
 
+def _lasting(record: dict) -> dict:
+    """The entries of a provenance that do not tell when and where it ran."""
+    return {key: entry for key, entry in record.items() if key not in _OF_THE_OCCASION}
+
+
 def ended(out: Path) -> bool:
     """Whether the provenance in a folder is that of a finished campaign; while one runs: whether it did all this."""
-    told = read_json(out / PROVENANCE)
-    return isinstance(told, dict) and told.get("finished_utc") is not None
+    record = read_json(out / PROVENANCE)
+    return isinstance(record, dict) and record.get("finished_utc") is not None
 
 
 def _now_utc() -> str:
@@ -193,19 +203,20 @@ def machine() -> dict[str, object]:
     return {"processor": model or platform.processor() or platform.machine(), "cores": cores}
 
 
-def say(how: Running, summary: Summary, answer: list[str], timing: dict[str, float], fault: str) -> int:
+def print_summary(how: Running, summary: Summary, answer: list[str], timing: dict[str, float], fault: str) -> int:
     """Print the answer, what was done, where it is and where the time went; returns the exit code.
 
     fault: why there is no report.
     """
-    out, done = how.out, summary.computed + summary.found
-    failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
-    reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
+    out = how.out
     for head, line in zip(["answer", *[""] * MOST_LINES], answer, strict=False):
         print(f"{head:<9}{line}")
-    print(f"runs     {done}: {summary.computed} computed, {summary.found} found")
+    count = summary.computed + summary.found
+    print(f"runs     {count}: {summary.computed} computed, {summary.found} found")
+    failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
     if failed:
-        print(f"failed   {sum(failed.values())}: {reasons}; see the columns status and message")
+        reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
+        print(f"failed   {failed.total()}: {reasons}; see the columns status and message")
     print(f"table    {out / 'table.csv'}")
     if how.report and not fault:
         print(f"report   {out / 'report.html'}\n         {out / 'report.pdf'}")
@@ -214,6 +225,6 @@ def say(how: Running, summary: Summary, answer: list[str], timing: dict[str, flo
         f"report {timing['report_s']:.1f}; analysis took {timing['analysis_s']:.1f} s of the workers' time"
     )
     if fault:
-        again = f"the runs are complete; try again: python -m reports {out}"
-        return _told(f"no report could be made: {fault}\n{again}", EXIT_FAILED)
+        retry = f"the runs are complete; try again: python -m reports {out}"
+        return _stopped(f"no report could be made: {fault}\n{retry}", EXIT_FAILED)
     return EXIT_OK

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from campaigns.machinery.folder import keep_json, kept_json
-from campaigns.machinery.progress import tell
+from campaigns.machinery.progress import print_line
 
 Result = dict[str, object]
 
@@ -42,7 +42,7 @@ class Store:
             return None
         result = kept_json(path)
         if not result:
-            tell(f"{path}: damaged; made again")
+            print_line(f"{path}: damaged; made again")
             return None
         return result
 

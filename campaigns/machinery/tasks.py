@@ -45,7 +45,7 @@ def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size:
         compute = partial(_computed, Store(None if sends else store.folder.absolute(), store.suffix))
         tasks_left = list(missing.values())
         groups = [tasks_left[first : first + size] for first in range(0, len(tasks_left), size)]
-        with stage(title, len(tasks), "of them", lambda: len(tasks) - [*finished.values()].count(None)):
+        with stage(title, len(tasks), "tasks", lambda: len(tasks) - [*finished.values()].count(None)):
             for key, result in as_completed(how, groups, compute, _stopped):
                 finished[key] = result
                 if sends:

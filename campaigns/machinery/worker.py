@@ -14,9 +14,9 @@ from pathlib import Path
 
 import engine
 from campaigns.machinery.folder import CampaignStopped, is_full, stored_run, trajectory_path, write_failure
-from campaigns.machinery.long_runs import LongRun
+from campaigns.machinery.long_runs import LongRun, Part
 from campaigns.machinery.plan import Job, Outcome, Plan, name_of
-from campaigns.machinery.progress import heard, teller
+from campaigns.machinery.progress import reporter, with_progress
 from campaigns.machinery.store import Store, orbits_in
 from engine.atomic import write_atomic
 
@@ -30,7 +30,7 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
     """
     if engine.source_hash() != jobs[0].engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
-    report = teller(plan.reports, name_of(jobs))
+    report = reporter(plan.reports, name_of(jobs))
     outcomes: dict[str, Outcome] = {}
     try:
         if jobs[0].going is not None:
@@ -49,27 +49,27 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
     return list(outcomes.items())
 
 
-def _run_alone(plan: Plan, job: Job, outcomes: dict[str, Outcome], report: Callable[[float], None]) -> None:
+def _run_alone(plan: Plan, job: Job, outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
     outcome = reuse(plan, job)
     if outcome is None:
         simulate = job.simulate or plan.simulate
-        trajectory = simulate(job.scene, periods=job.periods, duration_s=job.duration_s, **heard(simulate, report))
+        progress = with_progress(simulate, lambda share: report(0, share * job.length_s))
+        trajectory = simulate(job.scene, periods=job.periods, duration_s=job.duration_s, **progress)
         outcome = _saved(plan, job, trajectory)
     outcomes[job.key] = outcome
 
 
-def _run_together(
-    plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[[float], None]
-) -> None:
+def _run_together(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
     first = jobs[0]
     scenes = [job.scene for job in jobs]
-    runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s)
+    length_s = sum(job.length_s for job in jobs)
+    progress = with_progress(plan.simulate_each, lambda share: report(len(outcomes), share * length_s))
+    runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s, **progress)
     for number, trajectory in runs:
         outcomes[jobs[number].key] = _saved(plan, jobs[number], trajectory)
-        report(len(outcomes))
 
 
-def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[[float], None]) -> None:
+def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
     """Runs that take as long as they need (`campaigns.machinery.long_runs`), side by side.
 
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
@@ -83,9 +83,14 @@ def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], rep
         else:
             under_way.append(run)
     saved_s: dict[int, float] = {}
+    length_s = sum(_length_s(run.part) for run in under_way)  # of all parts that are known by now
+
+    def progress(share: float) -> None:
+        report(len(outcomes), share * length_s)
 
     def go_on(number: int, trajectory) -> tuple | None:
         """Take a part that has ended; what the run does next, as `engine.simulate_each` asks for it."""
+        nonlocal length_s
         run = under_way[number]
         run.take(trajectory)
         outcome = _described(plan, run.job, run.trajectory, run.checks)
@@ -100,14 +105,15 @@ def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], rep
             saved_s[number] = time.monotonic()
         if part is None:
             outcomes[run.job.key] = outcome
-            report(len(outcomes))
             return None
+        length_s += _length_s(part)
         return part.scene, part.periods, part.start
 
     if plan.simulate_each is not None and under_way:
         first = [run.part for run in under_way]
         scenes, periods, starts = ([getattr(part, name) for part in first] for name in ("scene", "periods", "start"))
-        for _ in plan.simulate_each(scenes, periods=periods, starts=starts, then=go_on):
+        more = with_progress(plan.simulate_each, progress)
+        for _ in plan.simulate_each(scenes, periods=periods, starts=starts, then=go_on, **more):
             pass
         return
     for number, run in enumerate(under_way):
@@ -116,6 +122,10 @@ def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], rep
             start = {} if part.start is None else {"start": part.start}
             go_on(number, plan.simulate(part.scene, periods=part.periods, **start))
             part = run.part
+
+
+def _length_s(part: Part) -> float:
+    return part.periods * part.scene.waves.period_s
 
 
 def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:

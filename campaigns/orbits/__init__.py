@@ -15,7 +15,8 @@ map, and a branch ends. Nothing is random.
 
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
@@ -29,73 +30,82 @@ from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 from tables import number_of, read_table
 
-KEY, RANGE, VALUES, BUDGET = "waves.steepness", (0.05, 0.16), 9, 700
+USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
 MOTIONS = "motions"
 
 
-def options(group) -> None:
-    usual = f"(default: {KEY} {RANGE[0]:g} {RANGE[1]:g})"
-    cli.add(group, "--vary", "KEY LO HI", f"the key of the scene, and the range over which orbits are followed {usual}")
-    cli.add(group, "--values", "N", "values of it at which motions are looked for", cli.whole(2, 200), VALUES)
-    file = "the orbit under the last state of this run (a file of trajectories/), in its own scene"
-    cli.add(group, "--start-from", "FILE", file, cli.Kind(str, "a file of a run"))
-    letter = "the orbit under this motion alone, by its letter in motions/table.csv"
-    cli.add(group, "--motion", "LETTER", letter, cli.Kind(str, "the letter of a motion"))
-    cli.add(group, "--orbits", "N", "orbits of a branch at most, each way", cli.whole(1, 10_000), ORBITS)
-    cli.add(group, "--branches", "N", "branches that are followed at most", cli.whole(1, 1000), BRANCHES)
-    finer = "do not find folds, flips and torus points again on a finer grid of the line"
-    group.add_argument("--no-accuracy", action="store_true", help=finer)
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign."""
 
+    vary: list = cli.option(
+        "KEY LO HI", "the key of the scene, and the range over which orbits are followed", usual=USUAL
+    )
+    values: int = cli.option("N", "values of it at which motions are looked for", cli.whole(2, 200), VALUES)
+    start_from: str | None = cli.option(
+        "FILE",
+        "the orbit under the last state of this run (a file of trajectories/), in its own scene",
+        cli.Kind(str, "a file of a run"),
+    )
+    motion: str | None = cli.option(
+        "LETTER",
+        "the orbit under this motion alone, by its letter in motions/table.csv",
+        cli.Kind(str, "the letter of a motion"),
+    )
+    orbits: int = cli.option("N", "orbits of a branch at most, each way", cli.whole(1, 10_000), ORBITS)
+    branches: int = cli.option("N", "branches that are followed at most", cli.whole(1, 1000), BRANCHES)
+    no_accuracy: bool = cli.flag("do not find folds, flips and torus points again on a finer grid of the line")
+    grid: Grid = field(default_factory=Grid)  # the key with its values, read from --vary and --values
 
-def read(options, faults: list[str]) -> None:
-    """The key with its values (`Grid`) in the words of --vary."""
-    words = options.vary or [KEY, *map(str, RANGE)]
-    if len(words) != 3:
-        faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
-        words = [KEY, *map(str, RANGE)]
-    key = varied([*words, str(options.values)], faults)
-    options.grid = Grid(() if key is None else (key,))
-    if options.start_from is not None and options.motion is not None:
-        faults.append(f"--motion: given {options.motion} with --start-from; allowed: one of them")
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The key with its values in the words of --vary."""
+        words = self.vary or USUAL.split()
+        if len(words) != 3:
+            faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
+            words = USUAL.split()
+        key = varied([*words, str(self.values)], faults)
+        self.grid = Grid(() if key is None else (key,))
+        if self.start_from is not None and self.motion is not None:
+            faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
 
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
-    from engine.period_map import why_no_map
+    from engine.run.period_map import why_no_map
 
     order.periods, order.looks, order.transient = BUDGET, True, None
-    if not order.own.grid.keys:
+    if not order.options.grid.keys:
         return
-    jobs = [*(_jobs(order) if order.own.start_from is None else _job_of_file(order))]
+    jobs = [*(_jobs(order) if order.options.start_from is None else _job_of_file(order))]
     grids = {job.scene.tether.nodes for job in jobs}
     for reason in dict.fromkeys(filter(None, (why_no_map(job.scene) for job in jobs))):
         order.tell([f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a "
                     "plane with bending stiffness, an integrator with error control"])  # fmt: skip
     if len(grids) > 1:
-        key = order.own.grid.keys[0].key
+        key = order.options.grid.keys[0].key
         order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
     yield from jobs
 
 
 def _jobs(order: Order) -> Iterator[Job]:
-    (key,) = order.own.grid.keys
+    (key,) = order.options.grid.keys
     if key.key in order.changes:
         order.tell([f"--set {key.key}: this campaign sets it; use --vary"])
     base = order.base(tell=True)
     if base is not None and base.waves is None:
         order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
     elif base is not None:
-        jobs = (order.own.grid.job(order, place) for place in order.own.grid.places())
+        jobs = (order.options.grid.job(order, place) for place in order.options.grid.places())
         yield from (job for job in jobs if job is not None)
 
 
 def _job_of_file(order: Order) -> Iterator[Job]:
     from engine.scene import SceneError, scene_from_toml
 
-    (key,) = order.own.grid.keys
+    (key,) = order.options.grid.keys
     try:
-        run = motions.run_in(order.own.start_from)
+        run = motions.run_in(order.options.start_from)
         scene = scene_from_toml(run.scene.to_toml(), order.changes)
         value = key.of(scene)
         if run.final_state is None:
@@ -111,7 +121,7 @@ def _job_of_file(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The rows of the runs: those of `campaigns.sweep`."""
-    return measures_of(order, columns_of(order.own.grid.columns))
+    return measures_of(order, columns_of(order.options.grid.columns))
 
 
 def runs(order: Order) -> Callable:
@@ -122,9 +132,9 @@ def runs(order: Order) -> Callable:
         from campaigns.orbits.tables import tables
         from campaigns.orbits.tree import Tree
 
-        (key,) = order.own.grid.keys
+        (key,) = order.options.grid.keys
         timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
-        if order.own.start_from is not None:
+        if order.options.start_from is not None:
             starts = [*_under_file(order, jobs[0])]
         else:
             inner = replace(plan, how=replace(plan.how, out=plan.how.out / MOTIONS))
@@ -136,11 +146,12 @@ def runs(order: Order) -> Callable:
         state, value = (starts[0][3], starts[0][1]) if starts else (None, key.values[0])
         low, high = key.values[0], key.values[-1]
         scenes = Scenes(jobs[0].scene.to_toml(), key.key, key.name, key.index)
-        tree = Tree(plan, Line(scenes, low, high, high - low, state, value), order.own.orbits, order.own.branches)
+        line = Line(scenes, low, high, high - low, state, value)
+        tree = Tree(plan, line, order.options.orbits, order.options.branches)
         if starts:
             tree.grow(starts)
             tree.across([value for _, value, _, _ in starts])
-            if not order.own.no_accuracy:
+            if not order.options.no_accuracy:
                 tree.refine()
         rows = tables(tree, key.column)
         timing["run_s"] += time.perf_counter() - began
@@ -151,11 +162,11 @@ def runs(order: Order) -> Callable:
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
-    (key,) = order.own.grid.keys
+    (key,) = order.options.grid.keys
     rows_of: dict[tuple[str, int], list[dict]] = {}
     for row in read_table(folder / "table.csv"):
         period = number_of(row, "strobed_period")
-        if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.own.motion in (None, row["motion"]):
+        if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.options.motion in (None, row["motion"]):
             rows_of.setdefault((str(row["motion"]), int(period)), []).append(row)
     for (letter, period), rows in rows_of.items():
         row = rows[len(rows) // 2]
@@ -168,7 +179,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     """The same of --start-from, where its run repeats."""
     from campaigns.explore.rows import after_transient, sound_part
 
-    (key,), run = order.own.grid.keys, motions.run_in(order.own.start_from)
+    (key,), run = order.options.grid.keys, motions.run_in(order.options.start_from)
     periods = int(run.columns["time_s"][-1] / run.scene.waves.period_s + 1e-6)
     period = after_transient(run, sound_part(run.columns), periods // 2).get("strobed_period")
     if period is not None:
@@ -176,7 +187,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
 
 
 def parameters(order: Order) -> dict[str, object]:
-    options = order.own
+    options = order.options
     return {
         "vary": {key.key: [key.values[0], key.values[-1]] for key in options.grid.keys},
         "motion": options.motion,
@@ -192,15 +203,14 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     from campaigns.orbits.answer import sentences
 
     tables = motions.tables_of(order.how.out, "branches", "events", "orbits")
-    return sentences(rows, order.own.grid.columns[0], tables)
+    return sentences(rows, order.options.grid.columns[0], tables)
 
 
 STUDY = Study(
     name="orbits",
     protocol=__doc__,
     scene="tethered_buoy",
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

@@ -9,51 +9,8 @@ choose. Every part is one row of table.csv, and its arrays are one file; parts f
 starts come from a fixed seed.
 """
 
-from argparse import Namespace
-
-from campaigns.machinery import cli
+from campaigns.oscillator.options import Options
 from campaigns.study import Order, Study
-
-PARAMETERS = ("damping", "frequency", "force", "lift", "phase")
-FORCES, FREQUENCIES = (0.1, 2.0, 800), (0.5, 2.0, 800)
-
-
-def options(group) -> None:
-    """Add the options of this campaign."""
-    setting = cli.Kind(_change, f"KEY=VALUE with a key of {', '.join(PARAMETERS)} and a number")
-    changed = "change damping, frequency, force, lift or phase (default: the paper's)"
-    cli.add(group, "--set", "KEY=VALUE ...", changed, setting, [], many=True)
-    usual = "(default: {} {} {})".format
-    cli.add(group, "--force-range", "LO HI COUNT", f"orbit diagram over F {usual(*FORCES)}")
-    cli.add(group, "--frequency-range", "LO HI COUNT", f"orbit diagram over omega {usual(*FREQUENCIES)}")
-    share = cli.number("a number from 0.001 to 100", lambda found: 0.001 <= found <= 100.0)
-    cli.add(group, "--effort", "SHARE", "share of the usual starts, points and values", share, 1.0)
-
-
-def read(options: Namespace, faults: list[str]) -> None:
-    """The parameters that are changed, and the ranges of the diagrams."""
-    options.changes = dict(options.set)
-    if options.changes:
-        from analysis.oscillator import SnapOscillator
-    for key, number in options.changes.items():
-        try:
-            SnapOscillator(**{key: number})
-        except ValueError as error:
-            faults.append(f"--set: {error}")
-    options.forces = _range(options.force_range, "--force-range", FORCES, faults)
-    options.frequencies = _range(options.frequency_range, "--frequency-range", FREQUENCIES, faults)
-
-
-def _change(word: str) -> tuple[str, float]:
-    key, _, text = word.partition("=")
-    if key not in PARAMETERS:
-        raise ValueError(key)
-    return key, float(text)
-
-
-def _range(words: list[str] | None, option: str, usual: tuple, faults: list[str]) -> tuple[float, float, int]:
-    values = [] if words is None else cli.evenly(words, option, faults, least=1e-9)
-    return (values[0], values[-1], len(values)) if values else usual
 
 
 def _work():
@@ -78,7 +35,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         elif value < -2 * error:
             word = "regular"
         sentences.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
-    force = grazing_force(SnapOscillator(**order.own.changes)).force
+    force = grazing_force(SnapOscillator(**order.options.changes)).force
     if force > 0.0:
         sentences.append(f"The line stays taut up to a force of F = {force:.4f}.")
     return sentences
@@ -87,12 +44,10 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
 STUDY = Study(
     name="oscillator",
     protocol=__doc__,
-    options=options,
-    read=read,
-    parameters=lambda order: _work().parameters(order.own),
-    done=lambda order: _work().done(order.own),
+    options=Options,
+    parameters=lambda order: _work().parameters(order.options),
+    perform=lambda order: _work().perform(order),
     answer=answer,
-    jobs=False,
-    backends=False,
+    places=(),
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -8,7 +8,6 @@ the file, so table.csv can be made again from the files.
 import contextlib
 import json
 import time
-from argparse import Namespace
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -33,6 +32,8 @@ from campaigns.figure_data import attribute_of, store
 from campaigns.machinery.folder import Table, made_by, trajectory_path
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import stage
+from campaigns.oscillator.options import Options
+from campaigns.study import Order
 from engine.atomic import write_atomic
 from tables import MESSAGE, RUN_KEY, STATUS, Column
 
@@ -69,13 +70,13 @@ def _scaled(usual: int, effort: float, least: int) -> int:
     return max(least, round(usual * effort))
 
 
-def section(o: SnapOscillator, order: Namespace) -> Result:
+def section(o: SnapOscillator, options: Options) -> Result:
     """Figure 19(b), and two nested zooms round the place that the orbit visits most."""
-    points, transient = _scaled(120_000, order.effort, 500), 1000
+    points, transient = _scaled(120_000, options.effort, 500), 1000
     states = strobed_states(o, START, points, transient)
     boxes = zoom_boxes(states)
-    longest = _scaled(20_000_000, order.effort, 2000)
-    zooms, seen = strobed_states_within(o, START, boxes, _scaled(40_000, order.effort, 200), longest, transient)
+    longest = _scaled(20_000_000, options.effort, 2000)
+    zooms, seen = strobed_states_within(o, START, boxes, _scaled(40_000, options.effort, 200), longest, transient)
     arrays = {"section": states, "boxes": boxes}
     arrays |= {f"zoom_{i + 1}": zoom for i, zoom in enumerate(zooms) if len(zoom)}
     return arrays, {"points": points, "transient": transient, "periods": seen}
@@ -94,16 +95,16 @@ def zoom_boxes(states: np.ndarray) -> np.ndarray:
     return np.array([[centre[0] - h[0], centre[0] + h[0], centre[1] - h[1], centre[1] + h[1]] for h in half])
 
 
-def history(o: SnapOscillator, order: Namespace) -> Result:
+def history(o: SnapOscillator, options: Options) -> Result:
     """The first periods from START, with the switching times."""
     motion = dict(vars(snap_motion(o, START, HISTORY_PERIODS, 128)))
     row = {"periods": HISTORY_PERIODS, "slack_fraction": motion.pop("slack_fraction")}
     return {name: values for name, values in motion.items() if len(values)}, row
 
 
-def exponents(o: SnapOscillator, order: Namespace) -> Result:
+def exponents(o: SnapOscillator, options: Options) -> Result:
     """Both exponents over many random starts, with their errors, and how they settle with time."""
-    starts, periods, transient = _scaled(512, order.effort, 16), 10_000, 1000
+    starts, periods, transient = _scaled(512, options.effort, 16), 10_000, 1000
     exponent = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
     arrays = {
         "of_start": exponent.of_start,
@@ -129,10 +130,10 @@ def exponents(o: SnapOscillator, order: Namespace) -> Result:
     return arrays | {"block_error": np.array([exponent.block_error])}, row
 
 
-def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
+def diagram(over: str, o: SnapOscillator, options: Options) -> Result:
     """Orbit diagram over "force" or "frequency" with exponents."""
-    low, high, count = order.forces if over == "force" else order.frequencies
-    values = np.linspace(low, high, _scaled(count, min(order.effort, 1.0), 2))
+    low, high, count = options.forces if over == "force" else options.frequencies
+    values = np.linspace(low, high, _scaled(count, min(options.effort, 1.0), 2))
     points = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
     displacement = points.section[..., 0].reshape(len(values), -1)
     arrays = dict(vars(points)) | {"values": values, "section": displacement}
@@ -140,10 +141,10 @@ def diagram(over: str, o: SnapOscillator, order: Namespace) -> Result:
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
-def orbits(o: SnapOscillator, order: Namespace) -> Result:
+def orbits(o: SnapOscillator, options: Options) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
-    guesses = _scaled(400, order.effort, 20)
-    settled, ends = settled_periods(o, random_starts(_scaled(300, order.effort, 40), SEED), 1500)
+    guesses = _scaled(400, options.effort, 20)
+    settled, ends = settled_periods(o, random_starts(_scaled(300, options.effort, 40), SEED), 1500)
     starts = np.concatenate([strobed_states(o, START, guesses, 1000), start_grid(12, 8)])
     table, points = [], []
     for period in range(1, LONGEST_ORBIT + 1):
@@ -164,25 +165,26 @@ PARTS = {
 }
 
 
-def parameters(order: Namespace) -> dict:
+def parameters(options: Options) -> dict:
     """What the provenance says of this study besides who ran it, where and with what."""
     return {
-        "oscillator": asdict(SnapOscillator(**order.changes)),
-        "force_range": list(order.forces),
-        "frequency_range": list(order.frequencies),
-        "effort": order.effort,
+        "oscillator": asdict(SnapOscillator(**options.changes)),
+        "force_range": list(options.forces),
+        "frequency_range": list(options.frequencies),
+        "effort": options.effort,
         "seed": SEED,
         "analysis_source_hash": source_hash(),
     }
 
 
-def done(order: Namespace) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> tuple[dict[str, float], Summary]:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
-    oscillator, out = SnapOscillator(**order.changes), order.how.out
+    options = order.options
+    oscillator, out = SnapOscillator(**options.changes), order.how.out
     numbers = [f"{key} = {value!r}" for key, value in asdict(oscillator).items()]
     head = "# eq. (33), dimensionless, as run\n[oscillator]\n"
     write_atomic(out / "scene.toml", (head + "\n".join(numbers) + "\n").encode())
-    keys = {part: _key(part, order) for part in PARTS}
+    keys = {part: _key(part, options) for part in PARTS}
     table = Table(out / "table.csv", COLUMNS, list(keys.values()))
     rows = {key: attribute_of(trajectory_path(out, key), "row") for key in keys.values()}
     table.rows = {key: json.loads(row) | {"run_key": key} for key, row in rows.items() if row is not None}
@@ -194,7 +196,7 @@ def done(order: Namespace) -> tuple[dict[str, float], Summary]:
         with stage("parts", len(PARTS), "parts", lambda: len(table.rows)):
             for part in missing:
                 with stage(part):
-                    row = _done(part, oscillator, order, trajectory_path(out, keys[part]))
+                    row = _done(part, oscillator, options, trajectory_path(out, keys[part]))
                 table.add(keys[part], row | {"run_key": keys[part]})
     finally:
         with contextlib.suppress(OSError):
@@ -203,10 +205,10 @@ def done(order: Namespace) -> tuple[dict[str, float], Summary]:
     return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
 
 
-def _key(part: str, order: Namespace) -> str:
+def _key(part: str, options: Options) -> str:
     other = {"diagram-force": {"frequency_range"}, "diagram-frequency": {"force_range"}}
     unused = other.get(part, {"force_range", "frequency_range"})
-    return made_by({"part": part} | {name: entry for name, entry in parameters(order).items() if name not in unused})
+    return made_by({"part": part} | {name: entry for name, entry in parameters(options).items() if name not in unused})
 
 
 def _compile(oscillator: SnapOscillator) -> float:
@@ -216,10 +218,10 @@ def _compile(oscillator: SnapOscillator) -> float:
     return time.perf_counter() - begun
 
 
-def _done(part: str, oscillator: SnapOscillator, order: Namespace, path: Path) -> dict:
+def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -> dict:
     begun = time.perf_counter()
     try:
-        arrays, row = PARTS[part](oscillator, order)
+        arrays, row = PARTS[part](oscillator, options)
     except Exception as error:  # one part that fails must not take the others along
         return {"part": part, "status": "error", "message": f"{type(error).__name__}: {error}"}
     row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}

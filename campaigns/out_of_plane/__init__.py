@@ -18,6 +18,7 @@ from functools import partial
 from campaigns.explore.settings import ROW_SOURCES
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.judge import LEAST_JUDGED, judged_scene
+from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
 from tables import LARGE, SMALL, read_table, write_table
@@ -102,9 +103,12 @@ def compared(case: Variant, base: Variant) -> bool:
     return case.depth_m in LOOPING_DEPTHS_M and case in (spatial, in_plane(spatial))
 
 
-def options(group) -> None:
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign."""
+
     # It left out runs that this campaign no longer makes: hidden, and accepted because scripts of users have it.
-    group.add_argument("--no-accuracy", action="store_true", help=SUPPRESS)
+    no_accuracy: bool = cli.flag(SUPPRESS)
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -193,7 +197,7 @@ STUDY = Study(
     lengths=Lengths(periods=250, transient=50, share=5),
     in_waves=True,
     taken=_TAKEN,
-    options=options,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

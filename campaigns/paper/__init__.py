@@ -10,9 +10,9 @@ the figures and statements.csv are made from these folders alone. Random starts 
 nothing else is random. To change a scene, run the campaign of that part.
 """
 
-from argparse import Namespace
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Summary
@@ -20,31 +20,31 @@ from campaigns.paper.order import PARTS
 from campaigns.study import Order, Study
 
 
-def options(group) -> None:
-    """Add the options of this campaign."""
-    cli.add(group, "--parts", "A B ...", f"parts to run (default: {' '.join(PARTS)})", cli.one_of(PARTS), PARTS, True)
-    shorter = "shorter and fewer runs: shows the report, concludes nothing"
-    group.add_argument("--quick", action="store_true", help=shorter)
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign."""
+
+    parts: list[str] = cli.option(
+        "A B ...", f"parts to run (default: {' '.join(PARTS)})", cli.one_of(PARTS), PARTS, many=True
+    )
+    quick: bool = cli.flag("shorter and fewer runs: shows the report, concludes nothing")
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The parts in the order in which they run."""
+        self.parts = [part for part in PARTS if part in self.parts]
+        for part in PARTS:
+            if (out / part).exists() and not (out / part).is_dir():
+                faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
 
 
-def read(options: Namespace, faults: list[str]) -> None:
-    """The parts in the order in which they run."""
-    options.parts = [part for part in PARTS if part in options.parts]
-    for part in PARTS:
-        if (options.out / part).exists() and not (options.out / part).is_dir():
-            faults.append(
-                f"--out: given {str(options.out)!r}, where {part} is a file; allowed: a folder of this campaign"
-            )
-
-
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> tuple[dict[str, float], Summary]:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
     from campaigns.machinery.progress import stage
     from campaigns.machinery.session import ended
     from campaigns.paper import parts, results
 
     out = order.how.out
-    timing, summary = parts.run(order.own)
+    timing, summary = parts.run(order)
     complete = ended(out) and not summary.computed and results.is_there(out, order.how.report)
     if not complete:
         with stage("figures' data and statements"):
@@ -56,7 +56,7 @@ def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign."""
     from campaigns.paper import dependence, results
 
-    quick = order.own.quick
+    quick = order.options.quick
     return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
 
 
@@ -64,7 +64,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How many of the paper's statements hold; a quick look at few and short runs says that it decides nothing."""
     from campaigns.answers import verdicts
 
-    if order.own.quick:
+    if order.options.quick:
         yield "A quick look: runs are few and short, so nothing is to be concluded from them."
     else:
         yield from verdicts(order.how.out, quoted=5)
@@ -73,11 +73,10 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 STUDY = Study(
     name="paper",
     protocol=__doc__,
-    options=options,
-    read=read,
+    options=Options,
     parameters=parameters,
-    done=done,
+    perform=perform,
     answer=answer,
-    backends=False,
+    places=("jobs",),
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

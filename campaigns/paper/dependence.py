@@ -99,8 +99,9 @@ def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
     """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `Study.work`."""
     settings = parameters(quick)
     running = Running(out, jobs, "loky", None, report=False)
-    order = Order(running, SCENE, {}, settings["periods"], settings["transient"])
+    order = Order(running, name=SCENE, periods=settings["periods"], transient=settings["transient"])
     for values in variants(quick):
         order.cases.append(order.case(dict(zip(names(VARIED), values, strict=True)), changes(values)))
     with claimed(out):
-        return Study("dependence", __doc__, SCENE, lambda order: order.cases, measures).work(order)
+        study = Study("dependence", __doc__, scene=SCENE, cases=lambda order: order.cases, measures=measures)
+        return study.work(order)

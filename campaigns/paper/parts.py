@@ -16,7 +16,6 @@ import hashlib
 import importlib
 import json
 import time
-from argparse import Namespace
 from pathlib import Path
 
 from campaigns.machinery import cli
@@ -26,6 +25,7 @@ from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command_line
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
+from campaigns.study import Order
 from engine.atomic import write_atomic
 from tables import MESSAGE, RUN_KEY, STATUS, Column, any_rows, names
 
@@ -70,7 +70,7 @@ CAMPAIGNS = {  # part -> its command; the words of its command line, those of --
 assert {*CAMPAIGNS, "dependence"} == set(PARTS)
 
 
-def run(order: Namespace) -> tuple[dict[str, float], Summary]:
+def run(order: Order) -> tuple[dict[str, float], Summary]:
     """Do every part of the order; keep table.csv up to date. Returns times and the summary, its rows those of parts.
 
     Raises CampaignStopped where a part stopped, KeyboardInterrupt where it was interrupted.
@@ -87,7 +87,7 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
         if row.keys() == known and row["part"] in PARTS:
             table.rows[row["part"]] = row
     timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
-    todo = [part for part in order.parts if not _is_there(table.rows.get(part), keys[part], out / part, order)]
+    todo = [part for part in order.options.parts if not _is_there(table.rows.get(part), keys[part], out / part, order)]
     for number, part in enumerate(todo, 1):
         with stage(f"part {number} of {len(todo)}"):
             row = _run_part(part, order)
@@ -96,14 +96,14 @@ def run(order: Namespace) -> tuple[dict[str, float], Summary]:
         for name in _TIMES:
             timing[name] += row[name]
     table.write()
-    return timing, Summary(table.in_order(), len(order.parts) - len(todo), len(todo), 0.0)
+    return timing, Summary(table.in_order(), len(order.options.parts) - len(todo), len(todo), 0.0)
 
 
-def _key(part: str, order: Namespace) -> str:
+def _key(part: str, order: Order) -> str:
     if part == "dependence":
-        settings = dependence.parameters(order.quick)
+        settings = dependence.parameters(order.options.quick)
     else:
-        settings = CAMPAIGNS[part][1 + order.quick]
+        settings = CAMPAIGNS[part][1 + order.options.quick]
     return made_by({"part": part, "told": settings}, *SOURCES, *of_the_page())
 
 
@@ -116,30 +116,30 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Namespace) -> bool:
+def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Order) -> bool:
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
     sound = [
         trajectory_path(out, run["run_key"]).exists() for run in any_rows(out / "table.csv") if run["status"] == "ok"
     ]
-    reported = out.name == "dependence" or order.quick or not order.how.report or (out / "report.html").exists()
+    reported = out.name == "dependence" or order.options.quick or not order.how.report or (out / "report.html").exists()
     return bool(sound) and all(sound) and reported
 
 
-def _run_part(part: str, order: Namespace) -> dict[str, object]:
+def _run_part(part: str, order: Order) -> dict[str, object]:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":
-        timing, summary = dependence.run(out, how.jobs, order.quick)
+        timing, summary = dependence.run(out, how.jobs, order.options.quick)
         command = ""
         runs, failed = len(summary.rows), sum(row["status"] != "ok" for row in summary.rows)
     else:
         module, *chosen = CAMPAIGNS[part]
-        words = [*chosen[order.quick], "--out", str(out)]
+        words = [*chosen[order.options.quick], "--out", str(out)]
         if part != "oscillator":
             words += ["--jobs", str(how.jobs)]
-        if order.quick or not how.report:
+        if order.options.quick or not how.report:
             words.append("--no-report")
         _run_campaign(part, module, words)
         provenance = json.loads((out / "provenance.json").read_text(encoding="utf-8"))

@@ -13,7 +13,9 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
@@ -25,55 +27,62 @@ from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents, in_regular_waves
 
-USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40".split()
+USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40"
 STARTS, MOST_CELLS = 3, 100_000
 
 
-def options(group) -> None:
-    twice = f"twice: a key of the scene and its values, both ends included (default: {' '.join(USUAL)})"
-    cli.add(group, "--vary", "KEY LO HI COUNT", twice)
-    cli.add(group, "--pages", "KEY LO HI COUNT", "a map for each value of a third key; KEY WORD WORD of a key of words")
-    cli.add(group, "--starts", "N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
-    speed = cli.number("a finite number above 0", lambda value: 0.0 < value < float("inf"))
-    cli.add(group, "--kick-speed", "MPS", "kicks are up to this along x and z, m/s", speed, motions.SPEED_MPS)
-    cli.add(group, "--seed", "N", "of the kicks, drawn independently and uniformly", cli.whole(0, 2**32 - 1), 1)
-    cli.add(group, "--refine", "N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
-    cli.add(group, "--budget", "N", "wave periods after which a run ends undecided", cli.whole(1, BUDGET), BUDGET)
-    cli.add(group, "--cut", "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder")
-    group.add_argument("--screen", action="store_true", help="a massless tether only")
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. grid: the keys of the map, read from --vary and --pages; None where at fault."""
 
+    vary: list[str] = cli.option(
+        "KEY LO HI COUNT", "twice: a key of the scene and its values, both ends included", usual=USUAL
+    )
+    pages: list[str] | None = cli.option(
+        "KEY LO HI COUNT", "a map for each value of a third key; KEY WORD WORD of a key of words"
+    )
+    starts: int = cli.option("N", "from rest and N - 1 kicks in each cell", cli.whole(1, motions.MOST_KICKS), STARTS)
+    kick_speed: float = motions.kick_speed()
+    seed: int = cli.seed(motions.SEED_OF_KICKS)
+    refine: int = cli.option("N", "bisect cells at borders into so many more", cli.whole(0, MOST_CELLS), 0)
+    budget: int = cli.option("N", "wave periods after which a run ends undecided", cli.whole(1, BUDGET), BUDGET)
+    cut: list[str] | dict | None = cli.option(
+        "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder"
+    )
+    screen: bool = cli.flag("a massless tether only")
+    grid: CellGrid | None = None
 
-def read(options, faults: list[str]) -> None:
-    """The keys of the map (`CellGrid`) in the words of --vary and --pages; the values of --cut."""
-    words = options.vary if options.vary is not None else USUAL
-    options.grid = None
-    if len(words) != 8:
-        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: twice KEY LO HI COUNT, or none of it")
-        return
-    axes, pages = [varied(words[:4], faults), varied(words[4:], faults)], []
-    if options.pages is not None:
-        if len(options.pages) < 2:
-            words_given = " ".join(options.pages) or "nothing"
-            faults.append(f"--pages: given {words_given}; allowed: KEY LO HI COUNT, or KEY WORDS")
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The keys of the map, and the values of --cut."""
+        words = self.vary
+        if len(words) != 8:
+            given = " ".join(words) or "nothing"
+            faults.append(f"--vary: given {given}; allowed: twice KEY LO HI COUNT, or none of it")
             return
-        pages = [varied(options.pages, faults, "--pages", of_words=True)]
-    keys = (*pages, *axes)
-    if None in keys:
-        return
-    if len({key.key for key in keys}) < len(keys):
-        faults.append(f"--vary {' '.join(key.key for key in keys)}: given twice; allowed: different keys")
-    for key in axes:
-        if len(key.values) < 2:
-            faults.append(f"--vary {key.key}: one value only; allowed: two or more")
-    options.grid = CellGrid(keys)
-    options.cut = cuts.read(options.cut, keys, faults)
+        axes, pages = [varied(words[:4], faults), varied(words[4:], faults)], []
+        if self.pages is not None:
+            if len(self.pages) < 2:
+                given = " ".join(self.pages) or "nothing"
+                faults.append(f"--pages: given {given}; allowed: KEY LO HI COUNT, or KEY WORDS")
+                return
+            pages = [varied(self.pages, faults, "--pages", of_words=True)]
+        keys = (*pages, *axes)
+        if None in keys:
+            return
+        if len({key.key for key in keys}) < len(keys):
+            faults.append(f"--vary {' '.join(key.key for key in keys)}: given twice; allowed: different keys")
+        for key in axes:
+            if len(key.values) < 2:
+                faults.append(f"--vary {key.key}: one value only; allowed: two or more")
+        self.grid = CellGrid(keys)
+        self.cut = cuts.read(self.cut, keys, faults)
 
 
 def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
     from engine.massless import why_not_covered
 
-    grid = order.own.grid
+    grid = order.options.grid
     order.periods, order.looks, order.transient = BUDGET, True, None
     if grid is None:
         return
@@ -91,7 +100,7 @@ def cases(order: Order) -> Iterator[Job]:
             place = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
             order.tell([f"--vary: that is at {place}, the first cell of the map that cannot be"])
             return
-        if order.own.screen and (reason := why_not_covered(job.scene)):
+        if order.options.screen and (reason := why_not_covered(job.scene)):
             order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
             return
         yield job
@@ -103,7 +112,7 @@ def measures(order: Order) -> Measures:
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
-    columns = motion_columns(order.own.grid.columns)
+    columns = motion_columns(order.options.grid.columns)
     judge = partial(judgement_of, transient_periods=None)
     return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), judge=judge)
 
@@ -117,15 +126,15 @@ def runs(order: Order) -> Callable:
         regime_map = Map(plan, order)
         regime_map.run_screen(jobs)
         summary = Summary([], 0, 0, 0.0)
-        if not order.own.screen:
-            summary = regime_map.refine(regime_map.compute(order.own.grid.coarse(), jobs))
+        if not order.options.screen:
+            summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
         return regime_map.motions.timing(), summary
 
     return map_cells
 
 
 def parameters(order: Order) -> dict[str, object]:
-    options = order.own
+    options = order.options
     parameters: dict[str, object] = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
     if options.grid.page is not None:
         parameters["pages"] = {options.grid.page.key: list(options.grid.page.values)}
@@ -142,7 +151,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     """The findings of the map (`answer.sentences`)."""
     from campaigns.regime_map.answer import sentences
 
-    grid = order.own.grid
+    grid = order.options.grid
     of_buoy = CellGrid(tuple(key for key in grid.keys if key.key.startswith("buoy.")))
     scenes: dict[tuple, object] = {}
 
@@ -163,8 +172,7 @@ STUDY = Study(
     protocol=__doc__,
     scene="tethered_buoy",
     in_waves=True,
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,
@@ -179,6 +187,6 @@ def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int
     argv = list(sys.argv[1:] if argv is None else argv)
 
     def work(order: Order, words: list[str]) -> int:
-        return cuts.cut(order, words, simulate) if order.own.cut else STUDY.conduct(order, words, simulate)
+        return cuts.cut(order, words, simulate) if order.options.cut else STUDY.conduct(order, words, simulate)
 
     return session.command(STUDY.called, argv, read_order, work)

@@ -72,7 +72,7 @@ class CellGrid(Grid):
 
     def job_at(self, order: Order, cell: Cell) -> Job | None:
         """The run from rest of a cell, as `Grid.job`."""
-        return self.job(order, self.labels(cell), most=order.own.budget, level=cell.level)
+        return self.job(order, self.labels(cell), most=order.options.budget, level=cell.level)
 
 
 def _step(key: Varied) -> float:

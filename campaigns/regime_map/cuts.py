@@ -36,16 +36,16 @@ def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> 
 
 def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     """Do the sweep of the key that is left; returns its exit code. argv, simulate: as of `Study.conduct`."""
-    chosen = order.own.cut
+    chosen = order.options.cut
     places = ",".join(f"{name}={value}" for name, value in chosen.items())
     out = order.how.out / "cuts" / places
     _share_runs(order, out)
     changes = dict(order.changes)
-    for key in order.own.grid.keys:
+    for key in order.options.grid.keys:
         if key.key in chosen:
             order.tell(key.put(chosen[key.key], order.base(), changes))
     study, options = _sweep_of(order)
-    options |= {"seed": order.own.seed, "kick_speed": order.own.kick_speed}
+    options |= {"seed": order.options.seed, "kick_speed": order.options.kick_speed}
     sweep = study.order(replace(order.how, out=out), order.name, changes, **options)
     if faults := [*order.faults, *sweep.faults]:
         raise CampaignStopped("; ".join(faults))
@@ -57,7 +57,7 @@ def _sweep_of(order: Order) -> tuple[Study, dict[str, object]]:
     """The sweep over the key of a map that is left, as done by the command of the map, and its options."""
     from campaigns import buoy_sweep, sweep
 
-    (key,) = (key for key in order.own.grid.keys if key.key not in order.own.cut)
+    (key,) = (key for key in order.options.grid.keys if key.key not in order.options.cut)
     if key.key == buoy_sweep.SWEPT:
         study, options = buoy_sweep.STUDY, {"grid": buoy_sweep.grid_of(key.values), "no_accuracy": True}
     else:
@@ -67,7 +67,7 @@ def _sweep_of(order: Order) -> tuple[Study, dict[str, object]]:
 
 def _share_runs(order: Order, out: Path) -> None:
     """Give the folder of a cut the judged runs of its cells."""
-    chosen, folder = order.own.cut, order.how.out
+    chosen, folder = order.options.cut, order.how.out
     keys = {case.key for case in order.cases if _lies_on(case.labels, chosen)}
     keys |= {row["run_key"] for row in tables_of(folder, ".")["."] if _lies_on(row, chosen)}
     with claimed(out):

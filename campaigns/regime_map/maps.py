@@ -17,7 +17,7 @@ from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
 from campaigns.explore.stages import explore
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.progress import tell
+from campaigns.machinery.progress import print_line
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Quadtree
 from campaigns.regime_map.tables import STATIC
@@ -54,7 +54,7 @@ class Map:
     """The cells of a map with their motions, both by number of the cell."""
 
     def __init__(self, plan: Plan, order: Order):
-        self.order, self.grid, self.tree = order, order.own.grid, Quadtree()
+        self.order, self.grid, self.tree = order, order.options.grid, Quadtree()
         plan = replace(plan, on_row=self._hear)
         self.motions = Motions(plan, self.grid.columns, self.tree.neighbours, MATCH_DISTANCE)
         self.plan, self.rows = plan, self.motions.rows
@@ -63,7 +63,7 @@ class Map:
 
     def run_screen(self, coarse: Sequence[Job]) -> None:
         """Let a massless tether do the coarse grid, of which these are the runs from rest. Raises OSError."""
-        options, start_s = self.order.own, time.perf_counter()
+        options, start_s = self.order.options, time.perf_counter()
         self.screen = screened(self.plan, [job.scene for job in coarse], options.kick_speed, options.seed)
         self.motions.times["run_s"] += time.perf_counter() - start_s
         tables.write_screen(self.plan.how.out, self.grid, coarse, self.screen)
@@ -71,7 +71,7 @@ class Map:
 
     def compute(self, cells: list[Cell], jobs: list[Job]) -> Summary:
         """Compute the motions of cells, whose runs from rest these are. Raises as `runner.run`."""
-        options = self.order.own
+        options = self.order.options
         search = Search(self.order, options.starts - 1, options.kick_speed, options.seed, options.budget)
         self.tree.add(cells)
         explore(self.motions, jobs, search)
@@ -82,7 +82,7 @@ class Map:
 
     def refine(self, summary: Summary) -> Summary:
         """Bisect cells at borders, coarse ones first, into --refine more of them. Raises as `runner.run`."""
-        room = self.order.own.refine
+        room = self.order.options.refine
         while room >= 4:
             cells, jobs = [], []
             for cell in self.borders():
@@ -148,5 +148,5 @@ class Map:
             except OSError:
                 raise
             except Exception as error:  # a map without a picture is a map
-                tell(f"map.png: {type(error).__name__}: {error}")
+                print_line(f"map.png: {type(error).__name__}: {error}")
         self.drawn_s = time.monotonic()

@@ -10,9 +10,10 @@ campaign with exit code 1.
 """
 
 import math
-from argparse import Namespace
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Summary
@@ -22,25 +23,30 @@ from tables import number_of
 DRIFT_PERIODS = 100_000
 
 
-def options(group) -> None:
-    group.add_argument("--quick", action="store_true", help="fewer cases, no long run")
-    periods = f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)"
-    cli.add(group, "--drift-periods", "N", periods, cli.whole(0))
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign."""
+
+    quick: bool = cli.flag("fewer cases, no long run")
+    drift_periods: int = cli.option(
+        "N",
+        f"wave periods of the long regular run, 0 for none (default: {DRIFT_PERIODS}; 0 with --quick)",
+        cli.whole(0),
+    )
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """What is usual depends on --quick."""
+        if self.drift_periods is None:
+            self.drift_periods = 0 if self.quick else DRIFT_PERIODS
+        if 0 < self.drift_periods < 1000:
+            faults.append(f"--drift-periods: given {self.drift_periods}; allowed: 0, or 1000 and above")
 
 
-def read(options: Namespace, faults: list[str]) -> None:
-    """What is usual depends on --quick."""
-    if options.drift_periods is None:
-        options.drift_periods = 0 if options.quick else DRIFT_PERIODS
-    if 0 < options.drift_periods < 1000:
-        faults.append(f"--drift-periods: given {options.drift_periods}; allowed: 0, or 1000 and above")
-
-
-def done(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> tuple[dict[str, float], Summary]:
     """Tasks and table."""
     from campaigns.stability import tasks
 
-    return tasks.judge_cases(order.own)
+    return tasks.judge_cases(order)
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
@@ -60,12 +66,11 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 STUDY = Study(
     name="stability",
     protocol=__doc__,
-    options=options,
-    read=read,
-    parameters=lambda order: {name: getattr(order.own, name) for name in ("quick", "drift_periods")},
-    done=done,
+    options=Options,
+    parameters=lambda order: asdict(order.options),
+    perform=perform,
     answer=answer,
-    backends=False,
+    places=("jobs",),
     strict=True,
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -25,8 +25,8 @@ SOURCES = ("engine", "campaigns/stability")
 
 def planned(order) -> list[Case]:
     """Every case of the order, the longest first."""
-    cases = [drift_case(order.drift_periods)] if order.drift_periods else []
-    return cases + [case for case in all_cases() if case.quick or not order.quick]
+    cases = [drift_case(order.options.drift_periods)] if order.options.drift_periods else []
+    return cases + [case for case in all_cases() if case.quick or not order.options.quick]
 
 
 def judge_cases(order) -> tuple[dict[str, float], Summary]:

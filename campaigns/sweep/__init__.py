@@ -12,8 +12,9 @@ counts. Of an irregular sea only the ramp is left out, and of a run without wave
 
 from collections import Counter
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import partial
-from math import inf
+from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
@@ -28,35 +29,35 @@ from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, counted
 MOST_KEYS = 2
 
 
-def options(group) -> None:
-    cli.add(group, "--vary", "KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
-    seconds = cli.number("seconds, a finite number above 0", lambda value: 0.0 < value < inf)
-    cli.add(group, "--duration", "S", "length of every run in seconds, for a scene without waves", seconds)
-    cli.add_evidence(group)
-    motions.add_options(group)
+@dataclass
+class Options(motions.Starts):
+    """The options of this campaign. grid: the keys with their values, read from --vary."""
 
+    vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
+    duration: float | None = cli.option("S", "length of every run in seconds, for a scene without waves", cli.SECONDS)
+    grid: Grid = field(default_factory=Grid)
 
-def read(options, faults: list[str]) -> None:
-    """The keys with their values (`Grid`) in the words of --vary."""
-    words = options.vary or []
-    allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
-    if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
-        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
-        words = []
-    keys = [varied(words[start : start + 4], faults) for start in range(0, len(words), 4)]
-    options.grid = Grid(tuple(key for key in keys if key is not None))
-    if len({key.key for key in options.grid.keys}) < len(options.grid.keys):
-        faults.append(f"--vary {options.grid.keys[0].key}: given twice; allowed: two different keys")
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The keys with their values in the words of --vary."""
+        words = self.vary or []
+        allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
+        if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
+            faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
+            words = []
+        keys = [varied(words[start : start + 4], faults) for start in range(0, len(words), 4)]
+        self.grid = Grid(tuple(key for key in keys if key is not None))
+        if len({key.key for key in self.grid.keys}) < len(self.grid.keys):
+            faults.append(f"--vary {self.grid.keys[0].key}: given twice; allowed: two different keys")
 
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    grid: Grid = order.own.grid
+    grid: Grid = order.options.grid
     order.tell(f"--set {key.key}: this campaign sets it; use --vary" for key in grid.keys if key.key in order.changes)
     base = order.base(tell=True)
     if base is None or not grid.keys:
         return
-    duration_s, periods = order.own.duration, order.periods if base.waves is not None else None
+    duration_s, periods = order.options.duration, order.periods if base.waves is not None else None
     if base.waves is not None and duration_s is not None:
         order.tell(["--duration: given for a scene with waves; allowed: --periods"])
     if base.waves is None and duration_s is None:
@@ -81,9 +82,9 @@ def cases(order: Order) -> Iterator[Job]:
 
 def kicks_of(order: Order, scenes=None) -> int | None:
     """Kicks at each value; None: runs from rest only, as over two keys."""
-    if len(order.own.grid.keys) > 1:
-        if order.own.starts not in (None, motions.REST):
-            order.tell([f"--starts: given {order.own.starts} with two keys; allowed: {motions.REST}, or one key"])
+    if len(order.options.grid.keys) > 1:
+        if order.options.starts not in (None, motions.REST):
+            order.tell([f"--starts: given {order.options.starts} with two keys; allowed: {motions.REST}, or one key"])
         return None
     return motions.kicks_of(order, [case.scene for case in order.cases] if scenes is None else scenes)
 
@@ -97,7 +98,7 @@ def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
     from campaigns.explore import rows
 
-    keys = order.own.grid.columns
+    keys = order.options.grid.columns
     if any(in_regular_waves(case.scene) for case in order.cases):
         columns = columns_of(keys)
     else:
@@ -106,8 +107,8 @@ def measures(order: Order) -> Measures:
         columns = (*keys, *(column for column in measured if column.name not in names))
     waves = order.cases[0].scene.waves
     settings = {
-        "transient_periods": order.own.transient if waves is not None and waves.irregular else order.transient,
-        "full": order.periods if order.own.evidence == "full" else None,
+        "transient_periods": order.given_transient if waves is not None and waves.irregular else order.transient,
+        "full": order.periods if order.options.evidence == "full" else None,
     }
     row = partial(sweep_row, transient_periods=settings["transient_periods"])
     sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
@@ -145,18 +146,18 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str,
 
 def parameters(order: Order) -> dict[str, object]:
     parameters: dict[str, object] = {
-        "vary": {key.key: list(key.values) for key in order.own.grid.keys},
+        "vary": {key.key: list(key.values) for key in order.options.grid.keys},
         "strobe_tolerance": STROBE_TOLERANCE,
         "longest_period": LONGEST_PERIOD,
     }
-    if order.own.duration is not None:
-        parameters |= {"duration_s": order.own.duration, "periods": None, "transient": 0}
+    if order.options.duration is not None:
+        parameters |= {"duration_s": order.options.duration, "periods": None, "transient": 0}
     return parameters | motions.parameters(order, kicks_of(order))
 
 
 def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
-    if len(order.own.grid.keys) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
+    if len(order.options.grid.keys) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
         from campaigns.explore.errors import errors
 
         yield errors
@@ -168,7 +169,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     from campaigns.explore.answer import largest, sentences, use_of
     from tables import PEAK, number_of
 
-    keys, scene = [key.key for key in order.own.grid.keys], order.cases[0].scene
+    keys, scene = [key.key for key in order.options.grid.keys], order.cases[0].scene
     if len(keys) == 1:
         tables = motions.tables_of(order.how.out, *(["ends"] if kicks_of(order) is not None else []))
         return sentences(rows, keys[0], keys[0], scene, **tables)
@@ -187,8 +188,7 @@ STUDY = Study(
     protocol=__doc__,
     scene="tethered_buoy",
     lengths=Lengths(periods=120, transient=40, budget=700),
-    options=options,
-    read=read,
+    options=Options,
     cases=cases,
     measures=measures,
     parameters=parameters,

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
-from campaigns.machinery.cli import Kind, fault_of, folder_name, number
+from campaigns.machinery.cli import FOLDER, Kind, fault_of, number
 from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command
 
@@ -75,7 +75,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     step = value("--step", number("a finite number above 0 [s]", lambda step: 0.0 < step < math.inf))
     period = value("--period", number(SECONDS, lambda period: 0.0 < period < math.inf))
     tolerance = value("--tolerance", number("a number above 0 and below 1", lambda share: 0.0 < share < 1.0))
-    out = value("--out", folder_name)
+    out = value("--out", FOLDER)
     if options.step is not None and options.time is not None:
         faults.append("--time and --step: given both; allowed: one of them")
     file, *further_files = options.file or [None]

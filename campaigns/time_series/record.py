@@ -9,9 +9,11 @@ import csv
 import difflib
 import os
 import re
+import warnings
+from array import array
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain, islice
+from itertools import islice
 from math import isfinite
 from pathlib import Path
 
@@ -33,7 +35,6 @@ LEAST_SAMPLES = 100
 UNEVEN = 0.02
 # Beyond, squares of differences leave the range of numbers.
 LARGEST = 1e100
-BLOCK = 100_000  # lines
 _CLOCK = re.compile(r"\d+[-/.]\d+[-/.]\d+|\d+:\d+")
 
 
@@ -59,95 +60,103 @@ def read_record(
     faults_before = len(faults)
     try:
         table = read_table(Path(path))
-        names = table.names
-        column = names[0] if column is None and len(names) == 1 else column
-        listed = ", ".join(names[:40]) + (f" and {len(names) - 40} more" if len(names) > 40 else "")
-        if column is None:
-            faults.append(f"--column: not given; allowed: {listed}")
-        elif column == time:
-            faults.append(f"--column and --time: given {column!r} as both; allowed: two columns")
-        wanted = {option: name for option, name in (("--column", column), ("--time", time)) if name is not None}
-        for option, name in wanted.items():
-            if name not in names:
-                faults.append(f"{option}: no column {name!r} in {path}{close_to(name, names)}; allowed: {listed}")
+        if column is None and len(table.names) == 1:
+            column = table.names[0]
+        faults.extend(_unknown_columns(table, column, time))
         if len(faults) > faults_before:
             return None
-        numbers = _numbers(table, {f"{option} {name}": names.index(name) for option, name in wanted.items()}, faults)
+        places = {f"--column {column}": table.names.index(column)}
+        if time is not None:
+            places[f"--time {time}"] = table.names.index(time)
+        numbers = _numbers(table, places, faults)
     except ValueError as error:
         faults.append(str(error))
         return None
     x, t = numbers.get(f"--column {column}"), numbers.get(f"--time {time}")
-    if x is not None and (fault := _not_worth_it(x)):
-        faults.append(f"--column {column}: {fault}")
-    unit = "samples" if t is None and step is None else "s"
+    if x is not None:
+        faults.extend(f"--column {column}: {fault}" for fault in _not_worth_it(x))
+    unit = "s"
     if t is not None and len(t) > 1:
         step = float((t[-1] - t[0]) / (len(t) - 1))
-        if fault := _uneven(t, step):
-            faults.append(f"--time {time}: {fault}")
+        faults.extend(f"--time {time}: {fault}" for fault in _uneven(t, step))
+    elif t is None and step is None:
+        step, unit = 1.0, "samples"
     if len(faults) > faults_before:
         return None
-    return Record(x, 1.0 if step is None else step, unit, column, Path(path))
+    return Record(x, step, unit, column, Path(path))
+
+
+def _unknown_columns(table: "Table", column: str | None, time: str | None) -> Iterator[str]:
+    """What is wrong with the names of columns, as fault lines."""
+    listed = ", ".join(table.names[:40])
+    if len(table.names) > 40:
+        listed += f" and {len(table.names) - 40} more"
+    if column is None:
+        yield f"--column: not given; allowed: {listed}"
+    elif column == time:
+        yield f"--column and --time: given {column!r} as both; allowed: two columns"
+    for option, name in (("--column", column), ("--time", time)):
+        if name is not None and name not in table.names:
+            yield f"{option}: no column {name!r} in {table.path}{close_to(name, table.names)}; allowed: {listed}"
 
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A text file of columns: their names, the mark between them (None: spaces), and the lines below the names."""
+    """A text file of columns: their names, the mark between them (None: spaces), whether its first line has names."""
 
     path: Path
     names: list[str]
     mark: str | None
-    lines: Iterator[str]
+    named: bool
 
-    def rows(self, lines: Iterable[str], begin: int = 0) -> Iterator[list[str]]:
-        """The cells of lines, the first of which is row `begin` below the names.
+    def lines(self) -> Iterator[str]:
+        """The lines below the names."""
+        return islice(_lines(self.path), int(self.named), None)
 
-        Raises ValueError at the first row with more or fewer cells than there are names.
-        """
-        for k, cells in enumerate(_cells(self.path, lines, self.mark)):
+    def rows(self) -> Iterator[list[str]]:
+        """The cells of each line. Raises ValueError at the first row with more or fewer cells than there are names."""
+        for number, cells in enumerate(_cells(self.path, self.lines(), self.mark), 1):
             if len(cells) == len(self.names):
                 yield cells
                 continue
-            fault = f"{self.path}: row {begin + k + 1} below the names has {len(cells)} cells, the names are "
-            fault += f"{len(self.names)}"
+            fault = f"{self.path}: row {number} below the names has {len(cells)} cells, the names are {len(self.names)}"
             if self.mark == "," and len(cells) == 2 * len(self.names):
                 raise ValueError(f"{fault}; allowed: numbers with a dot, not a comma, where commas separate columns")
             shown = ", ".join(self.names)
-            shown = shown if len(shown) <= 60 else f"{shown[:57]}..."
+            if len(shown) > 60:
+                shown = f"{shown[:57]}..."
             raise ValueError(f"{fault} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
 
 
 def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
     """Columns as floats (n,), by what they are called; without those that have faults, one for each way of them.
 
-    places: numbers of the columns. A file is read in blocks, because its cells as text may need more than the memory.
+    places: numbers of the columns.
     """
-    values: dict[str, list] = {name: [] for name in places}
-    wrong: dict[str, dict[str, list]] = {name: {} for name in places}  # what is wrong: its first cell, and its rows
-    begin = 0
-    while block := list(islice(table.lines, BLOCK)):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # of a file without rows
         try:
-            numbers = np.loadtxt(block, delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
-            sound = numbers.shape == (len(block), len(table.names)) and np.isfinite(numbers).all()
-        except ValueError:  # cell by cell, to say what is wrong; other columns may hold words
-            sound = False
-        rows = len(block) if sound else 0
-        if not sound:
-            numbers = np.full((len(block), len(table.names)), np.nan)
-            for rows, cells in enumerate(table.rows(block, begin), 1):
-                for name, place in places.items():
-                    if fault := _is_no_number(cells[place]):
-                        wrong[name].setdefault(fault, [cells[place]]).append(begin + rows)
-                    else:
-                        numbers[rows - 1, place] = float(cells[place])
+            numbers = np.loadtxt(table.lines(), delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
+            if numbers.shape[1] == len(table.names) and np.isfinite(numbers).all():
+                return {name: numbers[:, place].copy() for name, place in places.items()}
+        except (ValueError, UserWarning):  # cell by cell, to say what is wrong; other columns may hold words
+            pass
+    values = {name: array("d") for name in places}
+    wrong: dict[tuple[str, str], list] = {}  # column and what is wrong: its first cell, and its rows
+    for number, cells in enumerate(table.rows(), 1):
         for name, place in places.items():
-            values[name].append(numbers[:rows, place].copy())
-        begin += rows
-    for name, faulty in wrong.items():
-        for fault, (cell, *where) in faulty.items():
-            further = f" (so are {len(where) - 1} more)" if len(where) > 1 else ""
-            allowed = f"finite numbers in every row; {_cure(cell, name, where)}"
-            faults.append(f"{name}: row {where[0]} below the names, {cell!r}, {fault}{further}; allowed: {allowed}")
-    return {name: np.concatenate([[], *blocks]) for name, blocks in values.items() if not wrong[name]}
+            cell = cells[place]
+            if fault := _is_no_number(cell):
+                wrong.setdefault((name, fault), [cell]).append(number)
+            else:
+                values[name].append(float(cell))
+    for (name, fault), (cell, *rows) in wrong.items():
+        if len(rows) > 1:
+            fault += f" (so are {len(rows) - 1} more)"
+        allowed = f"finite numbers in every row; {_cure(cell, name, rows)}"
+        faults.append(f"{name}: row {rows[0]} below the names, {cell!r}, {fault}; allowed: {allowed}")
+        values.pop(name, None)
+    return {name: np.array(column) for name, column in values.items()}
 
 
 def _is_no_number(cell: str) -> str:
@@ -156,7 +165,9 @@ def _is_no_number(cell: str) -> str:
         number = float(cell)
     except ValueError:
         return "is no number" if cell else "is empty"
-    return "is no number" if "_" in cell else "" if isfinite(number) else "is not finite"  # 1_0 is 10 to Python alone
+    if "_" in cell:  # 1_0 is 10 to Python alone
+        return "is no number"
+    return "" if isfinite(number) else "is not finite"
 
 
 def _cure(cell: str, name: str, rows: list[int]) -> str:
@@ -171,26 +182,26 @@ def _cure(cell: str, name: str, rows: list[int]) -> str:
     return "cut the record there or fill the gap"
 
 
-def _not_worth_it(x: np.ndarray) -> str:
-    """Why a series (n,) cannot be judged; "" where it can."""
+def _not_worth_it(x: np.ndarray) -> Iterator[str]:
+    """Why a series (n,) cannot be judged, if it cannot."""
     if len(x) < LEAST_SAMPLES:
-        return f"given {len(x)} samples; allowed: {LEAST_SAMPLES} or more"
-    if np.abs(x).max() > LARGEST:
-        return f"values up to {np.abs(x).max():.3g}; allowed: at most {LARGEST:g} in size; take a larger unit"
-    if np.ptp(x) <= 64 * np.finfo(float).eps * np.abs(x).max():
-        return f"every value is {x[0]:.6g}; allowed: a series that moves"
-    return ""
+        yield f"given {len(x)} samples; allowed: {LEAST_SAMPLES} or more"
+    elif np.abs(x).max() > LARGEST:
+        yield f"values up to {np.abs(x).max():.3g}; allowed: at most {LARGEST:g} in size; take a larger unit"
+    elif np.ptp(x) <= 64 * np.finfo(float).eps * np.abs(x).max():
+        yield f"every value is {x[0]:.6g}; allowed: a series that moves"
 
 
-def _uneven(t: np.ndarray, step: float) -> str:
-    """Why times (n,) are not those of an even sampling of this mean step; "" where they are."""
+def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
+    """Why times (n,) are not those of an even sampling of this mean step, if they are not."""
     forward = np.diff(t)
     if np.any(forward <= 0.0):
         k = int(np.argmax(forward <= 0.0))
-        return f"{t[k + 1]:.9g} follows {t[k]:.9g} in row {k + 2}; allowed: times in seconds that increase"
+        yield f"{t[k + 1]:.9g} follows {t[k]:.9g} in row {k + 2}; allowed: times in seconds that increase"
+        return
     deviation = np.abs(t - t[0] - step * np.arange(len(t))).max()
     if deviation <= UNEVEN * step:
-        return ""
+        return
     usual, k = np.median(forward), int(np.argmax(np.abs(forward - np.median(forward))))
     fault = f"steps of {usual:.6g} s, but of {forward[k]:.6g} s after row {k + 1}"
     if abs(forward[k] - usual) <= UNEVEN * usual:
@@ -199,7 +210,7 @@ def _uneven(t: np.ndarray, step: float) -> str:
     if deviation <= np.ptp(forward) < 0.9 * step:
         # Within one digit of the even grid, as times written with few digits are.
         allowed += f", or, where times are only rounded, give --step {step:.6g} in the place of --time"
-    return f"{fault}; allowed: {allowed}"
+    yield f"{fault}; allowed: {allowed}"
 
 
 def close_to(name: str, names: Iterable[str]) -> str:
@@ -209,21 +220,20 @@ def close_to(name: str, names: Iterable[str]) -> str:
 
 
 def read_table(path: Path) -> Table:
-    """The table of a file. Raises ValueError, with what is allowed, where it is none; lines are read when asked for."""
-    lines = _lines(path)
-    first = next(lines, None)
+    """The table of a file. Raises ValueError, with what is allowed, where it is none."""
+    first = next(_lines(path), None)
     if first is None:
         raise ValueError(f"{path}: empty; allowed: {FORMAT}")
     mark = next((mark for mark in ("\t", ";", ",") if mark in first), None)
-    names = next(_cells(path, [first], mark))
+    names, named = next(_cells(path, [first], mark)), True
     with contextlib.suppress(ValueError):  # a file of numbers only has no line of names
         list(map(float, names))
-        names, lines = [str(place + 1) for place in range(len(names))], chain([first], lines)
-    if twice := next((name for name in names if names.count(name) > 1), None):
-        raise ValueError(f"{path}: two columns are called {twice!r}; allowed: a name of its own for each")
-    begin = [*islice(lines, 1)]
-    table = Table(path, names, mark, chain(begin, lines))
-    next(table.rows(begin), None)  # a title in the place of the names is told before a column that they lack
+        names, named = [str(place) for place in range(1, len(names) + 1)], False
+    for name in names:
+        if names.count(name) > 1:
+            raise ValueError(f"{path}: two columns are called {name!r}; allowed: a name of its own for each")
+    table = Table(path, names, mark, named)
+    next(table.rows(), None)  # a title in the place of the names is told before a column that they lack
     return table
 
 
@@ -247,24 +257,27 @@ def _lines(path: Path) -> Iterator[str]:
     try:
         with open(path, "rb") as file:
             begin = file.read(8)
-        if (known := next((kind for mark, kind in BINARY.items() if begin.startswith(mark)), None)) is None:
+        kinds = [kind for mark, kind in BINARY.items() if begin.startswith(mark)]
+        if kinds:
+            what, cure = kinds[0]
+        else:
             with open(path, encoding="utf-16" if begin[:2] in UTF16 else "utf-8-sig") as file:
                 for line in file:
                     if "\0" in line:
                         break
-                    if (text := line.lstrip()) and not text.startswith("#"):
+                    text = line.strip()
+                    if text and not text.startswith("#"):
                         yield line
                 else:
                     return
-        else:
-            what, cure = known
     except UnicodeDecodeError:
         pass
     except FileNotFoundError:
-        folder = path.absolute().parent
-        siblings = os.listdir(folder)[:1000] if os.access(folder, os.R_OK) else []
-        missing_folder = "" if os.path.isdir(folder) else f", nor a folder {folder}"
-        fault = f"there is no such file{missing_folder}{close_to(path.name, siblings)}"
+        fault, folder = "there is no such file", path.absolute().parent
+        if not os.path.isdir(folder):
+            fault += f", nor a folder {folder}"
+        elif os.access(folder, os.R_OK):
+            fault += close_to(path.name, os.listdir(folder)[:1000])
         raise ValueError(f"{path}: {fault}; allowed: {FORMAT}") from None
     except OSError as error:
         raise ValueError(f"{path}: cannot be read: {error.strerror}; allowed: {FORMAT}") from None

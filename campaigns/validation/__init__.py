@@ -9,31 +9,34 @@ those of the sources; grids and steps come from refinement, told there. A time s
 source gives, is fitted, told in the row, and not judged. A code that is not installed is a row that says so.
 """
 
-from argparse import Namespace
 from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
 
 import engine
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
-from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, missing
+from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, Case, missing
 
 
-def options(group) -> None:
-    cli.add(group, "--only", "NAME ...", "some cases", cli.one_of(tuple(CASES)), many=True)
-    group.add_argument("--quick", action="store_true", help=f"the cases without long runs: {' '.join(QUICK)}")
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. cases: what they ask for."""
+
+    only: list[str] | None = cli.option("NAME ...", "some cases", cli.one_of(tuple(CASES)), many=True)
+    quick: bool = cli.flag(f"the cases without long runs: {' '.join(QUICK)}")
+    cases: tuple[Case, ...] = ()
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The cases."""
+        chosen = self.only or (QUICK if self.quick else CASES)
+        self.cases = tuple(CASES[name] for name in CASES if name in chosen)
+        reasons = [missing(case) for case in self.cases]
+        if reasons and all(reasons):
+            faults.append(f"--only: given {' '.join(chosen)}: {reasons[0]}; allowed: a case that can be run here")
 
 
-def read(options: Namespace, faults: list[str]) -> None:
-    """The cases that they ask for."""
-    every_name = QUICK if options.quick else CASES
-    chosen = options.only or every_name
-    options.cases = tuple(CASES[name] for name in CASES if name in chosen)
-    reasons = [missing(case) for case in options.cases]
-    if reasons and all(reasons):
-        faults.append(f"--only: given {' '.join(chosen)}: {reasons[0]}; allowed: a case that can be run here")
-
-
-def done(order: Order):
+def perform(order: Order):
     """All runs, side by side; then each case beside its source. Returns times and summary."""
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
@@ -43,10 +46,10 @@ def done(order: Order):
 
     out = order.how.out
     plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
-    jobs = cases.jobs(order.own.cases)
+    jobs = cases.jobs(order.options.cases)
     write_scene(out, STUDY.name, jobs)
     timing, summary = run(plan, jobs)
-    rows, points = judging.judged(out, order.own.cases)
+    rows, points = judging.judged(out, order.options.cases)
     write_table(out / "cases.csv", JUDGED, rows)
     write_table(out / "curves.csv", judging.POINTS, points)
     write_atomic(out / "cases.md", judging.page(rows).encode())
@@ -58,9 +61,9 @@ def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.plan import PEERS
     from campaigns.machinery.session import machine
 
-    asked = {case.options.get("peer") for case in order.own.cases}
+    asked = {case.options.get("peer") for case in order.options.cases}
     peers = {peer.name: version(peer) or "(not installed)" for peer in PEERS if peer.name in asked}
-    return {"cases": [case.name for case in order.own.cases], "peers": peers, "machine": machine()}
+    return {"cases": [case.name for case in order.options.cases], "peers": peers, "machine": machine()}
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
@@ -97,6 +100,6 @@ def error_in_words(row: dict) -> str:
 
 
 STUDY = Study(
-    name="validation", protocol=__doc__, options=options, read=read, parameters=parameters, done=done, answer=answer
+    name="validation", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer
 )
 main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

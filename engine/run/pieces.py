@@ -12,7 +12,7 @@ from ..record import ONE_STAGE
 from ..scene.models import Scene
 from . import Idle, Run
 
-# seconds of processor time (measured, in a plane): which share is begun first, and the time left
+# seconds of processor time (measured, in a plane): which share is begun first
 SECONDS = {"rest": 3.2, "march": 3.5, "carry": 5.0, "advance": 7.7, "follow": 6.3, "paper-box": 3.5}
 SPACE = 2.2  # of them, in three dimensions
 

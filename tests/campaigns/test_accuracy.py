@@ -8,7 +8,7 @@ import pytest
 
 from campaigns import accuracy
 from campaigns.accuracy.jobs import side_by_side
-from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, WORKS, phases
+from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
 from campaigns.machinery.plan import Job
 from engine import load_scene
@@ -103,7 +103,7 @@ def test_every_setting_of_the_full_campaign_is_a_sound_scene_and_appears_once():
     for point in kinds.values():
         assert BY_NAME[point.work].made(point.changes()).tether.nodes == point.nodes  # raises for a faulty scene
     timed = {point.work for point in points if point.kind == "point"}
-    assert timed == {work.name for work in WORKS if work.timed} and len(timed) >= 5
+    assert timed == {work.name for work in BY_NAME.values() if work.timed} and len(timed) >= 5
     assert {point.method for point in points} >= set(ORDERS)
 
 

@@ -93,8 +93,8 @@ def test_a_scene_with_one_motion(tmp_path):
 
 def test_a_grid_of_velocity_and_phase_has_every_pair():
     order = read_order(["--across", "vx", "phase", "--grid", "5", "8", "--out", "new"], faults := [])
-    assert faults == [] and order.own.grid.counts == (5, 8) and len(order.own.grid.points()) == 40
-    assert order.own.grid.values(1)[2] == pytest.approx(0.5 * math.pi)
+    assert faults == [] and order.options.grid.counts == (5, 8) and len(order.options.grid.points()) == 40
+    assert order.options.grid.values(1)[2] == pytest.approx(0.5 * math.pi)
 
 
 @pytest.mark.slow
