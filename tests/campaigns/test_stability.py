@@ -89,7 +89,8 @@ def test_a_process_that_died_is_tried_again_with_the_next_call(few, tmp_path, mo
     few[:] = [Case("x", "y", STILL)]
     (tmp_path / "trajectories").mkdir()
     monkeypatch.setattr("campaigns.stability.tasks.load_kernels", lambda: None)
-    order = SimpleNamespace(how=Running(tmp_path, 1, "threading"), quick=False, drift_periods=0)
+    options = SimpleNamespace(quick=False, drift_periods=0)
+    order = SimpleNamespace(how=Running(tmp_path, 1, "threading"), options=options)
     ok = {"verdict": "ok", "run_status": "ok"}
     for way, verdict in ((partial(os._exit, 1), "unexplained"), (ok.copy, "ok"), (partial(os._exit, 1), "ok")):
         monkeypatch.setattr(cases, "_judged", lambda *_, way=way: way())
