@@ -34,7 +34,7 @@ def test_every_source_counts_by_name_and_code(tmp_path, monkeypatch):
     package.mkdir()
     endings = (".py", ".toml")
     found = {hash_of(package, endings=endings)}
-    for name, content in (("a.py", "x"), ("a.py", "y"), ("b.py", "y"), ("inner/c.toml", ""), ("inner/c.toml", "# x")):
+    for name, content in (("a.py", "x"), ("a.py", "y"), ("b.py", "y"), ("inner/c.toml", ""), ("inner/c.toml", "x = 1")):
         (package / name).parent.mkdir(exist_ok=True)
         (package / name).write_text(content)
         found.add(hash_of(package, endings=endings))
