@@ -1,4 +1,4 @@
-"""The verdict on the motion of a buoy in waves: its state as the analysis takes it, its regime, its exponents."""
+"""The verdict on the motion of a buoy in waves: its regime and its exponents, and the runs that a verdict needs."""
 
 from functools import partial
 
@@ -6,12 +6,12 @@ from campaigns.machinery.long_runs import TANGENTS, once, until_judged
 from campaigns.machinery.plan import Job
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
 
-LEAST_JUDGED = 40  # periods after the transient below which a record is not judged: exponents are then left out
+LEAST_JUDGED = 40  # wave periods after the transient; a shorter record is not judged, and has no exponents
 LATERAL = "output.lateral_growth"
 
 
 def tangent_of(trajectory, transient_periods: int):
-    """The exponent of a run's tangent dynamics in bits per wave period; without a value where it carried none."""
+    """The exponent of a run's tangent dynamics in bits per wave period; no value if it carried no perturbation."""
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
 
     if not carried(trajectory):
@@ -22,7 +22,8 @@ def tangent_of(trajectory, transient_periods: int):
 def motion_of(trajectory, checks=None):
     """The Verdict on a run from rest, look by look, from its strobed state and its tangent dynamics.
 
-    checks: Trajectories that went on from it at a tighter tolerance, by its wave periods then; None: none ever does.
+    checks: Trajectories that went on from this run at a tighter tolerance, by the wave periods at which they began;
+    None: this run has no such checks.
     """
     from analysis import tangent_lyapunov
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
@@ -39,11 +40,11 @@ def motion_of(trajectory, checks=None):
 
 
 def record_regime(trajectory, transient_periods: int, tangent=None):
-    """The verdict on the samples of a run alone, as on a record of unknown origin, and Wolf's exponent of r.
+    """The verdict on the samples alone, as for a record of unknown origin, and Wolf's exponent of r.
 
-    Returns (Verdict, Exponent in bits per wave period). tangent: its `tangent_of`. A motion in three dimensions within
-    millimetres of the plane of the waves has its state in that plane. Every period after the transient counts, those
-    with a loop release too.
+    Returns (Verdict, Exponent in bits per wave period). tangent: the Exponent of `tangent_of` for this run. If a motion
+    in three dimensions stays within millimetres of the plane of the waves, only its state in that plane is judged. All
+    periods after the transient count, also those with a loop release.
     """
     import numpy as np
 
@@ -51,8 +52,8 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
 
     scene, columns = trajectory.scene, trajectory.columns
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    first = round(transient_periods * period_s / step_s)  # sample after the transient
-    wolf = wolf_lyapunov(columns["radius_m"][first:], step_s).in_bits_per_period(period_s)
+    first_sample = round(transient_periods * period_s / step_s)  # after the transient
+    wolf = wolf_lyapunov(columns["radius_m"][first_sample:], step_s).in_bits_per_period(period_s)
     coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
     verdict = regime(
         np.column_stack(list(coordinates.values())),
@@ -69,11 +70,12 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
 
 
 def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
-    """The scene of a study's order with these changes, and with the perturbations added that a verdict needs.
+    """The scene of a study's order with these changes, and with the perturbations that a verdict needs.
 
-    Unless --set says otherwise, it carries one perturbation in the plane and, with one there, one across the plane.
-    Nothing is added where the engine cannot carry them, or below `least` periods after the transient. Returns None
-    where the scene is faulty.
+    Unless --set says otherwise, the scene carries one perturbation in the plane and, if there is one in the plane, one
+    across it. No perturbation is added if the engine cannot carry it, if the run has fewer than `least` periods after
+    the transient, or if the run is judged look by look, because such a run adds its perturbations itself. Returns None
+    if the scene is faulty.
     """
     scene = order.scene(changes)
     if scene is None or order.looks or not carries_tangents(scene) or order.periods - order.transient < least:
@@ -85,23 +87,24 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
 
 
 def judged_job(order, labels: dict, scene, start=None, most: int | None = None):
-    """A run of a study's order: of the length asked for, or as long as its regime needs (`long_runs.until_judged`).
+    """A run of a study's order: of the length of the order, or as long as its regime needs (`long_runs.until_judged`).
 
-    start: the state (`engine.FinalState`) of another run that it begins in; None: as the scene says. most: as there;
-    the run is the same one, and goes on for those who ask for more of it.
+    start: the state (`engine.FinalState`) of another run in which this run begins; None: the start of the scene.
+    most: as for `until_judged`. Runs with different `most` have the same key, so a longer one goes on from a shorter.
     """
     if not carries_tangents(scene):
         return job_from(labels, scene, order.periods, start)
     going = partial(until_judged, budget=order.periods, looks=order.looks, start=start, most=most)
-    made = f"{'looks' if order.looks else ''}{_from(start)}"
+    made = f"{'looks' if order.looks else ''}{_name_of(start)}"
     return Job(labels, scene, order.periods, going=going, carrying=order.looks, made=made)
 
 
 def job_from(labels: dict, scene, periods: float, start=None):
-    """A run of a fixed length that begins in the state `start`, or without one as its scene says."""
+    """A run of a fixed length that begins in the state `start`; None: with the start of its scene."""
     going = None if start is None else partial(once, periods=periods, start=start)
-    return Job(labels, scene, periods, going=going, made=_from(start))
+    return Job(labels, scene, periods, going=going, made=_name_of(start))
 
 
-def _from(start) -> str:
+def _name_of(start) -> str:
+    """The part of a run's key that names its start."""
     return "" if start is None else f" from {start.digest()}"

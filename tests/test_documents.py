@@ -30,6 +30,7 @@ def text(name):
 @pytest.mark.parametrize("name", PAGES)
 def test_every_file_that_a_page_names_exists(name):
     quoted = re.findall(rf"`((?:{PLACES})/[\w./*-]*)`", text(name))
+    quoted += re.findall(r"\bdocs/[a-z_]+\.md\b", text(name))
     linked = [f"{Path(name).parent}/{path}" for path in re.findall(r"\]\((?!http)([\w./-]+)[#)]", text(name))]
     named = [path.replace("NAME", "*") for path in quoted + linked]
     assert [path for path in named if not list(ROOT.glob(path.removeprefix("./")))] == []

@@ -1,11 +1,11 @@
-"""Three dimensions: the small push that lets a motion leave its plane, and the runs of a sweep that need it.
+"""Runs in three dimensions: the small push that lets a motion leave its plane, and the runs of a sweep that need it.
 
-Without a push nothing in the equations leaves the plane of uni-directional waves: y = 0 stays exactly 0 in three
-dimensions too. The paper pushes the buoy by 1e-5 m/s across the waves (section 4.2.2, figure 20).
+Without a push no motion leaves the plane of uni-directional waves: y = 0 stays exactly 0 in three dimensions too. The
+paper therefore pushes the buoy across the waves with 1e-5 m/s (section 4.2.2, figure 20).
 
-With `--dimensions auto` every value is run in the plane first. Where that run released loops, the same scene is run in
-three dimensions, and its row takes the place of the planar one; what the planar run showed stays in the columns
-planar_. Both runs are kept, so that a sweep run again decides the same from the files.
+With `--dimensions auto` a sweep runs every value in the plane first. If a planar run releases loops, the same scene is
+run in three dimensions, and the row of this run replaces the row of the planar run. The columns planar_ keep the
+results of the planar run. Both runs stay on disk, so that the same command decides in the same way again.
 """
 
 import math
@@ -15,19 +15,20 @@ import engine.scene
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 
-SEED_MPS = 1e-5
-# name: components along and across the waves; a mirrored push has to give the mirrored motion, one along the waves none
+SEED_MPS = 1e-5  # size of the push
+# components of a push along and across the waves; a mirrored push has to give the mirrored motion, and a push along the
+# waves no motion across them
 DIRECTIONS = {
     "lateral": (0.0, 1.0),
     "mirrored": (0.0, -1.0),
     "oblique": (math.sqrt(0.5), math.sqrt(0.5)),
     "along": (1.0, 0.0),
 }
-_PLANAR = ("loop_releases", "regime", "radius_min_m", "radius_max_m")  # of the planar row, in the columns planar_
+_PLANAR_COLUMNS = ("loop_releases", "regime", "radius_min_m", "radius_max_m")  # kept in the columns planar_
 
 
 def velocity(seed_mps: float, direction: str) -> list[float]:
-    """The velocity (3,) in m/s of a push of that size and direction, for waves along x."""
+    """The velocity (3,) in m/s of a push of the size seed_mps in one of DIRECTIONS, for waves along x."""
     x, y = DIRECTIONS[direction]
     return [seed_mps * x, seed_mps * y, 0.0]
 
@@ -35,8 +36,8 @@ def velocity(seed_mps: float, direction: str) -> list[float]:
 def in_space(scene):
     """The scene in three dimensions, and whether a push had to be added: (scene, added).
 
-    A scene whose buoy starts without a velocity across its waves gets SEED_MPS there. Perturbations that only a planar
-    run can carry are left out. Raises SceneError for what three dimensions do not allow.
+    If the buoy starts without a velocity across its waves, it gets the velocity SEED_MPS there. Perturbations are left
+    out, because only a planar run can carry them. Raises SceneError if the scene is not allowed in three dimensions.
     """
     heading = scene.waves.direction_rad
     sine, cosine = (math.sin(heading), math.cos(heading)) if heading else (0.0, 1.0)
@@ -49,25 +50,27 @@ def in_space(scene):
 
 
 def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
-    """Do the planar jobs, then the runs in three dimensions that their rows ask for; table.csv holds one row a value.
+    """Do the planar jobs, then the runs in three dimensions of the values whose planar run released loops.
 
-    Returns times and summary of both halves together. Raises as `runner.run`.
+    table.csv has one row for each value. Returns the times and the summary of both halves together. Raises the same
+    errors as `runner.run`.
     """
     timing, summary = run(plan, jobs)
     rows = {row["run_key"]: row for row in summary.rows}
-    chosen, spatial = [], 0
+    jobs_of_rows, in_space_count = [], 0
     for job in jobs:
         row = rows[job.key]
         if row.get("loop_releases"):
-            labels = {**job.labels, **{f"planar_{name}": row.get(name) for name in _PLANAR}, "dimensions": 3}
+            planar = {f"planar_{name}": row.get(name) for name in _PLANAR_COLUMNS}
+            labels = {**job.labels, **planar, "dimensions": 3}
             job = replace(job, scene=in_space(job.scene)[0], labels=labels)
-            spatial += 1
-        chosen.append(job)
-    if not spatial:
+            in_space_count += 1
+        jobs_of_rows.append(job)
+    if not in_space_count:
         return timing, summary
-    timing_in_space, final = run(plan, chosen)
+    timing_in_space, final = run(plan, jobs_of_rows)
     times = {name: timing[name] + timing_in_space[name] for name in timing}
-    # The second half finds what the first has done; what is new in it are the runs in space.
-    found = summary.found + spatial - final.computed
+    # The second half finds the planar runs of the first half on disk; only its runs in space are new.
+    found = summary.found + in_space_count - final.computed
     computed = summary.computed + final.computed
     return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])

@@ -22,7 +22,7 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", *_FILES
 
 @dataclass(frozen=True)
 class Scenes:
-    """The scenes along one key. toml: of any of them; key, name, index: as of `campaigns.sweep.Varied`."""
+    """The scenes along one key. toml: of any of them; key, name, index: as of `campaigns.explore.grid.Varied`."""
 
     toml: str
     key: str

@@ -1,14 +1,14 @@
-"""Runs that take as long as they need: the loop of such a run, and what it does next.
+"""Runs that last as long as they need: the loop of such a run, and the functions that decide on its next part.
 
     run = LongRun(job)
     while (part := run.next_part()) is not None:
         run.take(simulate(part.scene, periods=part.periods, start=part.start))
-        run.row = row of run.trajectory and run.checks
+        run.row = the row that is made of run.trajectory and run.checks
 
-`LongRun` knows how far a run has come. Its job decides what it does next (`Job.going`), from the row of what it has
-done: a run is judged after each part (`until_judged`), a start ends when it has settled (`until_settled`), and a run
-that begins in a given state has one part (`once`). A worker does many such runs side by side
-(`campaigns.machinery.worker`): each goes on when its part has ended, while the others are under way.
+`LongRun` has the trajectory of a run so far, and its row. The function `Job.going` decides on the next part from this
+row. There are three such functions: `until_judged` ends a run when its regime is known, `until_settled` ends a start
+when it has settled, and `once` does a single part from a given state. A worker does many such runs side by side
+(`campaigns.machinery.worker`): a run goes on when its part has ended, while the other runs are under way.
 """
 
 import math
@@ -27,9 +27,9 @@ TANGENTS = "output.tangent_vectors"
 
 
 class Part(NamedTuple):
-    """What a run does next: scene, wave periods, and the Trajectory or state that it goes on from (None: from rest).
+    """The next part of a run: scene, wave periods, and the Trajectory or state in which it begins (None: rest).
 
-    check: the run stays as it is. This part goes on from it at a tighter tolerance, and the row reads it (`checks`).
+    check: this part is a check of chaos, at a tighter tolerance. It goes into `checks` and does not lengthen the run.
     """
 
     scene: object
@@ -42,9 +42,9 @@ class Part(NamedTuple):
 class LongRun:
     """A run and how far it has come.
 
-    row: of the trajectory so far, None before the first part.
-    checks: what went on from the run at a tighter tolerance, by the wave periods of the run then.
-    part: what is under way.
+    row: of the trajectory so far; None before the first part.
+    checks: Trajectories of the checks at a tighter tolerance, by the wave periods after which they began.
+    part: the part that is under way.
     """
 
     job: object
@@ -54,7 +54,7 @@ class LongRun:
     part: Part | None = None
 
     def next_part(self) -> Part | None:
-        """What the run does next; None when it is finished."""
+        """The next part of the run; None when the run is finished."""
         self.part = self.job.going(self.job.scene, self.trajectory, self.row, self.checks)
         return self.part
 
@@ -93,13 +93,13 @@ def until_judged(
 ) -> Part | None:
     """Until the regime of the run is known.
 
-    looks: it is looked at after 90, 135, 205, ... wave periods, `budget` at most, and perturbations are carried from
-    the first look on that finds no period, and none that it comes nearer to; else it takes `budget` periods at once.
-    One that looks chaotic goes on at a tenth of the tolerance until that shows there too, at most for as long as it was
-    judged; at first for as long as it takes to show by SURE errors.
-    start: the state of another run that it begins in; None: as the scene says. most: wave periods after which it is not
-    looked at again, though `budget` allows it. least: wave periods that chaos has to last, because transients of such a
-    length are known (`campaigns.explore.transients`).
+    looks: whether the run is judged after 90, 135, 205, ... wave periods, up to `budget`; if not, it is one part of
+    `budget` periods. If a look finds no period, and no period that the motion approaches, the run carries perturbations
+    from then on. A run that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for
+    longer than the run was judged; the first part of this check is as long as chaos needs to show by SURE errors.
+    start: the state of another run in which this run begins; None: the start of the scene. most: wave periods after
+    which the run has no further look, though `budget` allows it. least: wave periods that chaos has to last, because
+    transients of this length are known (`campaigns.explore.transients`).
     """
     from analysis.looks import looks as looks_until
 

@@ -1,16 +1,16 @@
-"""What a command is doing and how far it is: one line of stderr, drawn by tqdm.
+"""The line of stderr that shows what a command is doing, how far it is, and since when; tqdm draws it.
 
     with stage("runs from rest", 120, "runs", count=lambda: 40):
         ...
 
-Stages nest: the titles of all are shown, with what the innermost counting one has done, and the time since the start of
-the outermost. On a terminal the line is drawn again and again by a thread of its own, so that it moves while this
-process waits for workers. Elsewhere (a file, a pipe) it is written at most once in LINE_S, and when a long stage that
-counts ends.
-Nothing is said of the time left: runs differ in cost and so do machines.
+Stages can be nested. The line shows the titles of all open stages, the count of the innermost stage that counts, and
+the time since the outermost stage began. On a terminal a thread draws the line again and again, so that it moves while
+this process waits for workers. In a file or a pipe a new line is written at most once in LINE_S seconds, and at the
+end of a long stage that counts. The line does not estimate the time left, because runs and machines differ too much.
 
-Workers write how far they are into small files of a folder that the main process reads (`report`, `reports`). This
-works for processes, threads and dask alike; of a worker that does not see the folder nothing is known until it ends.
+A worker writes its progress into a small file (`reporter`), and the main process reads the files of all workers
+(`reports`). This works for processes, threads and dask. If a worker does not see the folder of these files, its
+progress is not known until it ends.
 """
 
 import contextlib
@@ -25,7 +25,7 @@ from functools import cache
 from pathlib import Path
 
 DRAW_S = 0.25  # between two drawings on a terminal
-FIRST_S, LINE_S = 2.0, 10.0  # to the first line elsewhere, and between two lines
+FIRST_S, LINE_S = 2.0, 10.0  # before the first line of a file, and between two lines
 REPORT_S = 0.3  # between two reports of a worker
 BAR = "{desc}, {elapsed} since the start |{bar:20}|"
 
@@ -34,8 +34,8 @@ BAR = "{desc}, {elapsed} since the start |{bar:20}|"
 class Stage:
     """A piece of work that takes a while.
 
-    title: what is done. total, unit: how many of which things there are to do, 0: this is not known.
-    count() -> how many of them are done. detail() -> further words on how far it is.
+    title: the work in words. total: number of things to do, 0 if it is not known. unit: their name in the plural.
+    count() -> how many of them are done. detail() -> further words on the progress.
     """
 
     title: str
@@ -46,7 +46,7 @@ class Stage:
     began: float = field(default_factory=time.monotonic)
 
     def words(self) -> str:
-        """How far it is."""
+        """Title, count and detail in one line."""
         counted = f"{self.count():.0f} of {self.total:.0f} {self.unit}" if self.total else ""
         return ", ".join(filter(None, (self.title, counted, self.detail())))
 
@@ -59,7 +59,7 @@ _bars: list = []  # the bar that is drawn on a terminal
 
 @contextlib.contextmanager
 def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
-    """Show a `Stage` of these fields for as long as the `with` lasts."""
+    """Show a stage while the block lasts; title, counted and options are the fields of `Stage`."""
     entered = Stage(title, *counted, **options)
     with _lock:
         if not _open:
@@ -79,7 +79,7 @@ def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
 
 
 def print_line(text: str) -> None:
-    """Write a line of its own to stderr, while a stage may be shown there."""
+    """Write a separate line to stderr without breaking the line of the stages."""
     with _lock:
         _close_bar()
         _write(f"{text}\n")
@@ -93,7 +93,7 @@ def _start_drawing() -> None:
 def _keep_drawing() -> None:
     while True:
         time.sleep(DRAW_S)
-        with _lock, contextlib.suppress(OSError, ValueError):  # nobody listens any more
+        with _lock, contextlib.suppress(OSError, ValueError):  # stderr is closed
             if _open and _terminal():
                 _draw()
             elif _open and time.monotonic() >= _next_line["s"]:
@@ -121,14 +121,18 @@ def _close_bar() -> None:
 
 
 def _counting() -> Stage:
-    """The innermost stage that counts something; without one the innermost of all."""
-    return next((entered for entered in reversed(_open) if entered.total), _open[-1])
+    """The innermost stage that counts; if no stage counts, the innermost stage."""
+    for entered in reversed(_open):
+        if entered.total:
+            return entered
+    return _open[-1]
 
 
 def _text() -> str:
-    counting = _counting()
-    titles = [entered.words() if entered is counting else entered.title for entered in _open]
-    return ": ".join(titles)
+    counting, parts = _counting(), []
+    for entered in _open:
+        parts.append(entered.words() if entered is counting else entered.title)
+    return ": ".join(parts)
 
 
 def _terminal() -> bool:
@@ -144,14 +148,14 @@ def _write(text: str) -> None:
 
 
 def _clock(began: float) -> str:
-    """The time since then, as 1:23 or 1:02:03."""
+    """The time since `began` (of time.monotonic), as 1:23 or 1:02:03."""
     from tqdm import tqdm
 
     return tqdm.format_interval(time.monotonic() - began).removeprefix("0")
 
 
 def reporter(folder: Path | None, task: str) -> Callable[..., None]:
-    """For a worker: a function of numbers that say how far a task is; folder None: nobody reads them."""
+    """A function report(*numbers) by which a worker tells the progress of a task; without a folder it does nothing."""
     last_s = -REPORT_S
 
     def report(*numbers: float) -> None:
@@ -168,15 +172,15 @@ def reporter(folder: Path | None, task: str) -> Callable[..., None]:
 
 
 def reports(folder: Path) -> dict[str, list[float]]:
-    """The last numbers of every `reporter` of a folder, by its task."""
+    """The last numbers that each `reporter` of a folder has written, by task."""
     numbers = {}
     for path in folder.iterdir():
-        if not path.suffix:  # else it is being written
+        if not path.suffix:  # a file with a suffix is still being written
             with contextlib.suppress(OSError, ValueError):
                 numbers[path.name] = [float(word) for word in path.read_text(encoding="ascii").split()]
     return numbers
 
 
 def with_progress(simulate: Callable, report: Callable[[float], None]) -> dict[str, Callable]:
-    """{"progress": report} for a function that takes it, as engine.simulate does."""
+    """{"progress": report} if the function `simulate` has an argument progress, as engine.simulate has; else {}."""
     return {"progress": report} if "progress" in inspect.signature(simulate).parameters else {}

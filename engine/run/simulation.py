@@ -10,7 +10,7 @@ from ..trajectory import Trajectory
 from . import Run
 from .start import Start, checked_start
 
-CALL_S = 0.1  # of machine code, which hears of Ctrl-C between two calls only
+CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
 Progress = Callable[[float], None]
 
 
@@ -25,14 +25,16 @@ def simulate(
 
     periods      run length in wave periods (scenes with waves), or
     duration_s   run length in s
-    progress     callable(fraction) called now and then, optional
-    start        a Trajectory, its final_state, or its file: the run goes on from there, in time as well. With the same
-                 scene (solver and output may change) it is the run that did not stop, to the last bit; another scene
-                 takes the state over, and `began` of the trajectory says what was changed (`engine.run.start`): on
-                 another grid by interpolation, from a plane into space, with another wave period or output step at
-                 t = 0. `start` of the scene is not used. None: from rest
-    Returns a Trajectory: status "ok", or the reason why it ended early, with the samples up to there. Bad arguments
-    raise ValueError; a run never raises. Ctrl-C stops it between two samples.
+    progress     callable(fraction of the run), called now and then; optional
+    start        a Trajectory, its final_state, or its file: the run goes on from this state and time. None: from rest
+    Returns a Trajectory with status "ok", or with the reason why the run ended early and the samples up to then. Bad
+    arguments raise ValueError; a run itself never raises. Ctrl-C stops it between two samples.
+
+    If the scene is the one of the earlier run (solver and output may differ), the two runs together equal one long run
+    to the last bit. Another scene takes the state over, and `began` of the trajectory says what has changed
+    (`engine.run.start`): another grid gets the state by interpolation; a scene in space gets a planar state in its
+    plane; with another wave period or output step the run begins at t = 0. A run with `start` does not use the section
+    `start` of the scene.
     """
     ((_, trajectory),) = simulate_each([scene], periods, duration_s, progress, [start])
     return trajectory
@@ -44,9 +46,10 @@ def simulate_batch(
     duration_s: float | None = None,
     progress: Progress | None = None,
 ) -> list[Trajectory]:
-    """Simulate scenes that differ in any parameter; each has its own steps and its own end.
+    """Simulate many scenes, which may differ in every parameter; each run has its own steps and its own end.
 
-    Arguments as for `simulate`; the run length in periods is taken for each scene's own wave. Returns a list.
+    Arguments as for `simulate`; periods are wave periods of each scene. Returns the Trajectories in the order of the
+    scenes.
     """
     runs = dict(simulate_each(scenes, periods, duration_s, progress))
     return [runs[i] for i in range(len(runs))]
@@ -60,23 +63,23 @@ def simulate_each(
     starts: Iterable[Start] | None = None,
     then: Callable[[int, Trajectory], tuple[Scene, float, Start] | None] | None = None,
 ) -> Iterator[tuple[int, Trajectory]]:
-    """As `simulate_batch`, but yields (number of the scene, its Trajectory) as the runs end, in no order.
+    """As `simulate_batch`, but yields (number of the scene, its Trajectory) whenever a run ends, in no fixed order.
 
-    Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the
-    others one after another. The results are the same, bit for bit.
+    Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the other
+    scenes run one after another. The results are the same in both ways, bit for bit.
 
     periods      one number, or one for each scene
-    starts       of each scene, as `start` of `simulate`
-    then         then(number, Trajectory) -> scene, wave periods and start of a run that takes the place of the one that
-                 has ended, under its number; None: none does. So lanes stay full while runs are judged one by one
-    progress     callable(share of the time to simulate, of all runs that are known by now)
+    starts       one for each scene, as `start` of `simulate`
+    then         then(number, Trajectory) -> (scene, wave periods, start) of a run that follows the run that has ended,
+                 with the same number; None: no run follows. In this way lanes stay full while single runs are judged
+    progress     callable(simulated time of all runs over the time to simulate, as far as it is known)
     """
     from . import batch
 
     scenes = list(scenes)
     lengths = [periods] * len(scenes) if periods is None or isinstance(periods, int | float) else list(periods)
     starts = [None] * len(scenes) if starts is None else list(starts)
-    waiting: dict[object, deque] = {}  # by what scenes must share to go together; None: alone
+    waiting: dict[object, deque] = {}  # requests by `batch.kind_of` their scene; None: runs that go alone
     known_s = done_s = 0.0
 
     def add(number, scene, periods, start, duration_s=None):
@@ -91,37 +94,37 @@ def simulate_each(
 
     for number, (scene, length, start) in enumerate(zip(scenes, lengths, starts, strict=True)):
         add(number, scene, length, start, duration_s)
-    for kind, runs in waiting.items():  # the longest first, because lanes run empty while the last ones end
-        waiting[kind] = deque(sorted(runs, key=_work, reverse=True))
+    for kind, requests in waiting.items():  # the longest first, because lanes run empty while the last runs end
+        waiting[kind] = deque(sorted(requests, key=_work, reverse=True))
     while waiting:
         kind = max(waiting, key=lambda kind: len(waiting[kind]))
-        together = kind is not None and len(waiting[kind]) >= batch.LEAST
-        run_through = batch.run_through if together else _alone
-        for run, trajectory in run_through(waiting[kind], report):
-            done_s += run.duration_s
-            following = None if then is None else then(run.number, trajectory)
+        side_by_side = kind is not None and len(waiting[kind]) >= batch.LEAST
+        run_through = batch.run_through if side_by_side else _alone
+        for request, trajectory in run_through(waiting[kind], report):
+            done_s += request.duration_s
+            following = None if then is None else then(request.number, trajectory)
             if following is not None:
-                add(run.number, *following)
-            yield run.number, trajectory
+                add(request.number, *following)
+            yield request.number, trajectory
         if not waiting[kind]:
             del waiting[kind]
 
 
-def _work(run: object) -> float:
-    """How long a run takes beside others, about."""
-    return run.duration_s * run.scene.solver.rtol**-0.25
+def _work(request: object) -> float:
+    """A rough measure of the computing time of a run, to compare it with others."""
+    return request.duration_s * request.scene.solver.rtol**-0.25
 
 
 def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Trajectory]]:
-    """The first run of those that wait, by itself; progress: callable(seconds simulated)."""
-    waited = waiting.popleft()
-    scene, duration_s = waited.scene, waited.duration_s
+    """Do the first of the waiting runs by itself; progress: callable(seconds simulated)."""
+    request = waiting.popleft()
+    scene, duration_s = request.scene, request.duration_s
     if scene.solver.scheme == "paper-box":
         from ..paper_box import driver
 
-        yield waited, driver.run(scene, duration_s, lambda share: progress(share * duration_s))
+        yield request, driver.run(scene, duration_s, lambda share: progress(share * duration_s))
         return
-    run = Run(scene, duration_s, waited.start)
+    run = Run(scene, duration_s, request.start)
     run.compile()
     chunk, earlier_s = 1, 0.0
     while not run.done():
@@ -129,10 +132,11 @@ def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Traject
         call_s, earlier_s = run.wall_s - earlier_s, run.wall_s
         chunk = max(1, min(MOST_SAMPLES, int(chunk * min(2.0, CALL_S / max(call_s, 1e-9)))))
         progress(run.fraction() * duration_s)
-    yield waited, run.trajectory()
+    yield request, run.trajectory()
 
 
 def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> float:
+    """The length of a run in s. Raises ValueError for a length that is missing, given twice, or impossible."""
     if (periods is None) == (duration_s is None):
         raise ValueError("give exactly one of periods and duration_s")
     if periods is not None:

@@ -1,9 +1,9 @@
-"""What is simulated, as frozen pydantic models: sections of a scene with their units, defaults and bounds.
+"""A scene as frozen pydantic models: its sections, with the unit, the default and the bounds of every key.
 
-Lengths from the anchor, x with the wave, y across, z up; SI units throughout. Every key is declared once, here or in
-`sections`: its type and bounds (`values`), default, meaning, symbol, and its place in the paper.
-docs/scene_keys.md and the scene table of every report are made from these declarations (`reference`). Rules between
-values are in `rules`.
+Places are measured from the anchor: x in the direction of the waves, y across, z up. All units are SI. Every key is
+declared once, here or in `sections`, with its type and bounds (`values`), default, meaning, symbol, and place in the
+paper. docs/scene_keys.md and the scene table of every report are made from these declarations (`reference`). Rules
+that connect several keys are in `rules`.
 """
 
 import hashlib
@@ -43,13 +43,13 @@ class Motion(Section):
 
 
 class Start(Section):
-    """What disturbs the static equilibrium at t = 0; not used by a run that goes on from another (`simulate`)."""
+    """The disturbance of the static equilibrium at t = 0. A run that goes on from another run does not use it."""
 
     buoy_velocity_mps: Vector = described(
-        "velocity of the buoy at t = 0; along the line in proportion to s", (0.0, 0.0, 0.0), paper="section 4.2"
+        "velocity of the buoy at t = 0; that of the line is in proportion to s", (0.0, 0.0, 0.0), paper="section 4.2"
     )
     buoy_displacement_m: Vector = described(
-        "displacement of the buoy at t = 0 from its place at rest, held there in static equilibrium and let go",
+        "displacement of the buoy from its place at rest; there it is held in equilibrium, and let go at t = 0",
         (0.0, 0.0, 0.0),
     )
 
@@ -62,7 +62,7 @@ class ShockViscosity(Section):
 
 
 class Solver(Section):
-    """Discretisation in time and its limits."""
+    """The discretisation in time, and its limits."""
 
     scheme: Literal["conservation", "paper-box"] = described(
         "form of the equations; conservation: fixed axes, paper-box: eq. (28) as printed",
@@ -74,11 +74,12 @@ class Solver(Section):
     )
     rtol: Tolerance = described("tolerance of the step control", 0.03)
     step_s: Positive | None = described(
-        "fixed step; by default controlled by rtol, or of methods of fixed steps a 400th of what drives",
+        "fixed step; by default rtol controls the step; a method that needs fixed steps takes 1/400 of the shortest "
+        "period of waves and moved end",
         None,
     )
     courant: Positive | None = described(
-        "fixed step as this times (shortest element)/(fastest axial wave)", None, paper="(29)"
+        "fixed step as a multiple of (shortest element)/(speed of the fastest axial wave)", None, paper="(29)"
     )
     shock_viscosity: ShockViscosity | None = described(
         "internal viscosity confined to shocks; by default none", None, paper="section 4.1"
@@ -86,30 +87,32 @@ class Solver(Section):
     max_step_s: Positive = described("longest step", 0.1)
     min_step_s: Positive = described("shortest step, below which the run ends as step-underflow", 1e-9)
     newton_tolerance: Tolerance | None = described("tolerance of the scaled Newton update; by default rtol/100", None)
-    max_newton_iterations: Count = described("Newton iterations after which a step is cut", 12)
+    max_newton_iterations: Count = described("number of Newton iterations after which a step is shortened", 12)
     shortest_period_s: Positive | None = described(
-        "axial ringing of shorter periods is damped, and the run says how much; by default a fiftieth of max_step_s",
+        "axial ringing of shorter periods is damped, and `message` says how much; by default max_step_s/50",
         None,
     )
-    growth_per_step: Positive = described("e-folds that the fastest buckle may grow in one adaptive step", 2.0)
+    growth_per_step: Positive = described("e-folds by which the fastest buckle may grow in one adaptive step", 2.0)
     spectral_radius: UnitInterval = described("spectral radius of generalized-alpha at infinite frequency", 0.5)
-    loop_release: Flag = described("release of a loop that is pulled tight in a plane", True)
+    loop_release: Flag = described("whether a loop that is pulled tight in a plane is released", True)
     max_loop_releases: CountOrZero = described("loop releases after which the run ends", 100000)
 
 
 class Output(Section):
-    """What is kept: even samples, and profiles along the line where asked for."""
+    """The results that a run keeps: even samples and, if wanted, profiles along the line."""
 
     step_s: Positive | None = described("step of the even samples; by default T_i/100, 0.05 s without waves", None)
-    profiles: Flag = described("profiles along the line are kept", False)
+    profiles: Flag = described("whether profiles along the line are kept", False)
     profiles_step_s: Positive | None = described("step of the profiles; by default step_s", None)
-    energy: Flag = described("energy budget of a dry line is kept", False)
-    tangent_vectors: CountOrZero = described("perturbations carried along: as many Lyapunov exponents", 0, paper="(32)")
-    lateral_growth: Flag = described("a perturbation across the plane is carried along", False, paper="figure 20")
+    energy: Flag = described("whether the energy budget of a dry line is kept", False)
+    tangent_vectors: CountOrZero = described(
+        "number of perturbations that a run carries; each gives a Lyapunov exponent", 0, paper="(32)"
+    )
+    lateral_growth: Flag = described("whether a run carries a perturbation across the plane", False, paper="figure 20")
 
 
 class Scene(Section):
-    """One complete, validated description of what is simulated.
+    """The complete, validated description of a run.
 
     A section that is None is absent from the physics: no water, no waves, no current, no buoy. `Scene(...)` raises
     pydantic's ValidationError; `load_scene` and `build_scene` raise SceneError, which lists every fault.
@@ -124,7 +127,7 @@ class Scene(Section):
     buoy: Buoy | None = None
     water: Water | None = None
     waves: Waves | None = None
-    floor: Floor | None = described("what the bed does to a line that lies on it; by default nothing", None)
+    floor: Floor | None = described("forces of the bed on a line that lies on it; by default none", None)
     current: Current | None = described("velocity of the current", None, symbol="U_c", paper="(24)")
     motion: Motion = Motion()
     start: Start = Start()
@@ -145,17 +148,16 @@ class Scene(Section):
         return self.waves.period_s / 100.0 if self.waves is not None else 0.05
 
     def as_dict(self) -> dict[str, object]:
-        """Every value as plain dicts, lists and numbers; absent options left out, a derived diameter left to be
-        derived.
-        """
+        """Every value as plain dicts, lists and numbers, without absent options and without a derived diameter."""
         plain = self.model_dump(mode="json", exclude_none=True)
         if self.tether.diameter_m == math.sqrt(4.0 * self.tether.area_m2 / math.pi):
             del plain["tether"]["diameter_m"]
         return plain
 
     def to_toml(self) -> str:
-        """The scene as TOML text with every default written out that does not follow from other values;
-        `scene_from_toml` and `load_scene` give back an equal scene.
+        """The scene as TOML text, with all defaults except those that follow from other values.
+
+        `scene_from_toml` and `load_scene` make an equal scene of it.
         """
         plain = self.as_dict()
         waves = plain.get("waves", {})
@@ -164,7 +166,7 @@ class Scene(Section):
         return tomli_w.dumps(plain)
 
     def key(self) -> str:
-        """SHA-256 (hex) of the canonical JSON of every value: equal scenes, equal keys, on any machine."""
+        """SHA-256 (hex) of the canonical JSON of every value. Equal scenes have equal keys on every machine."""
         canonical = json.dumps(self.model_dump(mode="json"), sort_keys=True, separators=(",", ":"), allow_nan=False)
         return hashlib.sha256(canonical.encode()).hexdigest()
 
@@ -172,9 +174,9 @@ class Scene(Section):
 def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> Scene:
     """A validated Scene from plain dicts and lists.
 
-    raw: sections as in a scene file. extra_faults: faults found by the caller before, reported together with those
-    found here. Raises SceneError listing every fault: those of single values, and those between values wherever the
-    values are sound.
+    raw: sections as in a scene file. extra_faults: faults that the caller has already found; they are reported together
+    with those of the scene. Raises SceneError with every fault of a single value, and with every contradiction between
+    values that are sound by themselves.
     """
     if too_deep(raw):
         raise SceneError((*extra_faults, f"scene: {TOO_DEEP}"))

@@ -21,12 +21,14 @@ from engine.scene.models import Scene
 
 HEAD = """# Keys of a scene
 
-Made by `python -m engine.scene.reference > docs/scene_keys.md` from the model that checks scenes; a test fails where
-this page is stale. A scene is a TOML file, or a shipped one with changes: `--set water.depth_m=22.5` on a command line,
-`load_scene("tethered_buoy", {"water.depth_m": 22.5})` in Python. SI units; x with the waves, y across, z up from the
-bed, the anchor at the origin. A section that may be left out is absent from the physics without it. Numbers are finite,
-at most 1e+30 in size, and 0 or at least 1e-30 where the sign is restricted. The last column is the place in the paper:
-a number in brackets is an equation.
+The command `python -m engine.scene.reference > docs/scene_keys.md` makes this page from the model that checks scenes. A
+test fails if the page is stale.
+
+A scene is a TOML file, or a shipped scene with changes: `--set water.depth_m=22.5` on a command line,
+`load_scene("tethered_buoy", {"water.depth_m": 22.5})` in Python. All units are SI. x points in the direction of the
+waves, y across them, z up. Places are measured from the anchor, heights from the bed. If an optional section is left
+out, its physics is left out of the run. Numbers are finite and at most 1e+30 in size; a number whose sign is restricted
+is 0 or at least 1e-30 in size. The last column is the place in the paper; a number in brackets is an equation.
 """
 ON_THE_PAGE = {  # what every number has in common is told once, above
     "a finite number above 0, 1e-30 to 1e+30": "> 0",

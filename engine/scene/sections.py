@@ -35,61 +35,66 @@ class Tether(Section):
     length_m: Positive = described("unstretched length", symbol="l_0", paper="Table 1")
     area_m2: Positive = described("unstretched cross-sectional area", symbol="A", paper="Table 1, (10)")
     density_kgpm3: Positive = described(
-        "density of the material; m = density times area", symbol="rho", paper="Table 1, (9)"
+        "density of the material; density times area is the mass per length m", symbol="rho", paper="Table 1, (9)"
     )
     diameter_m: Positive = described(
-        "unstretched diameter; by default that of a circle of the area",
+        "unstretched diameter; by default the diameter of a circle of area_m2",
         symbol="d",
         paper="(24)",
         default_factory=lambda known: math.sqrt(4.0 * known["area_m2"] / math.pi),
     )
     nodes: Nodes = described("nodes of the grid, both ends included", 41, symbol="n_p", paper="section 3")
     grid_stretching: Stretching = described(
-        "stretching of the grid; 0: equal elements, above: finer towards an end", 0.0, paper="section 3"
+        "stretching of the grid; 0: equal elements; above 0: shorter elements towards an end", 0.0, paper="section 3"
     )
     grid_refined: Literal["both", "lower", "upper"] = described(
         "end towards which stretching refines the grid", "both", paper="section 3"
     )
     bending_stiffness_Nm2: NonNegative = described(
-        "bending stiffness; with 0 a slack line is ill-posed", symbol="EI", paper="(14), (15)"
+        "bending stiffness; with 0 the equations of a slack line are ill-posed", symbol="EI", paper="(14), (15)"
     )
     torsion_stiffness_Nm2: NonNegative = described(
         "torsion stiffness; has no effect on a motion in a plane", 0.0, symbol="GI_p", paper="(13)"
     )
-    drag_normal: NonNegative = described("normal drag coefficient, on the diameter", 1.0, symbol="C_dp", paper="(24)")
+    drag_normal: NonNegative = described(
+        "drag coefficient across the line; the area per length is the diameter", 1.0, symbol="C_dp", paper="(24)"
+    )
     drag_tangential: NonNegative = described(
-        "tangential drag coefficient, on pi times the diameter", 0.1, symbol="C_dt", paper="(24)"
+        "drag coefficient along the line; the area per length is pi times the diameter",
+        0.1,
+        symbol="C_dt",
+        paper="(24)",
     )
     drag: DragLaw | None = described(
-        "drag law: how both coefficients, the largest, fall with the speed; by default they do not",
+        "law by which the two drag coefficients above fall with the speed; by default they are constant",
         None,
         paper="(24)",
     )
-    added_mass: NonNegative = described("normal added mass over rho_w pi d^2/4", 1.0, paper="(24)")
-    tension: TensionLaw = described("tension law", symbol="T = f(eps)", paper="(20)")
+    added_mass: NonNegative = described("added mass across the line, divided by rho_w pi d^2/4", 1.0, paper="(24)")
+    tension: TensionLaw = described("tension as a function of the strain", symbol="T = f(eps)", paper="(20)")
     compression_barrier_N: NonNegative = described(
         "barrier: T loses P_b (0.5/(1 + eps) - 1)^2 below a strain of -1/2", 0.0, symbol="P_b"
     )
     damping_Ns: NonNegative | None = described("material damping: T gains c times the rate of strain", None, symbol="c")
     damping_critical: NonNegative | None = described(
-        "material damping as a share of the critical one of an element, c = share l sqrt(T' m)", None, symbol="zeta"
+        "material damping as a share of the critical damping of an element of mean length l: c = share l sqrt(T' m)",
+        None,
+        symbol="zeta",
     )
     froude_krylov: Literal["normal", "whole"] = described(
-        "push of the undisturbed water, rho_w pi d^2/4 U_w,t: its part across the line, or the whole",
+        "force of the undisturbed water, rho_w pi d^2/4 U_w,t: only its part across the line, or the whole force",
         "normal",
         paper="(24)",
     )
     submergence: Literal["full", "free-surface"] = described(
-        "part on which the water acts: the whole line, or what is below the wave", "full"
+        "part of the line on which the water acts: the whole line, or the part below the wave", "full"
     )
 
 
 class Anchor(Section):
     """The lower end: fixed in place; free to rotate, or clamped in a direction (three dimensions only)."""
 
-    position_m: Vector = described(
-        "place of the lower end, z its height above the bed; every other place is told from there", (0.0, 0.0, 0.0)
-    )
+    position_m: Vector = described("place of the lower end; z is its height above the bed", (0.0, 0.0, 0.0))
     rotation: Literal["pinned", "clamped"] = described(
         "rotation of the lower end: free, or clamped (three dimensions)", "pinned", paper="section 2.5"
     )
@@ -101,10 +106,16 @@ class Anchor(Section):
 class Floor(Section):
     """The bed, z = 0: stiffness and damping of an area of contact as wide as the line, and friction."""
 
-    stiffness_Npm3: Positive = described("stiffness of the bed an area, on the diameter of the line", symbol="k")
-    damping_Nspm3: NonNegative = described("damping of the bed an area, while the line sinks into it", 0.0, symbol="c")
+    stiffness_Npm3: Positive = described(
+        "stiffness of the bed per area of contact; the contact is as wide as the line", symbol="k"
+    )
+    damping_Nspm3: NonNegative = described(
+        "damping of the bed per area of contact, while the line sinks into the bed", 0.0, symbol="c"
+    )
     friction: NonNegative = described("coefficient of Coulomb's friction", 0.0, symbol="mu")
-    friction_speed_mps: Positive = described("speed over which friction builds up", 0.01, symbol="v_s")
+    friction_speed_mps: Positive = described(
+        "sliding speed at which friction reaches 71 % of its full size", 0.01, symbol="v_s"
+    )
 
 
 class HarmonicMotion(Section):
@@ -115,7 +126,7 @@ class HarmonicMotion(Section):
     period_s: Positive = described("harmonic, circular: period")
     phase_rad: Number = described("harmonic, circular: phase", 0.0)
     ramp_s: NonNegative = described(
-        "harmonic, circular: time of the ramp r = sin^2(pi t/(2 ramp)); 0: no ramp (harmonic only)", 0.0
+        "harmonic, circular: duration of the ramp r = sin^2(pi t/(2 ramp)); 0: no ramp (harmonic only)", 0.0
     )
 
 
@@ -126,15 +137,17 @@ class CircularMotion(Section):
     radius_m: Positive = described("circular: radius of r(t) (cos, -sin)(2 pi t/period + phase) in x and z", symbol="R")
     period_s: Positive = described("circular: period, from +x down")
     phase_rad: Number = described("circular: phase", 0.0)
-    ramp_s: Positive = described("circular: time of the ramp r = sin^2(pi t/(2 ramp)), which begins at the centre")
+    ramp_s: Positive = described("circular: duration of the ramp r = sin^2(pi t/(2 ramp)), which begins at the centre")
 
 
 class TableMotion(Section):
     """A held end is moved through displacements at times, by a monotone cubic (PCHIP) that starts and ends at rest."""
 
     law: Literal["table"]
-    time_s: Series = described("table: times, increasing; at rest before the first and after the last")
-    displacement_m: Vectors = described("table: displacements, the first zero, joined by monotone cubics")
+    time_s: Series = described("table: times, increasing; the end is at rest before the first and after the last")
+    displacement_m: Vectors = described(
+        "table: displacements at these times, joined by monotone cubics; the first is zero"
+    )
 
 
 class End(Section):
@@ -168,10 +181,10 @@ class End(Section):
         "direction of the clamped tangent; by default along the line from the anchor", None
     )
     twist_rad: Number | None = described(
-        "turn of the upper clamp about its tangent against the lower clamp", None, symbol="R"
+        "turn of the upper clamp about its tangent, relative to the lower clamp", None, symbol="R"
     )
     twist_ramp_s: NonNegative | None = described(
-        "time in which the twist is put in, as sin^2; 0: there from the start", None
+        "time in which the twist grows from zero, as sin^2; 0: the whole twist from t = 0", None
     )
 
 
@@ -185,12 +198,12 @@ class Buoy(Section):
     diameter_m: Positive = described("diameter of the sphere", symbol="D", paper="Table 1, (30)")
     mass_kg: Positive = described("mass", symbol="M", paper="Table 1, (30)")
     added_mass_kg: NonNegative = described("added mass", symbol="M_a", paper="Table 1, (30)")
-    drag: NonNegative = described("drag coefficient, on pi D^2/4", symbol="C_d", paper="(30)")
+    drag: NonNegative = described("drag coefficient; the area is pi D^2/4", symbol="C_d", paper="(30)")
     submergence: Literal["full", "spherical-cap"] = described(
-        "part on which the water acts: the whole sphere, or its cap below the wave", "full", paper="(30)"
+        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave", "full", paper="(30)"
     )
     impact_loss: UnitInterval = described(
-        "spherical-cap: share of the energy of an impact on the water lost in spray", 0.0, paper="(30)"
+        "spherical-cap: share of the energy of an impact on the water that is lost in spray", 0.0, paper="(30)"
     )
 
 
@@ -225,7 +238,7 @@ class Jonswap(Section):
         "peak enhancement; 1: the spectrum of Pierson and Moskowitz", 3.3, symbol="gamma"
     )
     components: Components = described("number of waves that the sea is made of", 64)
-    seed: CountOrZero = described("seed of frequencies and phases: the same seed gives the same sea", 0)
+    seed: CountOrZero = described("seed of the random frequencies and phases; the same seed gives the same sea", 0)
 
 
 def above_by_default(waves: dict[str, object]) -> str:
@@ -246,13 +259,13 @@ class Waves(Section):
         "period; of an irregular sea the peak period, in which runs are counted", symbol="T_i", paper="section 4.2"
     )
     steepness: NonNegative | None = described(
-        "steepness kA of a regular wave; this, or amplitude_m, components or jonswap",
+        "steepness kA of a regular wave; give one of steepness, amplitude_m, components and jonswap",
         None,
         symbol="kA",
         paper="section 4.2",
     )
     amplitude_m: NonNegative | None = described("amplitude of a regular wave", None, symbol="A", paper="section 4.2.1")
-    ramp_s: NonNegative = described("time in which the waves grow, as sin^2; 0: full from t = 0", 0.0)
+    ramp_s: NonNegative = described("time in which the waves grow from zero, as sin^2; 0: full waves from t = 0", 0.0)
     phase_rad: Number = described("phase, added to k x - omega t", 0.0)
     direction_rad: Number = described("direction of travel, from +x to +y", 0.0, symbol="a", paper="figure 8")
     components: WaveComponents | None = described(
@@ -262,7 +275,7 @@ class Waves(Section):
         "an irregular sea drawn from the JONSWAP spectrum, with its peak at period_s", None
     )
     above_still_water: Literal["extrapolate", "zero", "wheeler"] = described(
-        "meaning of the linear kinematics above still water; by default extrapolate, in an irregular sea zero",
+        "motion of the water above still water; by default extrapolate, in an irregular sea zero",
         default_factory=above_by_default,
     )
 

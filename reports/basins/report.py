@@ -11,7 +11,7 @@ from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
-from ..parts.columns import LONGEST, shown_on, table_of
+from ..parts.columns import LONGEST_CELL, shown_on, table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import limits, report_page
@@ -109,7 +109,7 @@ def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] |
 
 def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
     yield Heading("Motions")
-    shown = shown_on(part.columns, motions, RUNS, REGIMES, longest=LONGEST)
+    shown = shown_on(part.columns, motions, RUNS, REGIMES, longest=LONGEST_CELL)
     for names in batched([name for name in shown if name not in ("steepness", "motion")], _MOST):
         yield table_of(part.columns, ["motion", *names], motions, _JUDGED, {"share": of_kicks})
     for row in motions:

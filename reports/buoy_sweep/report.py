@@ -1,4 +1,4 @@
-"""The report of `campaigns.buoy_sweep`: what is said, in which order. Everything comes from the campaign's folder."""
+"""The report of `campaigns.buoy_sweep`: its parts in their order. All data come from the folder of the campaign."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -22,10 +22,10 @@ _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
     "buoy_lateral_max_m",
 )  # fmt: skip
-_OF_THESE = "Least and greatest value in the runs that ended as asked."
-_RESOLVED_RAD = 0.5 * math.pi  # turn of one element beyond which a loop is no longer resolved
-Limit = tuple[str, Sequence[Run]]  # what limits runs, and these runs
-_NOTHING = (
+_EXTREMES_CAPTION = "Least and greatest value in the runs that ended as asked."
+_LARGEST_RESOLVED_TURN_RAD = 0.5 * math.pi  # in one element; the loops of a run with a larger turn are not resolved
+Limit = tuple[str, Sequence[Run]]  # a limitation in words, and the runs that it concerns
+_NO_LIMITS = (
     "No run failed, no loop was released, the buoy stayed in the water, tensions hold to 5 %, and every record "
     "lasts for eq. (31)."
 )
@@ -60,28 +60,28 @@ def _question(sweep: Sweep) -> list[Item]:
         keys.append(columns["motion"])
     items: list[Item] = [
         *section_items("buoy_sweep", "Question"),
-        *extremes(keys, rows_of(sweep.good), shown, _OF_THESE),
+        *extremes(keys, rows_of(sweep.good), shown, _EXTREMES_CAPTION),
     ]
     if sweep.judged:
         return items
     reason = (
-        "No run was judged. Without `--periods` runs last as long as their regime needs; with it, 135 wave periods are "
-        "the least, and perturbations have to be carried (`output.tangent_vectors`)."
+        "No run was judged. Without `--periods` runs last as long as their regime needs. With `--periods` a run needs "
+        "at least 135 wave periods and has to carry perturbations (`output.tangent_vectors`)."
     )
     return [*items, Notice("note", "No verdict on regular or chaotic motion", (reason,))]
 
 
 def warnings(sweep: Sweep) -> Notice:
-    """Everything that limits what the sweep may be used for; a plain note when there is nothing."""
+    """All limitations of the use of the sweep; a plain note if there are none."""
     lines = []
     for text, runs in (*_failures(sweep), *_numerical_limits(sweep), *_physical_limits(sweep)):
         if runs:
             lines.append(f"{text}: {sweep.at(runs)}.")
-    return limits("What limits these runs", lines, _NOTHING)
+    return limits("What limits these runs", lines, _NO_LIMITS)
 
 
 def _failures(sweep: Sweep) -> Iterator[Limit]:
-    """The runs that ended early, one limit for each status, and those whose trajectory cannot be read."""
+    """The runs that ended early, one limit for each status, and the runs whose trajectory cannot be read."""
     by_status: dict[str, list[Run]] = {}
     for run in reversed(sweep.runs):
         if not run.ok:
@@ -91,17 +91,18 @@ def _failures(sweep: Sweep) -> Iterator[Limit]:
         yield f"{status}; the first after {number(runs[0].periods_done, 3)} periods: {message}", runs
     unread = sweep.runs_with(lambda run: run.fault)
     if unread:
-        yield f"{unread[0].fault} (of the first); figures and strobed values leave such runs out", unread
+        yield f"{unread[0].fault} (the first of these runs); figures and strobed values leave such runs out", unread
 
 
 def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
-    """The runs whose loops, tensions or motions the grid and the steps do not resolve."""
-    text = (
-        "loops were released; a rope free to leave the plane does not need it (`--dimensions auto`), see “Out of the "
-    )
-    yield f"{text}plane”", sweep.runs_with(lambda run: run["loop_releases"] > 0)
+    """The runs whose loops, tensions or motion are not resolved by the grid and the steps."""
     yield (
-        "axial ringing of the line is not resolved; column message says how far tensions hold, and when",
+        "loops were released; a rope that can leave the plane needs no release (`--dimensions auto`), see “Out of the "
+        "plane”",
+        sweep.runs_with(lambda run: run["loop_releases"] > 0),
+    )
+    yield (
+        "axial ringing of the line is not resolved; the column message says how far and when tensions hold",
         sweep.runs_with(lambda run: "not resolved" in (run["message"] or "")),
     )
     yield (
@@ -109,21 +110,21 @@ def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
         sweep.runs_with(lambda run: run["tension_top_max_error_N"] > COARSE * run["tension_top_max_N"]),
     )
     yield (
-        "nothing is known of the error of the largest tension (column ± T_max)",
+        "the error of the largest tension is not known (column ± T_max)",
         sweep.runs_with(lambda run: run.ok and not run.known("tension_top_max_error_N")),
     )
     yield (
-        "with smaller elements and steps the motion becomes another one (column message)",
+        "with smaller elements and steps the run ends in another motion (column message)",
         sweep.runs_with(lambda run: OTHER_MOTION in (run["message"] or "")),
     )
     yield (
-        "in three dimensions an element turns by more than π/2: its loops are not resolved, add `tether.nodes`",
-        sweep.runs_with(lambda run: run.in_space and run["max_turn_rad"] > _RESOLVED_RAD),
+        "in three dimensions an element turns by more than π/2: loops are not resolved, so use more `tether.nodes`",
+        sweep.runs_with(lambda run: run.in_space and run["max_turn_rad"] > _LARGEST_RESOLVED_TURN_RAD),
     )
 
 
 def _physical_limits(sweep: Sweep) -> Iterator[Limit]:
-    """The runs whose buoy leaves the water, and those too short for the paper's spectrum."""
+    """The runs whose buoy leaves the water, and the runs that are too short for the spectrum of the paper."""
     scene = sweep.folder.scene
     strain = sweep.modes.static_strain if sweep.modes else -1.0
     dry_m = scene.anchor.position_m[2] + scene.tether.length_m * (1.0 + strain)
@@ -134,13 +135,13 @@ def _physical_limits(sweep: Sweep) -> Iterator[Limit]:
     height_m = series(rows_of(flying), "max_buoy_height_above_water_m").max(initial=0.0) - scene.buoy.diameter_m
     yield (
         f"the whole sphere rises above still water, its lowest point by up to {decimals(height_m, 2)} m. There "
-        f"`buoy.submergence` = {scene.buoy.submergence} and `waves.above_still_water` = "
-        f"{scene.waves.above_still_water} matter",
+        f"the choice of `buoy.submergence` = {scene.buoy.submergence} and `waves.above_still_water` = "
+        f"{scene.waves.above_still_water} decides the motion",
         flying,
     )
     window = sum(PAPER_WINDOW)
     yield (
         f"shorter than the {window} wave periods of eq. (31) with {TAU_0} = {PAPER_WINDOW[0]} {T_I} and "
-        f"n = {PAPER_WINDOW[1]}: spectra are of the last half of the record, and hold more of the transient",
+        f"n = {PAPER_WINDOW[1]}: their spectra use the last half of the record, which has more of the transient",
         sweep.runs_with(lambda run: run.ok and run.periods_done < window - 1e-6),
     )

@@ -6,7 +6,7 @@ import numpy as np
 
 from tables import EMPTY, PLANE, RUNS, decimals, listed, number, of_kicks, percent, ranges
 
-from ..parts.columns import LONGEST, shown_on, table_of
+from ..parts.columns import LONGEST_CELL, shown_on, table_of
 from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
@@ -48,7 +48,7 @@ def _period(row: Mapping[str, object]) -> str:
 def runs_items(sweep: Sweep) -> list[Item]:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = sweep.folder.columns
-    names = shown_on(columns, rows_of(sweep.runs), RUNS, longest=LONGEST)
+    names = shown_on(columns, rows_of(sweep.runs), RUNS, longest=LONGEST_CELL)
     names = [name for name in names if name not in ("steepness", "motion")]
     if sweep.runs_with(lambda run: run.in_space):
         names.insert(0, "dimensions")

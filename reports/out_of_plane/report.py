@@ -6,14 +6,14 @@ from pathlib import Path
 
 from tables import COST, RUNS, count, listed, number
 
-from ..parts.columns import LONGEST, shown_on
+from ..parts.columns import LONGEST_CELL, shown_on
 from ..parts.content import Heading, Item, Notice, Report
 from ..parts.provenance import report_page, scene_items, timing_items
 from ..parts.sections import section_items
 from ..parts.selecting import entries
 from ..sweep.quantities import batched
 from . import sections
-from .runs import VARIED, Run, Study, of_bodies, read_study
+from .runs import VARIED, Run, Study, columns_of_bodies, read_study
 
 _MOST = 18  # columns of one table
 _RESOLVED_RAD = 0.5 * math.pi  # in one element
@@ -38,8 +38,8 @@ def report(directory: str | Path) -> Report:
 
 def _runs_tables(study: Study) -> Iterator[Item]:
     columns = study.folder.columns
-    named = [*VARIED[:-1], "periods", "status", *of_bodies("motion")]
-    others = shown_on(columns, [run.row for run in study.runs], RUNS, COST, longest=LONGEST)
+    named = [*VARIED[:-1], "periods", "status", *columns_of_bodies("motion")]
+    others = shown_on(columns, [run.row for run in study.runs], RUNS, COST, longest=LONGEST_CELL)
     for names in batched(list(dict.fromkeys([*named, *others])), _MOST):
         yield study.table(names, study.runs, "Every run.")
 

@@ -1,8 +1,7 @@
-"""The runs of the out-of-plane campaign as its report sees them: rows by what was varied, trajectories on demand."""
+"""The runs of the out-of-plane campaign for its report: rows by the quantities that were varied, and trajectories."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +33,7 @@ class Run(Row):
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """All rows, the values from which one thing at a time was varied, and the folder."""
+    """All runs of the folder. base: the values from which the campaign varied one quantity at a time."""
 
     folder: Folder
     runs: tuple[Run, ...]
@@ -42,8 +41,10 @@ class Study:
     transient: int
 
     def select(self, **wanted) -> list[Run]:
-        """Runs that ended as asked and are as the base but for `wanted`; None for a key that may have any value, in
-        rising order of it."""
+        """The runs that ended as asked, with the values `wanted` and otherwise those of the base.
+
+        A quantity whose wanted value is None may have any value, and the runs are sorted by it.
+        """
         keys = {**self.base, **wanted}
         fixed, free = {"status": "ok"}, []
         for key, entry in keys.items():
@@ -54,26 +55,29 @@ class Study:
         return sorted(having(self.runs, **fixed), key=lambda run: [run[key] for key in free])
 
     def over(self, **wanted) -> list[Run]:
-        """`select` at every steepness, the small wave first."""
+        """As `select`, at every steepness, in rising order."""
         return self.select(**{"steepness": None, **wanted})
 
     def loaded(self, runs: Sequence[Run]) -> list[tuple]:
-        """(run, its trajectory) of those whose trajectory is there and can be read."""
-        loaded = []
+        """(run, its trajectory) of the runs whose trajectory can be read."""
+        pairs = []
         for run in runs:
             trajectory, _ = self.folder.trajectory(run.row)
             if trajectory is not None:
-                loaded.append((run, trajectory))
-        return loaded
+                pairs.append((run, trajectory))
+        return pairs
 
     def table(self, names: Sequence[str], runs: Sequence[Run], caption: str) -> Table:
-        """A table of runs in the words of the dictionary."""
-        varied = {name: (lambda row, name=name: number(row[name])) for name in VARIED if name != "seed_direction"}
-        return table_of(self.folder.columns, names, list(map(attrgetter("row"), runs)), caption, varied)
+        """A table of the named columns of these runs; the varied numbers have four significant digits."""
+        varied_cells = {}
+        for name in VARIED:
+            if name != "seed_direction":
+                varied_cells[name] = lambda row, name=name: number(row[name])
+        return table_of(self.folder.columns, names, [run.row for run in runs], caption, varied_cells)
 
 
 def read_study(directory: str | Path) -> Study:
-    """The rows of the folder's table, and the base that its provenance names. Raises FolderError."""
+    """The runs of a folder, and the base that its provenance names. Raises FolderError."""
     folder = read_folder(directory, NEEDED)
     base = folder.provenance.get("base")
     if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
@@ -81,13 +85,13 @@ def read_study(directory: str | Path) -> Study:
     return Study(folder, tuple(map(Run, folder.table)), dict(base), int(folder.provenance["transient"]))
 
 
-def of_bodies(*names: str) -> list[str]:
-    """Columns of the buoy, then of the rope."""
+def columns_of_bodies(*names: str) -> list[str]:
+    """The names of these columns of the buoy and then of the rope, for instance "buoy_motion", "rope_motion"."""
     return [f"{body}_{name}" for body in BODIES for name in names]
 
 
 def envelope(trajectory, body: str) -> tuple[np.ndarray, np.ndarray]:
-    """Largest lateral distance in each wave period: (t/T_i (m,), m (m,))."""
+    """Largest lateral distance of a body in each of m wave periods: (time in wave periods (m,), distance in m (m,))."""
     from analysis import envelope_of
 
     period_s = trajectory.scene.waves.period_s

@@ -16,7 +16,7 @@ from ..parts.content import Bullets, Figure, Heading, Item, Text
 from ..parts.folder import read_columns
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.selecting import entries, having
-from .runs import Study, envelope, of_bodies
+from .runs import Study, columns_of_bodies, envelope
 
 _PAIRS = "pairs.csv"
 
@@ -30,7 +30,7 @@ def statement_items(study: Study) -> Iterator[Item]:
     yield Heading("The paper's statements on figure 20")
     yield Bullets(tuple(sentences))
     yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
-    names = of_bodies(
+    names = columns_of_bodies(
         "motion", "rate_bits_per_period", "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m"
     )
     yield study.table(["steepness", "depth_m", "seed_mps", *names], study.over(), "The two runs of figure 20.")
@@ -124,7 +124,7 @@ def dependence_items(study: Study) -> Iterator[Item]:
     picture = dependence(panels, "max $|y|$, second half (m)")
     yield Heading("Depth and bending stiffness")
     yield Figure(picture, caption, "Lateral motion of buoy and rope over the depth.")
-    bodies = of_bodies("motion", "rate_bits_per_period", "lateral_max_m")
+    bodies = columns_of_bodies("motion", "rate_bits_per_period", "lateral_max_m")
     bursts = ("rope_bursts", "rope_burst_median_m", "rope_share_of_inplane")
     limits = ("slack_fraction", "loop_releases", "max_turn_rad")
     names = ["steepness", "depth_m", "bending_stiffness_Nm2", *bodies, *bursts, *limits]

@@ -8,17 +8,18 @@ from .content import Head, Table
 
 Columns = Mapping[str, Column]  # of a table, by name
 Row = Mapping[str, object]
-LONGEST = 24  # letters of a cell in a table of runs; longer sentences stay in the table of the folder
-Cells = Mapping[str, Callable[[Row], str]]  # name -> cell of a row, in place of the entry in print
+LONGEST_CELL = 24  # letters; a column with longer cells is left out of a table of runs, and stays in table.csv
+Cells = Mapping[str, Callable[[Row], str]]  # name of a column -> the function of a row that gives its cell
 
 
 def table_of(
     columns: Columns, names: Iterable[str], rows: Iterable[Row], caption: str, own_cells: Cells | None = None
 ) -> Table:
-    """A table of the named columns: heads, units, digits and the explanation of the heads from the dictionary.
+    """A table of the named columns; `columns` has their heads, units, digits and meanings.
 
-    A value that has a column of errors is printed with it. caption: what the table shows, in front of the meanings.
-    Raises KeyError for a name that the dictionary does not have.
+    If a column of errors belongs to a value, the value is printed with its error. caption: the subject of the table;
+    the meanings of the columns follow it. own_cells: cells of some columns that replace the printed values. Raises
+    KeyError for a name that `columns` does not have.
     """
     cells = printed_cells(columns) | (own_cells or {})
     shown = [columns[name] for name in names]
@@ -26,7 +27,7 @@ def table_of(
     for column in shown:
         heads.append(Head(column.head, column.unit, "left" if column.digits is None else "right"))
         if column.meaning:
-            meanings[f"{column.head}: {column.meaning}"] = None  # each once, in their order
+            meanings[f"{column.head}: {column.meaning}"] = None  # a dictionary: each meaning once, in order
     body = []
     for row in rows:
         body.append(tuple(cells[column.name](row) for column in shown))
@@ -35,7 +36,7 @@ def table_of(
 
 
 def printed_cells(columns: Columns) -> dict[str, Callable[[Row], str]]:
-    """Of each column the function of a row that gives its cell: "−0.039 ± 0.003" where another has the errors."""
+    """For each column the function of a row that gives its cell; "−0.039 ± 0.003" if the column has errors."""
     errors, cells = errors_of(columns), {}
     for name, column in columns.items():
         cells[name] = plus_minus(column, columns[errors[name]]) if name in errors else column.cell
@@ -43,6 +44,8 @@ def printed_cells(columns: Columns) -> dict[str, Callable[[Row], str]]:
 
 
 def plus_minus(column: Column, error: Column) -> Callable[[Row], str]:
+    """The function of a row that gives the value of `column` with its `error`; an empty value has no error."""
+
     def cell(row: Row) -> str:
         text = column.cell(row)
         return text if text == EMPTY else f"{text}\u00a0±\u00a0{error.cell(row)}"
@@ -51,9 +54,10 @@ def plus_minus(column: Column, error: Column) -> Callable[[Row], str]:
 
 
 def shown_on(columns: Columns, rows: Sequence[Row], *pages: str, longest: int | None = None) -> list[str]:
-    """The columns of these pages, of all without one, that say something in some row; errors stand beside their values.
+    """The names of the columns on these pages (without pages: of all) that are filled in at least one row.
 
-    longest: letters of a cell; sentences beyond that stay in the table.
+    Columns of errors are left out, because errors are printed with their values. longest: letters of a cell; a column
+    with a longer cell is left out.
     """
     errors, cells, names = set(errors_of(columns).values()), printed_cells(columns), []
     for name, column in columns.items():

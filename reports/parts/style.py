@@ -1,7 +1,8 @@
-"""How every figure looks, and why its bytes repeat: Okabe & Ito's palette safe for all colour vision, white paper.
+"""The look of every figure: white paper, and the colours of Okabe & Ito, which colour-blind readers can tell apart.
 
-`sheet` opens a figure under the settings of `templates/report.mplstyle` alone (a reader's own matplotlibrc does not
-count); `picture_of` closes it.
+`sheet` opens a figure with the settings of `templates/report.mplstyle` alone; the matplotlibrc of the user has no
+effect. `picture_of` turns the figure into bytes. The same data give the same bytes on every machine, because the
+settings are fixed and the bytes have no date.
 """
 
 import io
@@ -17,29 +18,28 @@ from .content import Picture
 
 WIDTH_IN = 6.8  # the text width of the PDF page
 DOTS_PER_INCH = 200
-MOVING_DOTS_PER_INCH, MOVING_COLOURS, MOST_FRAMES = 90, 64, 48  # of a drawing that moves
-MANY_POINTS = 6000  # above this a scatter is smaller and opens faster as pixels
+MOVING_DOTS_PER_INCH, MOVING_COLOURS, MOST_FRAMES = 90, 64, 48  # of a GIF
+MOST_VECTOR_POINTS = 6000  # a scatter of more points is smaller, and opens faster, as pixels
 
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"
 
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
 INK, SOFT, GRID = _SETTINGS["text.color"], _SETTINGS["axes.edgecolor"], _SETTINGS["grid.color"]
-# of the words of the analysis, in every diagram and map; all periods share one
+# colours of the regimes, in every diagram and map; all periods share the colour of "period-"
 REGIME_COLOURS = {
     "period-": BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
 }  # fmt: skip
-MAP_PERIODS = ("#a9d3ee", BLUE, "#00365c")  # of periods 1, 2, and more, on a map
-SHADES = ("#f7f1e6", "#eee0c8")  # of ranges that a reader should know of, the later over the earlier
+MAP_PERIODS = ("#a9d3ee", BLUE, "#00365c")  # colours of period 1, period 2, and longer periods on a map
+SHADES = ("#f7f1e6", "#eee0c8")  # colours of ranges on an axis; the second is drawn over the first
 
 
 @contextmanager
 def sheet(height_in: float, width_in: float | None = None) -> Iterator[Figure]:
-    """A blank figure of the given height; what is drawn inside the block has the report's look.
+    """A blank figure of the given height; everything drawn inside the block has the look of the report.
 
-    width_in: of one that says itself where its panels stand; None: of the report's width, laid out by matplotlib.
-
-    The matplotlib settings of the caller are back when the block ends.
+    width_in: width of a figure whose caller places the panels. None: the figure is as wide as the page, and matplotlib
+    places the panels. When the block ends, the matplotlib settings of the caller are back.
     """
     layout = None if width_in else "constrained"
     with matplotlib.rc_context():
@@ -49,7 +49,7 @@ def sheet(height_in: float, width_in: float | None = None) -> Iterator[Figure]:
 
 
 def picture_of(figure: Figure, kind: str = "svg") -> Picture:
-    """The drawing as bytes, free of dates and program names; call it inside the `sheet` block."""
+    """The figure as bytes, without date and program name; call it inside the `sheet` block."""
     target = io.BytesIO()
     metadata = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
     figure.savefig(target, format=kind, dpi=DOTS_PER_INCH, metadata=metadata)
@@ -57,15 +57,16 @@ def picture_of(figure: Figure, kind: str = "svg") -> Picture:
 
 
 def kind_for(points: int) -> str:
-    """ "svg" for a drawing of few marks, "png" for one of many."""
-    return "png" if points > MANY_POINTS else "svg"
+    """The format of a figure with so many points: "svg" up to MOST_VECTOR_POINTS, then "png"."""
+    return "png" if points > MOST_VECTOR_POINTS else "svg"
 
 
 def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[int], None], per_second: int) -> Picture:
-    """A GIF of so many frames: `show(k)` changes the `artists`, which alone are drawn again for frame k.
+    """A GIF of `frames` frames, `per_second` in a second. `show(k)` changes the `artists` to their state in frame k.
 
-    What stays is drawn once; one layout and one palette for all frames. Of very many frames some are left out, and it
-    lasts as long. Call it inside the `sheet` block.
+    Only the artists are drawn again for each frame; the rest of the figure is drawn once. All frames have one layout
+    and one palette. If there are more than MOST_FRAMES, frames are left out, and the GIF lasts as long as with all of
+    them. Call it inside the `sheet` block.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image
@@ -84,9 +85,9 @@ def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[i
         for artist in artists:
             artist.draw(canvas.get_renderer())
         images.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
-    few_images = images[:: max(1, len(images) // 6)]
-    sample = np.hstack([np.asarray(image) for image in few_images])
-    # not by how often a colour comes: a small red dot would turn brown
+    sampled_images = images[:: max(1, len(images) // 6)]
+    sample = np.hstack([np.asarray(image) for image in sampled_images])
+    # MAXCOVERAGE does not weigh a colour by its area; otherwise a small red dot would turn brown
     palette = Image.fromarray(sample).quantize(MOVING_COLOURS, Image.Quantize.MAXCOVERAGE)
     first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
     target = io.BytesIO()

@@ -7,7 +7,7 @@ import numpy as np
 from analysis import read_evidence
 from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts.columns import LONGEST, printed_cells, shown_on
+from ..parts.columns import LONGEST_CELL, printed_cells, shown_on
 from ..parts.content import CellSheets, plain
 from ..parts.folder import Folder
 from ..sweep.quantities import at, colours_of
@@ -25,7 +25,7 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     """What a click on a cell of a map shows: facts and evidence of its motions, their histories and sections."""
     columns = folder.columns
     keys, cells = {"motion", *(key.name for key in atlas.keys)}, printed_cells(columns)
-    names = [name for name in shown_on(columns, folder.table, RUNS, REGIMES, longest=LONGEST) if name not in keys]
+    names = [name for name in shown_on(columns, folder.table, RUNS, REGIMES, longest=LONGEST_CELL) if name not in keys]
     motions_of_places: dict[tuple[str, ...], list] = {}
     for row, curves in zip(folder.table, _curves(folder), strict=True):
         facts = [cells[name](row) for name in names]

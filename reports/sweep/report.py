@@ -9,7 +9,7 @@ import numpy as np
 from tables import Column, listed, number
 
 from ..figures.maps import Map, maps
-from ..parts.columns import LONGEST, shown_on, table_of
+from ..parts.columns import LONGEST_CELL, shown_on, table_of
 from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
 from ..parts.provenance import limits, report_page, scene_items, timing_items
@@ -141,7 +141,7 @@ def _tables(columns: Mapping[str, Column], key_cells: Mapping[str, Callable], ro
 
     key_cells: of the varied keys, the function of a row that gives their cell.
     """
-    names = [name for name in shown_on(columns, rows, longest=LONGEST) if name not in key_cells]
+    names = [name for name in shown_on(columns, rows, longest=LONGEST_CELL) if name not in key_cells]
     parts, tables = batched(names, _COLUMNS), []
     for place, part in enumerate(parts, 1):
         caption = "Every run."

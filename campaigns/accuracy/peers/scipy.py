@@ -1,19 +1,20 @@
 """scipy's solve_ivp on the engine's own semi-discrete equations.
 
-The box equations in space, left continuous in time, are differential-algebraic: rates of q and V appear as sums of
-neighbouring nodes, shear forces and curvatures without rates at all. A solver of ordinary differential equations gets
-them through the resolvent of backward Euler. With E(C) the state to which one step of length e leads from C,
+The box equations are discrete in space and continuous in time here. They are differential-algebraic: the rates of q and
+V appear as sums over neighbouring nodes, and shear forces and curvatures have no rates. For a solver of ordinary
+differential equations they are therefore turned into rates by one step of backward Euler. If a step of length e leads
+from the state C to the state E(C), the rate is
 
     dC/dt = f(t, C) = (E(C) - C)/e,        e = 1e-7 s
 
-E is one call of the engine's Newton method, converged until the square of its last update is 1e-14, so the equations
-are those of the engine letter for letter: same box, same water, same ends, same positions. f is a function of the
-conserved variables alone. It differs from the limit e -> 0 by e/2 times the second derivative, 1e-7 of a motion of one
-radian a second, and whatever violates an algebraic equation decays at 1/e: stiff, which is what Radau and BDF are for.
-Their Jacobian is made by differences in compiled code, which costs them less than scipy's own would. Loop releases are
-no part of it.
+E is one call of the engine's Newton method, which ends when the square of its last update is below 1e-14. The equations
+are therefore exactly those of the engine: the same box, water, ends and positions. f is a function of the conserved
+variables alone. It differs from its limit for e -> 0 by e/2 times the second derivative; for a motion of one radian a
+second this is below 1e-7. A state that violates an algebraic equation decays at the rate 1/e. The equations are thus
+stiff, and Radau and BDF are methods for stiff equations. Compiled code makes their Jacobian by differences, because
+this costs less than scipy's own differences. Loops are not released.
 
-What is timed is solve_ivp alone, after everything is compiled.
+Only solve_ivp is timed, after everything has been compiled.
 """
 
 import math
@@ -33,18 +34,21 @@ from engine.time.newton import newton
 from engine.time.status import NEWTON_FAILED, OK
 
 RESOLVENT_S = 1e-7
-NEWTON_TOLERANCE, MOST = 1e-14, 20
-NUDGE = 1e-7
-LONGEST_S = 10.0  # of run time; a solver that needs more is stopped
+NEWTON_TOLERANCE, MOST_ITERATIONS = 1e-14, 20
+NUDGE = 1e-7  # change of a conserved variable for a column of the Jacobian
+LONGEST_RUN_S = 10.0  # run time after which a solver is stopped
 
 
 @kernel
 def rates(p, tables, t, C, Y, work, out):
-    """f(t, C) into out (n, conserved); Y (n, unknowns): guess in, solution out. Returns the code of Newton's method."""
+    """Put f(t, C) into out (n, conserved). Y (n, unknowns) has the guess before the call and the solution after it.
+
+    Returns the code of Newton's method.
+    """
     Q, rate = work.Q, 1.0 / RESOLVENT_S
     half = size_of(p)[1] // 2
     copy_into(work.C_tilde, C)
-    code, _ = newton(p, tables, Stage(t, 1.0, rate, rate), NEWTON_TOLERANCE, MOST, Y, work)
+    code, _ = newton(p, tables, Stage(t, 1.0, rate, rate), NEWTON_TOLERANCE, MOST_ITERATIONS, Y, work)
     for k in range(C.shape[0]):
         for i in range(half):
             out[k, i] = (Q[k, STRETCH + i] - C[k, i]) / RESOLVENT_S
@@ -54,7 +58,7 @@ def rates(p, tables, t, C, Y, work, out):
 
 @kernel
 def jacobian(p, tables, t, C, Y, work, base, moved, J):
-    """df/dC by differences, column by column, into J (n c, n c)."""
+    """Put df/dC into J (n c, n c), column by column, by differences. Returns the worst code of Newton's method."""
     code = rates(p, tables, t, C, Y, work, base)
     n, size = C.shape
     trial, shifted = Y.copy(), C.copy()
@@ -69,7 +73,11 @@ def jacobian(p, tables, t, C, Y, work, base, moved, J):
 
 
 class Equations:
-    """f and its Jacobian for solve_ivp, with counts. faults: calls in which Newton's method did not converge."""
+    """f and its Jacobian for solve_ivp, with the number of calls.
+
+    newton_failures: calls in which Newton's method did not converge. deadline_s: time of perf_counter at which f stops
+    the solver.
+    """
 
     def __init__(self, scene):
         run = Run(scene, scene.sample_step_s())  # at rest, with the velocities of the start
@@ -79,30 +87,31 @@ class Equations:
         self.work = run.kind.work_arrays(self.record, len(self.Y))
         self.base, self.moved = np.zeros_like(self.C0), np.zeros_like(self.C0)
         self.J = np.zeros((self.C0.size, self.C0.size))
-        self.calls = self.jacobians = self.faults = 0
-        self.ends_s = np.inf
+        self.calls = self.jacobians = self.newton_failures = 0
+        self.deadline_s = np.inf
 
     def f(self, t, C):
-        if time.perf_counter() > self.ends_s:
+        if time.perf_counter() > self.deadline_s:
             raise TimeoutError
         self.calls += 1
         code = rates(self.record, self.tables, t, C.reshape(-1, self.size), self.Y, self.work, self.base)
-        self.faults += code != OK
+        self.newton_failures += code != OK
         return self.base.ravel().copy()
 
     def jac(self, t, C):
         self.jacobians += 1
         shape = C.reshape(-1, self.size)
         code = jacobian(self.record, self.tables, t, shape, self.Y, self.work, self.base, self.moved, self.J)
-        self.faults += code == NEWTON_FAILED
+        self.newton_failures += code == NEWTON_FAILED
         return self.J.copy()
 
 
 def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: str) -> Trajectory:
-    """One run of solve_ivp: a Trajectory with the upper end's places and, where the scene asks, strain profiles.
+    """One run of solve_ivp: a Trajectory with the places of the upper end and, if the scene has them, strain profiles.
 
-    method: "Radau" or "BDF"; rtol: its relative tolerance, the absolute one is rtol times 1e-2 (strain, m/s, of order
-    0.04 and 1); nodes: those of the scene. statistics: rhs_calls, jacobians; wall_s of solve_ivp alone.
+    method: "Radau" or "BDF". rtol: relative tolerance; the absolute tolerance is rtol/100, for strains of the order
+    0.04 and velocities of the order 1 m/s. nodes: of the scene. statistics: rhs_calls, jacobians, newton_failures,
+    steps, and wall_s, the time of solve_ivp alone.
     """
     from scipy.integrate import solve_ivp
 
@@ -112,34 +121,35 @@ def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: s
     C0 = equations.C0.ravel()
     equations.f(0.0, C0)
     equations.jac(0.0, C0)
-    equations.calls = equations.jacobians = equations.faults = 0
+    equations.calls = equations.jacobians = equations.newton_failures = 0
     t = scene.sample_step_s() * np.arange(math.floor(duration_s / scene.sample_step_s() * (1 + 1e-12) + 1e-9) + 1)
     settings = {"method": method, "t_eval": t, "rtol": rtol, "atol": 1e-2 * rtol, "jac": equations.jac}
     status, message, solution = "ok", "", None
     start_s = time.perf_counter()
-    equations.ends_s = start_s + LONGEST_S
+    equations.deadline_s = start_s + LONGEST_RUN_S
     try:
         solution = solve_ivp(equations.f, (0.0, t[-1]), C0, **settings)
     except TimeoutError:
-        status, message = "too-slow", f"stopped after {LONGEST_S:g} s of run time"
+        status, message = "too-slow", f"stopped after {LONGEST_RUN_S:g} s of run time"
     except (ValueError, np.linalg.LinAlgError) as error:
         status, message = "solver-failed", str(error)
     statistics = {
         "wall_s": time.perf_counter() - start_s,
         "rhs_calls": equations.calls,
         "jacobians": equations.jacobians,
+        "newton_failures": equations.newton_failures,
+        "steps": 0 if solution is None else solution.nlu,
     }
-    statistics |= {"newton_failures": equations.faults, "steps": 0 if solution is None else solution.nlu}
     if solution is None:
         return nothing(scene, status, message, **statistics)
     if not solution.success:
         status, message = "solver-failed", solution.message
-    places, strain, s = _lines(solution.y.T.reshape(len(solution.t), -1, equations.size), equations)
+    places, strain, s = _places_and_strain(solution.y.T.reshape(len(solution.t), -1, equations.size), equations)
     return as_trajectory(scene, status, message, solution.t, places, statistics, strain, s)
 
 
-def _lines(C, equations):
-    """Upper end (m, 3), strain (m, n) and arc length (n,) of conserved variables (m, n, c)."""
+def _places_and_strain(C, equations):
+    """Places of the upper end (m, 3), strain (m, n) and arc length (n,) from conserved variables (m, n, c)."""
     record, half = equations.record, equations.size // 2
     h = equations.tables[record["grid_at"] : record["grid_at"] + int(record["nodes"]) - 1]
     q = C[:, :, :half]
