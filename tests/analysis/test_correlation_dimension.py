@@ -27,27 +27,12 @@ def test_lorenz():
     assert found.value == pytest.approx(2.05, abs=0.05)
 
 
-def torus(a, b, ratio):
-    ring = 1.0 + ratio * np.cos(a)
-    return np.column_stack([ring * np.cos(b), ring * np.sin(b), ratio * np.sin(a)])
-
-
 @pytest.mark.parametrize("points", [1000, 4000])
 def test_a_line_and_a_circle_have_dimension_1(points):
     place = np.random.default_rng(points).uniform(size=(points, 1))
     assert correlation_dimension(place @ [[1.0, -2.0, 3.0]]).value == pytest.approx(1.0, abs=0.03)
     circle = np.hstack([np.cos(2 * np.pi * place), np.sin(2 * np.pi * place)])
     assert correlation_dimension(circle).value == pytest.approx(1.0, abs=0.05)
-
-
-@pytest.mark.slow
-def test_a_torus_has_dimension_2_and_a_quasi_periodic_flow_covers_it():
-    for ratio in (0.3, 0.7):
-        places = 2 * np.pi * np.random.default_rng(1).uniform(size=(2, 6000))
-        assert correlation_dimension(torus(*places, ratio)).value == pytest.approx(2.0, abs=0.1)
-    time = 0.6180339 * np.arange(8000)
-    found = correlation_dimension(torus(time, np.sqrt(2.0) * time, 0.5), theiler=10)
-    assert found.value == pytest.approx(2.0, abs=0.15)
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3])

@@ -41,6 +41,13 @@ def test_a_period_after_chaos_is_told_on_every_length_and_chaos_is_taken_back(la
     assert "chaotic transient" in told(record, growth, 1500).reason or lasted < 100
 
 
+def test_a_period_in_the_last_half_alone_takes_two_looks():
+    record, growth = after_chaos(360, np.zeros(300), steps(300, -0.1, 0.01))
+    first = told(record, growth, 465)
+    assert first.regime == "undecided" and "period-1 at the last look only" in first.reason
+    assert told(record, growth, 600).period == 1
+
+
 @pytest.mark.parametrize("lasted", [150, 500, 900])
 def test_chaos_after_a_period_takes_the_period_back(lasted):
     """A run beside an unstable orbit leaves it."""

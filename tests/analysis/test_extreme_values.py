@@ -31,14 +31,6 @@ def test_a_cosine_is_below_a_level_for_one_minus_arccos_over_pi(threshold, sampl
     assert found + above == pytest.approx(1.0, abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "share"), [(-1.0, 3.0, 0.25), (-1.0, 1.0, 0.5), (0.0, 1.0, 0.0), (-2.0, 0.0, 1.0)]
-)
-def test_a_straight_line_is_exact_with_two_samples(low, high, share):
-    for ends in ((low, high), (high, low)):
-        assert slack_fraction(ends, 0.7).fraction == pytest.approx(share, abs=1e-15)
-
-
 def test_time_at_the_level_counts():
     """A tension-only tether is slack at exactly zero."""
     assert slack_fraction([0.0, 0.0, 0.0], 1.0).fraction == 1.0
@@ -63,10 +55,7 @@ def test_blocks_of_blocks_are_longer_blocks_and_a_part_of_one_counts_for_nothing
         block_maxima(x, 0)
 
 
-@pytest.mark.parametrize(("series", "transient"), [([1.0, 2.0], 0.3), ([], 0.0), ([1.0], 0.0), (np.ones(11), 1.0)])
+@pytest.mark.parametrize(("series", "transient"), [([1.0, 2.0], 0.3), ([], 0.0), (np.ones(11), 1.0)])
 def test_a_record_within_the_transient_is_refused(series, transient):
     with pytest.raises(ValueError, match="transient"):
         slack_fraction(series, 0.1, transient_s=transient)
-    if len(series) < 3 and len(series) != 1:
-        with pytest.raises(ValueError, match="longer than the transient"):
-            extremes(series, 0.1, transient_s=transient)

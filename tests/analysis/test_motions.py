@@ -18,7 +18,8 @@ def of_map(orbit):
 
 def test_every_start_is_put_to_its_motion():
     """Duffing's two wells at force .26 have a period 1 each, and both of them a period 5. Who joins is right later."""
-    runs = [wells(start, PERIODS) for start in np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2))]
+    orbits, extremes = wells(np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2)), PERIODS)
+    runs = list(zip(orbits.swapaxes(0, 1), extremes.swapaxes(0, 1), strict=True))
     late = [settled(*run, scale=(1.0, 1.0)) for run in runs]
     assert None not in late
     label = grouped(late)
@@ -86,10 +87,29 @@ def test_motions_are_matched_by_least_distance_in_all():
     assert matched(at(0.0, 0.4), at(0.25, 0.65)) == [0, 1]
     assert matched(at(0.0, 0.4, 5.0), at(0.45, 2.0)) == [None, 0, None]
     assert matched([], at(1.0)) == [] and matched(at(1.0), []) == [None]
+    assert matched(at(0.0), at(0.4)) == [None] and matched(at(0.0), at(0.4), threshold=0.5) == [0]
 
 
-def test_shares_have_wilsons_interval():
-    found, z, p, n = share_of(16, 49), 1.959964, 16 / 49, 49
+def test_a_cloud_that_lies_within_another_is_the_same_motion_and_an_orbit_within_it_is_not():
+    def placed(period, points):
+        return Settled(period, points, np.ones((len(points), 1)), np.ones(1), "")
+
+    line = np.linspace(0.0, 1.0, 201)[:, None]
+    assert distance(placed(None, line), placed(None, line[:100])) == 0.0
+    assert distance(placed(None, line), placed(1, line[:1])) == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.parametrize(("limit", "reached"), [(0.01, 0), (0.05, None)])
+def test_a_decay_is_joined_where_its_geometric_limit_is_the_orbit(limit, reached):
+    """Three windows of a dozen periods, at distances of limit + 0.4, limit + 0.2 and limit + 0.1."""
+    orbit = [Settled(1, np.zeros((1, 1)), np.ones((1, 1)), np.ones(1), "")]
+    x = np.append(np.repeat(limit + np.array([0.4, 0.2, 0.1]), 12), limit + 0.1)[:, None]
+    assert joins(x, np.ones((36, 1)), orbit) == reached
+
+
+@pytest.mark.parametrize(("confidence", "z"), [(0.95, 1.959964), (0.99, 2.575829)])
+def test_shares_have_wilsons_interval(confidence, z):
+    found, p, n = share_of(16, 49, confidence), 16 / 49, 49
     centre, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
     assert (found.share, found.low, found.high) == pytest.approx(
         (p, (centre - half) / (1 + z * z / n), (centre + half) / (1 + z * z / n)), abs=1e-6

@@ -24,6 +24,14 @@ def test_exponents_of_maps_are_found_within_three_errors_and_a_tenth(section, bi
         assert abs(one.value - bits) < max(3.0 * one.error, 0.1)
 
 
+def test_halves_are_those_of_the_record():
+    """A bit an iteration, and the mean growth at a rate of 3.7, far apart."""
+    slow = logistic(3.7, 400)
+    _, first, second = section_lyapunov(np.append(logistic(4.0, 400), 10.0 + slow))
+    bits = np.mean(np.log2(np.abs(3.7 * (1.0 - 2.0 * slow))))
+    assert second.value == pytest.approx(bits, abs=0.15) and first.value > bits + 0.3
+
+
 def test_the_error_covers_the_scatter_of_the_exponent_and_is_at_most_three_times_as_wide():
     found = [section_lyapunov(logistic(4.0, 400, start, 50))[0] for start in np.linspace(0.07, 0.93, 60)]
     assert 0.33 < np.std([(one.value - 1.0) / one.error for one in found]) < 1.0

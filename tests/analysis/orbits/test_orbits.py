@@ -5,7 +5,7 @@ import pytest
 
 from analysis.orbits import NoImage, OrbitMap, doubled_orbit, find_orbit, follow_branch, scatter_of
 from analysis.orbits.finding import Newton, described, solved_near
-from analysis.oscillator import SnapOscillator, grazing_force, search_periodic_orbits, snap_map, strobed_states
+from analysis.oscillator import SnapOscillator, search_periodic_orbits, snap_map, strobed_states
 from analysis.oscillator.growth import random_starts
 from tests.analysis.systems import henon_step as henon
 from tests.analysis.systems import logistic_step as logistic
@@ -136,6 +136,10 @@ def test_folds_and_flips_of_the_henon_map_and_the_doubled_orbit():
     assert fold.orbit.multipliers[0] == pytest.approx(1.0, abs=1e-4)
     assert [orbit.stable for orbit in branch.orbits].count(True) > 3 and not branch.closed
     assert branch.parameters[-1] == 1.2 and branch.ends[1] == "reaches the end of the range, 1.2"
+    short = follow_branch(system, branch.orbits[0], -1.0, 0.5, longest=0.06)
+    places = np.array([[*orbit.points[0], orbit.parameter] for orbit in short.orbits])
+    # a correction is orthogonal to a step, and shorter than half of it
+    assert 0.05 < np.linalg.norm(np.diff(places, axis=0), axis=1).max() <= np.hypot(0.06, 0.03)
     two = follow_branch(system, doubled_orbit(system, flip), -1.0, 1.2)
     (flip,) = of_kind(two, "flip")
     assert flip.parameter == closely((1 - B) ** 2 + (1 + B) ** 2 / 4) and flip.orbit.period == 2
@@ -207,13 +211,3 @@ def test_orbits_of_eq_33_repeat_have_its_contraction_and_the_same_multipliers_fr
         assert np.prod(orbit.multipliers).real == pytest.approx(contraction, rel=1e-8)
         again = find_orbit(system, np.roll(orbit.points, 1, axis=0), PAPER.force, period, tolerance=1e-13)
         assert again.multipliers == pytest.approx(orbit.multipliers, rel=1e-8, abs=1e-8)
-
-
-def test_eq_33_stays_taut_up_to_the_grazing_force_and_is_followed_beyond():
-    system, graze = snap_map(PAPER), grazing_force(PAPER).force
-    branch = follow_branch(system, find_orbit(system, [0.68, 0.0], 0.5 * graze), 0.01 * graze, 2.0 * graze)
-    assert branch.ends[0] == f"reaches the end of the range, {0.01 * graze:g}"
-    taut = branch.parameters < graze
-    modulus = np.abs([orbit.multipliers[0] for orbit in branch.orbits])
-    assert modulus[taut] == pytest.approx(np.exp(-0.5 * PAPER.damping * PAPER.period), abs=1e-9)
-    assert (~taut).any() and branch.parameters.max() <= 2.0 * graze
