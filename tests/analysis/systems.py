@@ -61,9 +61,9 @@ def wells(starts, periods):
 @cache
 def states(name, samples, step=None, skip_time=500.0):
     """States (samples, d) on the attractor; one array for all who ask, not to be written into."""
-    flow, _, own, substeps = SAMPLED[name]
-    step = own if step is None else step
-    substeps = max(1, int(np.ceil(step * substeps / own)))
+    flow, _, usual_step, substeps = SAMPLED[name]
+    step = usual_step if step is None else step
+    substeps = max(1, int(np.ceil(step * substeps / usual_step)))
     start, skip = np.array(FLOWS[flow][0]), int(np.ceil(skip_time / step))
     orbit = march(list(FLOWS).index(flow), start, step, substeps, skip, samples)
     orbit.flags.writeable = False

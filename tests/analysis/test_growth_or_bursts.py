@@ -25,12 +25,12 @@ def swings(rate, periods, noise=0.0):
 @pytest.mark.parametrize("noise", [0.0, 0.5])
 @pytest.mark.parametrize("rate", [-0.03, -0.005, 0.005, 0.03])
 def test_a_swing_that_grows_or_decays_has_its_rate(rate, noise):
-    found = growth_or_bursts(1e-6 * swings(rate, 250, noise), STEP, PERIOD)
-    assert found.kind == ("growth" if rate > 0 else "decay")
-    assert abs(found.rate.value - rate) < 3 * found.rate.error + 1e-4 * abs(rate)
-    assert found.rate.error < 0.2 * abs(rate)
-    assert found.rate.unit == "nats/time" and not len(found.burst_size)
-    assert found.span_nats == pytest.approx(rate * (found.end - found.begin), rel=0.05)
+    growth = growth_or_bursts(1e-6 * swings(rate, 250, noise), STEP, PERIOD)
+    assert growth.kind == ("growth" if rate > 0 else "decay")
+    assert abs(growth.rate.value - rate) < 3 * growth.rate.error + 1e-4 * abs(rate)
+    assert growth.rate.error < 0.2 * abs(rate)
+    assert growth.rate.unit == "nats/time" and not len(growth.burst_size)
+    assert growth.span_nats == pytest.approx(rate * (growth.end - growth.begin), rel=0.05)
 
 
 def test_the_error_of_a_rate_is_between_one_and_a_half_and_three_times_the_scatter_of_noise():
@@ -39,8 +39,8 @@ def test_the_error_of_a_rate_is_between_one_and_a_half_and_three_times_the_scatt
     deviations = []
     for seed in range(60):
         noise = np.random.default_rng(seed).lognormal(0.0, 0.5, len(t))
-        found = growth_or_bursts(1e-6 * np.exp(rate * t) * noise, STEP, PERIOD).rate
-        deviations.append((found.value - rate) / found.error)
+        growth = growth_or_bursts(1e-6 * np.exp(rate * t) * noise, STEP, PERIOD).rate
+        deviations.append((growth.value - rate) / growth.error)
     assert 0.33 < np.std(deviations) < 0.67
 
 
@@ -48,10 +48,10 @@ def test_the_error_of_a_rate_is_between_one_and_a_half_and_three_times_the_scatt
 def test_growth_that_saturates_is_fitted_up_to_its_saturation(rate, share):
     """Fast growth is soon over: ten nats in 17 periods are too few spans of half a swing, and enough single periods."""
     y = 5e-5 * swings(rate, 300)
-    found = growth_or_bursts(y / np.sqrt(1.0 + (np.exp(rate * times(300)) * 5e-5) ** 2), STEP, PERIOD)
-    assert found.kind == "growth"
-    assert abs(found.rate.value - rate) < min(3 * found.rate.error, share * rate)
-    assert found.end < math.log(2e4) / rate + 12 * PERIOD, "the level afterwards takes no part"
+    growth = growth_or_bursts(y / np.sqrt(1.0 + (np.exp(rate * times(300)) * 5e-5) ** 2), STEP, PERIOD)
+    assert growth.kind == "growth"
+    assert abs(growth.rate.value - rate) < min(3 * growth.rate.error, share * rate)
+    assert growth.end < math.log(2e4) / rate + 12 * PERIOD, "the level afterwards takes no part"
 
 
 def bursts_at(periods, sizes):
@@ -63,19 +63,19 @@ def bursts_at(periods, sizes):
 
 def test_bursts_have_their_sizes_and_times():
     at, sizes = [12.5, 30.4, 31.6, 77.3, 150.5], [0.2, 0.3, 0.1, 0.4, 0.25]
-    found = growth_or_bursts(bursts_at(at, sizes), STEP, PERIOD)
-    assert found.kind == "bursts" and math.isnan(found.rate.value) and math.isnan(found.span_nats)
+    growth = growth_or_bursts(bursts_at(at, sizes), STEP, PERIOD)
+    assert growth.kind == "bursts" and math.isnan(growth.rate.value) and math.isnan(growth.span_nats)
     # neighbours in the envelope are one burst: the smaller of 30.4 and 31.6 has no dip between
-    assert found.burst_time / PERIOD == pytest.approx([12.5, 30.4, 77.3, 150.5], abs=0.02)
-    assert found.burst_size == pytest.approx([0.2, 0.3, 0.4, 0.25], rel=0.01)
+    assert growth.burst_time / PERIOD == pytest.approx([12.5, 30.4, 77.3, 150.5], abs=0.02)
+    assert growth.burst_size == pytest.approx([0.2, 0.3, 0.4, 0.25], rel=0.01)
 
 
 def test_a_straight_fall_between_two_bursts_is_no_decay():
     """Each burst dies out exponentially over 40 periods; the record comes back to its level, again and again."""
     t = times(250)
     y = 1e-9 + np.exp(-0.05 * (t % (50 * PERIOD))) * np.abs(np.sin(SWING * t))
-    found = growth_or_bursts(y, STEP, PERIOD)
-    assert found.kind == "bursts" and "comes back" in found.reason
+    growth = growth_or_bursts(y, STEP, PERIOD)
+    assert growth.kind == "bursts" and "comes back" in growth.reason
 
 
 def test_a_change_of_less_than_the_stated_span_is_refused():
@@ -93,10 +93,10 @@ def test_noise_about_a_level_has_neither_rate_nor_bursts(seed):
 
 def test_units_of_size_and_time_change_nothing_but_themselves():
     y = swings(-0.01, 200, noise=0.3) + 1e-4
-    one, other = growth_or_bursts(y, STEP, PERIOD), growth_or_bursts(1e-7 * y, 60 * STEP, 60 * PERIOD)
-    assert (one.kind, one.begin * 60) == (other.kind, pytest.approx(other.begin))
-    rate = (other.rate.value, other.rate.error)
-    assert rate == pytest.approx((one.rate.value / 60, one.rate.error / 60))
+    plain, scaled = growth_or_bursts(y, STEP, PERIOD), growth_or_bursts(1e-7 * y, 60 * STEP, 60 * PERIOD)
+    assert (plain.kind, plain.begin * 60) == (scaled.kind, pytest.approx(scaled.begin))
+    rate = (scaled.rate.value, scaled.rate.error)
+    assert rate == pytest.approx((plain.rate.value / 60, plain.rate.error / 60))
 
 
 @pytest.mark.parametrize(

@@ -30,9 +30,9 @@ def test_every_start_is_put_to_its_motion():
     joined = []
     for (run, measures), ends in zip(runs, label, strict=True):
         reached = ((n, joins(run[: n + 1], measures[:n], known)) for n in range(1, PERIODS))
-        when, motion = next((n, index) for n, index in reached if index is not None)
+        reached_at, motion = next((n, index) for n, index in reached if index is not None)
         assert motion == ends
-        joined.append(when)
+        joined.append(reached_at)
     assert np.median(joined) < 30
 
 
@@ -40,26 +40,26 @@ def test_every_start_is_put_to_its_motion():
 def test_a_slow_decay_has_not_settled_while_it_has_far_to_go(multiplier):
     decay = 0.3 * np.asarray(multiplier, dtype=complex) ** np.arange(600)
     x = 2.0 + np.column_stack([decay.real, decay.imag])
-    found = [(n, of_map(x[: n + 1])) for n in range(20, 600, 20)]
-    found = [(n, motion) for n, motion in found if motion is not None]
-    for n, motion in found:
+    result = [(n, of_map(x[: n + 1])) for n in range(20, 600, 20)]
+    result = [(n, motion) for n, motion in result if motion is not None]
+    for n, motion in result:
         assert motion.period == 1
         assert np.abs(motion.points - 2.0).max() < 0.03
         assert abs(decay[n]) < 0.02
-    assert found or abs(multiplier) > 0.995
+    assert result or abs(multiplier) > 0.995
 
 
 def test_a_motion_without_period_settles_and_is_one_motion():
-    whole, torus = henon(1200), circle_map(0.9, 0.31, 400)
-    parts = [of_map(part) for part in np.split(whole, 8)]
+    orbit, torus = henon(1200), circle_map(0.9, 0.31, 400)
+    parts = [of_map(part) for part in np.split(orbit, 8)]
     parts = [part for part in parts if part is not None]
     assert len(parts) >= 6 and {part.period for part in parts} == {None}
     round_ = next(motion for n in range(90, 200, 15) if (motion := of_map(torus[:n])) is not None)
     assert round_.period is None
-    other = of_map(henon(150) + 0.5)
-    assert list(grouped([*parts, round_, other])) == [0] * len(parts) + [1, 2]
+    shifted = of_map(henon(150) + 0.5)
+    assert list(grouped([*parts, round_, shifted])) == [0] * len(parts) + [1, 2]
     assert joins(torus[:230], torus[:229], [parts[0], round_]) == 1
-    assert joins(whole[:50], whole[:49], [round_, parts[0]]) == 1
+    assert joins(orbit[:50], orbit[:49], [round_, parts[0]]) == 1
 
 
 def test_a_cloud_that_moves_or_is_too_short_has_not_settled():
@@ -109,9 +109,9 @@ def test_a_decay_is_joined_where_its_geometric_limit_is_the_orbit(limit, reached
 
 @pytest.mark.parametrize(("confidence", "z"), [(0.95, 1.959964), (0.99, 2.575829)])
 def test_shares_have_wilsons_interval(confidence, z):
-    found, p, n = share_of(16, 49, confidence), 16 / 49, 49
+    result, p, n = share_of(16, 49, confidence), 16 / 49, 49
     centre, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    assert (found.share, found.low, found.high) == pytest.approx(
+    assert (result.share, result.low, result.high) == pytest.approx(
         (p, (centre - half) / (1 + z * z / n), (centre + half) / (1 + z * z / n)), abs=1e-6
     )
 

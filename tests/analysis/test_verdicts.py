@@ -45,9 +45,9 @@ def test_tori_are_quasi_periodic(section, exponent):
 
 @pytest.mark.parametrize("multiplier", [0.98, 0.995, -0.99])
 def test_a_decay_is_a_transient_and_then_a_period(multiplier):
-    spiral, away = circle(K / (2 * np.pi)) * multiplier ** K[:, None], np.array([21.0, 0.0])
-    assert regime(strobed=away + spiral, scale=2.0).regime == "transient"
-    assert regime(strobed=away + 1e-3 * spiral, scale=2.0).regime == "period-1"
+    spiral, centre = circle(K / (2 * np.pi)) * multiplier ** K[:, None], np.array([21.0, 0.0])
+    assert regime(strobed=centre + spiral, scale=2.0).regime == "transient"
+    assert regime(strobed=centre + 1e-3 * spiral, scale=2.0).regime == "period-1"
 
 
 def test_a_period_tells_how_fast_it_attracts():
@@ -78,17 +78,17 @@ def test_a_period_stands_where_the_exponent_given_is_positive_by_one_error_only(
 
 
 def test_a_tighter_tolerance_that_says_otherwise_makes_any_word_undecided():
-    found = quick(strobed=TORUS)
-    assert quick(strobed=TORUS, tighter=found).regime == found.regime == "quasi-periodic"
+    plain = quick(strobed=TORUS)
+    assert quick(strobed=TORUS, tighter=plain).regime == plain.regime == "quasi-periodic"
     assert quick(strobed=TORUS, tighter="period-2").regime == "undecided"
 
 
 def test_the_same_seed_gives_the_same_verdict_and_the_evidence_can_be_read():
-    first, again, other = (quick(strobed=henon(150), tangent_exponent=POSITIVE, seed=seed) for seed in (8, 8, 9))
-    assert [repr(item) for item in first.evidence] == [repr(item) for item in again.evidence]
-    assert other.regime == first.regime
-    assert (first.seed, other.seed) == (8, 9)
-    assert other.named("0-1 test").value != first.named("0-1 test").value
+    first, repeated, reseeded = (quick(strobed=henon(150), tangent_exponent=POSITIVE, seed=seed) for seed in (8, 8, 9))
+    assert [repr(item) for item in first.evidence] == [repr(item) for item in repeated.evidence]
+    assert reseeded.regime == first.regime
+    assert (first.seed, reseeded.seed) == (8, 9)
+    assert reseeded.named("0-1 test").value != first.named("0-1 test").value
     read = read_evidence(evidence_text(first))
     assert [item[0] for item in read] == [item.name for item in first.evidence]
     assert ("0-1 test", f"{first.named('0-1 test').value:.3g}", "0.9", "yes") in read
@@ -107,8 +107,8 @@ def test_a_record_is_seen_once_a_period_after_its_transient():
 
 def test_exponents_come_in_either_unit():
     section, nats = henon(60), Exponent(0.42, 0.01, "nats/time", "known")
-    found = regime(strobed=section, period_s=2.0, tangent_exponent=nats).named("exponent")
-    assert found.value == pytest.approx(0.84 / np.log(2))
+    evidence = regime(strobed=section, period_s=2.0, tangent_exponent=nats).named("exponent")
+    assert evidence.value == pytest.approx(0.84 / np.log(2))
     with pytest.raises(ValueError, match="period_s is needed"):
         regime(strobed=section, tangent_exponent=nats)
 
@@ -134,7 +134,7 @@ def test_chaos_in_bands_is_chaotic(rate, bands):
     assert f"{bands} bands" in verdict.named("0-1 test").sentence
     exponent, section = verdict.named("exponent"), logistic(rate, 120 * bands)
     of_bands = [section_lyapunov(section[first::bands])[0] for first in range(bands)]
-    assert (exponent.value, exponent.error) in [(one.value / bands, one.error / bands) for one in of_bands]
+    assert (exponent.value, exponent.error) in [(item.value / bands, item.error / bands) for item in of_bands]
 
 
 BANDS = np.arange(1200) % 4  # visited in turn

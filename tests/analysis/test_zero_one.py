@@ -31,8 +31,8 @@ def test_k_has_the_sign_of_the_exponent_of_the_circle_map(coupling):
     """The derivative of the map is 1 - coupling cos(2 pi angle)."""
     orbit = circle_map(coupling, 0.606661, 2000)
     exponent = np.mean(np.log(np.abs(1.0 - coupling * orbit[:, 0])))
-    found = zero_one_test(orbit[:, 0])
-    assert found.value > 0.9 if exponent > 0.1 else found.value < 0.2
+    result = zero_one_test(orbit[:, 0])
+    assert result.value > 0.9 if exponent > 0.1 else result.value < 0.2
 
 
 def test_the_sum_by_transforms_is_the_sum_of_its_definition():
@@ -46,8 +46,8 @@ def test_the_sum_by_transforms_is_the_sum_of_its_definition():
 
 
 def test_the_angles_follow_from_the_seed():
-    first, again, other = (zero_one_test(logistic(3.6, 300), seed=seed) for seed in (3, 3, 4))
-    assert np.array_equal(first.growth, again.growth) and not np.array_equal(first.growth, other.growth)
+    first, repeated, reseeded = (zero_one_test(logistic(3.6, 300), seed=seed) for seed in (3, 3, 4))
+    assert np.array_equal(first.growth, repeated.growth) and not np.array_equal(first.growth, reseeded.growth)
     assert first.angles_rad.min() > np.pi / 5 and first.angles_rad.max() < 4 * np.pi / 5
 
 
