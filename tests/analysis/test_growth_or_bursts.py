@@ -91,14 +91,6 @@ def test_noise_about_a_level_has_neither_rate_nor_bursts(seed):
     assert growth_or_bursts(y, STEP, PERIOD).kind == "neither"
 
 
-def test_units_of_size_and_time_change_nothing_but_themselves():
-    y = swings(-0.01, 200, noise=0.3) + 1e-4
-    plain, scaled = growth_or_bursts(y, STEP, PERIOD), growth_or_bursts(1e-7 * y, 60 * STEP, 60 * PERIOD)
-    assert (plain.kind, plain.begin * 60) == (scaled.kind, pytest.approx(scaled.begin))
-    rate = (scaled.rate.value, scaled.rate.error)
-    assert rate == pytest.approx((plain.rate.value / 60, plain.rate.error / 60))
-
-
 @pytest.mark.parametrize(
     ("values", "why"),
     [(np.zeros(5001), "every value is zero"), (np.empty(0), "no values"), (np.ones(5001), "no straight part")],

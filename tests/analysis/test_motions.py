@@ -1,7 +1,5 @@
 """Every start of a forced system is put to the motion that it ends in: settled, joined, grouped, matched, shares."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -109,11 +107,11 @@ def test_a_decay_is_joined_where_its_geometric_limit_is_the_orbit(limit, reached
 
 @pytest.mark.parametrize(("confidence", "z"), [(0.95, 1.959964), (0.99, 2.575829)])
 def test_shares_have_wilsons_interval(confidence, z):
-    result, p, n = share_of(16, 49, confidence), 16 / 49, 49
-    centre, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    assert (result.share, result.low, result.high) == pytest.approx(
-        (p, (centre - half) / (1 + z * z / n), (centre + half) / (1 + z * z / n)), abs=1e-6
-    )
+    """Its ends are the shares q from which 16 of 49 is just z standard deviations away."""
+    wilson = share_of(16, 49, confidence)
+    assert wilson.share == 16 / 49 and wilson.low < wilson.share < wilson.high
+    for end in (wilson.low, wilson.high):
+        assert abs(end - 16 / 49) == pytest.approx(z * np.sqrt(end * (1.0 - end) / 49), abs=1e-6)
 
 
 def test_records_that_do_not_fit_are_refused():

@@ -114,16 +114,16 @@ def test_exponents_come_in_either_unit():
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("arguments", "message"),
     [
         (dict(), "either series or strobed"),
         (dict(series=np.zeros(100)), "step_s and period_s"),
         (dict(strobed=np.zeros(100), surrogates=18), "surrogates"),
     ],
 )
-def test_what_makes_no_sense_is_refused(given, message):
+def test_what_makes_no_sense_is_refused(arguments, message):
     with pytest.raises(ValueError, match=message):
-        regime(**given)
+        regime(**arguments)
 
 
 @pytest.mark.parametrize(("rate", "bands"), [(3.65, 2), (3.585, 4), pytest.param(3.574, 8, marks=pytest.mark.slow)])
@@ -190,7 +190,7 @@ def test_at_least_nine_of_ten_records_of_the_snapping_buoy_are_chaotic_and_none_
 
 
 @pytest.mark.parametrize(
-    ("given", "word"),
+    ("arguments", "word"),
     [
         (dict(wolf_exponent=(0.509, 0.01)), "chaotic"),
         (dict(wolf_exponent=(0.509, 0.3)), "undecided"),
@@ -202,5 +202,7 @@ def test_at_least_nine_of_ten_records_of_the_snapping_buoy_are_chaotic_and_none_
         (dict(tangent_exponent=(0.509, 0.01), tighter="period-2"), "undecided"),
     ],
 )
-def test_chaos_needs_an_exponent_positive_by_two_errors_of_the_best_source_and_at_the_tighter_tolerance(given, word):
-    assert quick(strobed=henon(300), **given).regime == word
+def test_chaos_needs_an_exponent_positive_by_two_errors_of_the_best_source_and_at_the_tighter_tolerance(
+    arguments, word
+):
+    assert quick(strobed=henon(300), **arguments).regime == word

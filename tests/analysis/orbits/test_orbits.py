@@ -46,9 +46,9 @@ def closely(value):
 def test_period_1_and_2_of_the_henon_map_have_their_multipliers():
     a = 1.0
     x = (-(1 - B) + np.sqrt((1 - B) ** 2 + 4 * a)) / (2 * a)
-    one = find_orbit(OrbitMap(henon), [0.6, 0.2], a, tolerance=1e-13)
-    assert one.points[0] == pytest.approx([x, B * x], abs=1e-12)
-    assert one.multipliers == pytest.approx(-a * x + np.array([-1, 1]) * np.sqrt(a * a * x * x + B), abs=1e-12)
+    single = find_orbit(OrbitMap(henon), [0.6, 0.2], a, tolerance=1e-13)
+    assert single.points[0] == pytest.approx([x, B * x], abs=1e-12)
+    assert single.multipliers == pytest.approx(-a * x + np.array([-1, 1]) * np.sqrt(a * a * x * x + B), abs=1e-12)
     two = find_orbit(OrbitMap(henon), [-0.4, 0.3], a, 2, tolerance=1e-13)
     trace = 4 * ((1 - B) ** 2 - a) + 2 * B
     assert (
@@ -196,21 +196,21 @@ def test_orbits_of_eq_33_repeat_have_its_contraction_and_the_same_multipliers_fr
         assert rotated.multipliers == pytest.approx(orbit.multipliers, rel=1e-8, abs=1e-8)
 
 
-def bent(left, right, square=0.0):
-    """x' = slope x + r + square x^2, the slope `left` below 0 and `right` above: its fixed point crosses 0 at r = 0."""
+def bent(below, above, square=0.0):
+    """x' = slope x + r + square x^2, the slope `below` 0 and `above`: its fixed point crosses 0 at r = 0."""
 
     def step(z, r):
-        slope = left if z[0] < 0.0 else right
+        slope = below if z[0] < 0.0 else above
         return slope * z + r + square * z**2, lambda V: (slope + 2.0 * square * z[:, None]) * V
 
     return step
 
 
-def collision(left, right):
+def collision(below, above):
     """The normal form of a border collision: (trace, determinant) on both sides of x = 0."""
 
     def step(z, r):
-        trace, determinant = left if z[0] <= 0.0 else right
+        trace, determinant = below if z[0] <= 0.0 else above
         matrix = np.array([[trace, 1.0], [-determinant, 0.0]])
         return matrix @ z + [r, 0.0], lambda V: matrix @ V
 
@@ -282,8 +282,8 @@ def test_a_steep_multiplier_is_no_leap():
 @pytest.mark.parametrize("c", [0.05, 0.2, 0.5])
 def test_a_flip_and_the_fold_beside_it_are_told_once_each(c):
     system = OrbitMap(lambda z, r: quintic(z, r, c))
-    one = follow_branch(system, find_orbit(system, [0.01], -0.3), -0.4, 0.2)
-    (flip,) = one.events
+    single = follow_branch(system, find_orbit(system, [0.01], -0.3), -0.4, 0.2)
+    (flip,) = single.events
     assert flip.kind == "flip" and flip.parameter == pytest.approx(0.0, abs=1e-8)
     two = follow_branch(system, doubled_orbit(system, flip, amplitude=0.01), -0.4, 0.2, step=0.02, longest=0.05)
     folds = [event for event in two.events if event.kind == "fold"]
@@ -300,8 +300,8 @@ def test_a_multiplier_1_where_the_parameter_does_not_turn_is_no_fold():
 @pytest.mark.parametrize("seed", range(6))
 def test_steps_make_no_fold_of_a_flip_and_hide_no_flip(seed):
     system = in_steps(2e-4, seed)
-    one = follow_branch(system, find_orbit(system, [0.6], 2.8), 2.6, 3.3, least=1e-3, accuracy=1e-2)
-    (flip,) = one.events
+    single = follow_branch(system, find_orbit(system, [0.6], 2.8), 2.6, 3.3, least=1e-3, accuracy=1e-2)
+    (flip,) = single.events
     assert flip.kind == "flip" and abs(flip.parameter - 3.0) < 2e-3
     two = doubled_orbit(system, flip, amplitude=0.03)
     branch = follow_branch(system, two, 2.8, 3.4, least=2e-3, accuracy=1e-2)

@@ -19,8 +19,6 @@ from analysis.oscillator import (
     strobed_states,
 )
 from analysis.oscillator.growth import random_starts
-from analysis.oscillator.pieces import tables
-from analysis.oscillator.strobing import tangent_map
 
 PAPER = SnapOscillator()
 LAMBDA_1 = 0.0640482  # +- 0.0000122, from an independent code
@@ -42,16 +40,6 @@ def test_exponents_and_damping_add_up_to_zero(damping):
     assert result.block_error == pytest.approx(np.linalg.norm(over_blocks) / result.starts, rel=1e-9)
     assert abs(result.first.value + result.second.value + damping) < 1e-12
     assert np.abs(result.of_start.sum(axis=1) + damping).max() < 1e-12
-
-
-@pytest.mark.parametrize("start", [(0.68, 0.0), (-3.0, 2.0), (2.0, -4.0)])
-def test_tangent_map_against_differences(start):
-    table = tables(PAPER)
-    _, _, jacobian = tangent_map(*start, 3, table)
-    for column, shift in enumerate(np.eye(2) * 1e-6):
-        plus, minus = (np.array(tangent_map(*(start + s * shift), 3, table)[:2]) for s in (1, -1))
-        assert np.allclose((plus - minus) / 2e-6, jacobian[:, column], rtol=1e-5, atol=1e-6)
-    assert np.isclose(np.linalg.det(jacobian), np.exp(-0.025 * 3 * PAPER.period), rtol=1e-12)
 
 
 @pytest.mark.slow
