@@ -129,7 +129,7 @@ def test_a_flow_at_its_maxima_is_chaotic_with_the_known_exponent(tmp_path, capsy
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", REGULAR)
 def test_no_false_alarm_in_regular_records(kind):
-    for number in range(12):
+    for number in range(8):
         known = REGULAR[kind](np.random.default_rng([number, 301]))
         view = study.seen(known.series, known.step, known.period)
         verdict = study.judged(known.series, view, study.least_tolerance(view), number)
