@@ -24,7 +24,7 @@ FLOWS = {
 }
 
 
-@njit(cache=False)
+@njit(cache=True)
 def _rate(flow, t, y, out):
     """Slopes of the flow of that number in FLOWS; parameters of Sprott, Chaos and Time-Series Analysis (2003)."""
     if flow == 0:
@@ -52,8 +52,8 @@ def _rate(flow, t, y, out):
         out[:] = v, force
 
 
-@njit(cache=False)
-def _march(flow, y, step, substeps, skip, samples):
+@njit(cache=True)
+def march(flow, y, step, substeps, skip, samples):
     """States (samples, d) after `skip` samples, by Runge and Kutta's method."""
     out, h, y = np.empty((samples, y.size)), step / substeps, y.copy()
     k1, k2, k3, k4 = np.empty(y.size), np.empty(y.size), np.empty(y.size), np.empty(y.size)
@@ -77,12 +77,12 @@ def flow(name, coordinate, samples_a_cycle, cycles, rng):
     start = np.array(start) + 0.01 * rng.normal(size=len(start))
     if not period:
         scale = {"Lorenz": 0.75, "Rossler": 6.0, "Chen": 0.35, "Rucklidge": 4.0, "Moore-Spiegel": 2.0}[name]
-        fine = _march(number, start, scale / 200, 1, 20_000, 100_000)[:, coordinate]
+        fine = march(number, start, scale / 200, 1, 20_000, 100_000)[:, coordinate]
         cycle = scale / 200 * len(fine) / np.sum((fine[1:-1] > fine[:-2]) & (fine[1:-1] >= fine[2:]))
     step = cycle / samples_a_cycle
     skip = samples_a_cycle * (200 + int(rng.integers(50)))
     substeps = max(1, int(np.ceil(200 / samples_a_cycle)))
-    y = _march(number, start, step, substeps, skip, samples_a_cycle * cycles + 1)[:, coordinate]
+    y = march(number, start, step, substeps, skip, samples_a_cycle * cycles + 1)[:, coordinate]
     y = np.sin(y) if name == "pendulum" and coordinate == 0 else y
     return Known(y, step, period or None, f"{name} {coordinate}, {samples_a_cycle}")
 

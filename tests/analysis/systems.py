@@ -14,8 +14,9 @@ two tones                      0           exact
 
 from functools import cache
 
-import numba
 import numpy as np
+
+from benchmarks.known_flows import FLOWS, march
 
 TRUTH = {
     "lorenz": 0.9056,
@@ -27,75 +28,53 @@ TRUTH = {
     "logistic": np.log(2.0),
     "two_tone": 0.0,
 }
-FLOWS = {  # start; which coordinate is observed; sampling step; steps of integration in one of these
-    "lorenz": ((1.0, 1.0, 20.0), 0, 0.03, 10),
-    "rossler": ((1.0, 1.0, 0.0), 0, 0.1, 4),
-    "duffing": ((0.1, 0.1), 0, 2 * np.pi / 50, 5),
-    "ueda": ((2.5, 0.0), 0, 2 * np.pi / 50, 5),
-    "pendulum": ((0.1, 0.0), 1, 2 * np.pi / 0.7 / 50, 8),
-    "van_der_pol": ((1.0, 0.0), 0, 0.1, 4),
-    "wells": ((0.1, 0.1), 0, 2 * np.pi / 48, 1),  # Duffing's with a force of .26: several motions
+SAMPLED = {  # name in FLOWS, which coordinate is observed, sampling step, steps of integration in one of these
+    "lorenz": ("Lorenz", 0, 0.03, 10),
+    "rossler": ("Rossler", 0, 0.1, 4),
+    "duffing": ("Duffing", 0, 2 * np.pi / 50, 5),
+    "ueda": ("Ueda", 0, 2 * np.pi / 50, 5),
+    "pendulum": ("pendulum", 1, 2 * np.pi / 0.7 / 50, 8),
 }
-LORENZ, ROSSLER, DUFFING, UEDA, PENDULUM, _, WELLS = range(len(FLOWS))
 
 
-@numba.njit(cache=True)
-def _rate(flow, t, y):
-    if flow == LORENZ:
-        return np.array([10.0 * (y[1] - y[0]), y[0] * (28.0 - y[2]) - y[1], y[0] * y[1] - 8.0 / 3.0 * y[2]])
-    if flow == ROSSLER:
-        return np.array([-y[1] - y[2], y[0] + 0.2 * y[1], 0.2 + y[2] * (y[0] - 5.7)])
-    if flow == DUFFING or flow == WELLS:
-        force = -0.25 * y[1] + y[0] - y[0] ** 3 + (0.4 if flow == DUFFING else 0.26) * np.cos(t)
-    elif flow == UEDA:
-        force = -0.05 * y[1] - y[0] ** 3 + 7.5 * np.cos(t)
-    elif flow == PENDULUM:
-        force = -0.05 * y[1] - np.sin(y[0]) + 0.6 * np.sin(0.7 * t)
-    else:  # van der Pol
-        force = (1.0 - y[0] * y[0]) * y[1] - y[0]
-    return np.array([y[1], force])
+def wells(starts, periods):
+    """Duffing's two wells with a force of 0.26, from starts (n, 2): strobed states (p + 1, n, 2), and the least and the
+    largest x of each period (p, n, 2)."""
 
+    def rate(t, y):
+        x, speed = y.T
+        return np.column_stack([speed, x - x**3 - 0.25 * speed + 0.26 * np.cos(t)])
 
-@numba.njit(cache=True)
-def _march(flow, y, step, substeps, skip, samples):
-    out = np.empty((samples, y.size))
-    h = step / substeps
-    for i in range(skip + samples):
-        if i >= skip:
-            out[i - skip] = y
-        for j in range(substeps):
-            t = i * step + j * h
-            k1 = _rate(flow, t, y)
-            k2 = _rate(flow, t + 0.5 * h, y + 0.5 * h * k1)
-            k3 = _rate(flow, t + 0.5 * h, y + 0.5 * h * k2)
-            k4 = _rate(flow, t + h, y + h * k3)
-            y = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    return out
-
-
-def wells(start, periods):
-    """Strobed states (p + 1, 2) of Duffing's two wells, and measures (p, 2) of each period: least and largest x."""
-    found = _march(WELLS, np.array(start), FLOWS["wells"][2], 1, 0, 48 * periods + 1)
-    x = np.column_stack([found[:-1, 0].reshape(periods, 48), found[48::48, 0]])
-    return found[::48], np.column_stack([x.min(axis=1), x.max(axis=1)])
+    h, path = np.pi / 24, [starts]
+    for t in h * np.arange(48 * periods):
+        y = path[-1]
+        k1 = rate(t, y)
+        k2 = rate(t + 0.5 * h, y + 0.5 * h * k1)
+        k3 = rate(t + 0.5 * h, y + 0.5 * h * k2)
+        k4 = rate(t + h, y + h * k3)
+        path.append(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))
+    path = np.array(path)
+    within = [path[48 * k : 48 * k + 49, :, 0] for k in range(periods)]
+    return path[::48], np.stack([np.min(within, axis=1), np.max(within, axis=1)], axis=-1)
 
 
 @cache
 def states(name, samples, step=None, skip_time=500.0):
     """States (samples, d) on the attractor; one array for all who ask, not to be written into."""
-    start, _, own, substeps = FLOWS[name]
-    step = own if step is None else step
-    substeps = max(1, int(np.ceil(step * substeps / own)))
-    found = _march(list(FLOWS).index(name), np.array(start), step, substeps, int(np.ceil(skip_time / step)), samples)
-    found.flags.writeable = False
-    return found
+    flow, _, usual_step, substeps = SAMPLED[name]
+    step = usual_step if step is None else step
+    substeps = max(1, int(np.ceil(step * substeps / usual_step)))
+    start, skip = np.array(FLOWS[flow][0]), int(np.ceil(skip_time / step))
+    orbit = march(list(FLOWS).index(flow), start, step, substeps, skip, samples)
+    orbit.flags.writeable = False
+    return orbit
 
 
 def record(name, samples=20_000, noise=0.0, seed=0):
     """(series, step) of a flow, a map or the two tones: the observed coordinate, with white noise of `noise` standard
     deviations of the series."""
-    if name in FLOWS:
-        _, observed, step, _ = FLOWS[name]
+    if name in SAMPLED:
+        _, observed, step, _ = SAMPLED[name]
         series = states(name, samples)[:, observed].copy()
     elif name == "two_tone":
         series, step = two_tone(samples), 0.1

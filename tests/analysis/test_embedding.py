@@ -73,10 +73,10 @@ def test_noise_is_told_from_motion_by_caos_second_average():
 def test_nearest_neighbours_outside_the_window_are_those_of_brute_force():
     points = np.random.default_rng(0).normal(size=(300, 2)).cumsum(axis=0)
     index, distance = nearest_outside(points, 20, count=3)
-    apart = np.linalg.norm(points[:, None] - points, axis=2)
-    apart[np.abs(np.subtract.outer(np.arange(300), np.arange(300))) <= 20] = np.inf
-    assert np.allclose(distance, np.sort(apart, axis=1)[:, :3])
-    assert np.allclose(np.take_along_axis(apart, index, axis=1), distance)
+    separation = np.linalg.norm(points[:, None] - points, axis=2)
+    separation[np.abs(np.subtract.outer(np.arange(300), np.arange(300))) <= 20] = np.inf
+    assert np.allclose(distance, np.sort(separation, axis=1)[:, :3])
+    assert np.allclose(np.take_along_axis(separation, index, axis=1), distance)
 
 
 @pytest.mark.parametrize(("name", "share"), [("lorenz", 0.03), ("rossler", 0.01), ("henon", 0.005), ("henon", 0.03)])

@@ -16,7 +16,7 @@ def steps(count, bits, scatter=0.3):
     return np.log(2.0) * (bits + scatter * RANDOM.normal(size=count))
 
 
-def told(record, growth, length, scale=1.0):
+def verdict_of(record, growth, length, scale=1.0):
     return motion_regime(record[: length + 1], growth[:length], scale=scale, tolerance=0.01)
 
 
@@ -33,12 +33,19 @@ def test_a_period_after_chaos_is_told_on_every_length_and_chaos_is_taken_back(la
     points = RANDOM.random(period)
     record, growth = after_chaos(lasted, points[np.arange(1600) % period], steps(1600, -0.1, 0.01))
     for length in LENGTHS:
-        verdict, periodic = told(record, growth, length), length - lasted
+        verdict, periodic = verdict_of(record, growth, length), length - lasted
         if periodic > max(length / 2, 136):
             assert verdict.period == period and abs(verdict.transient - lasted) < 15, length
         assert periodic < length / 3 or verdict.regime != "chaotic", length
         assert periodic > 0 or verdict.period is None, length
-    assert "chaotic transient" in told(record, growth, 1500).reason or lasted < 100
+    assert "chaotic transient" in verdict_of(record, growth, 1500).reason or lasted < 100
+
+
+def test_a_period_in_the_last_half_alone_takes_two_looks():
+    record, growth = after_chaos(360, np.zeros(300), steps(300, -0.1, 0.01))
+    first = verdict_of(record, growth, 465)
+    assert first.regime == "undecided" and "period-1 at the last look only" in first.reason
+    assert verdict_of(record, growth, 600).period == 1
 
 
 @pytest.mark.parametrize("lasted", [150, 500, 900])
@@ -49,14 +56,14 @@ def test_chaos_after_a_period_takes_the_period_back(lasted):
     growth = np.concatenate([steps(lasted, 0.02, 0.01), henon_growth(henon(1601))])
     for length in LENGTHS:
         if length > lasted + 20:
-            assert told(record, growth, length, scale=2.0).period is None, length
-    assert told(record, growth, 1500, scale=2.0).regime == "chaotic"
+            assert verdict_of(record, growth, length, scale=2.0).period is None, length
+    assert verdict_of(record, growth, 1500, scale=2.0).regime == "chaotic"
 
 
 def test_a_torus_whose_perturbations_grow_is_none_though_little():
     for bits, word in ((0.0, {"quasi-periodic"}), (0.03, {"undecided", "chaotic"})):
         record, growth = circle(GOLDEN * np.arange(1501)), steps(1500, bits, 0.1)
-        words = {told(record, growth, length, scale=2.0).regime for length in (585, 920, 1500)}
+        words = {verdict_of(record, growth, length, scale=2.0).regime for length in (585, 920, 1500)}
         assert words <= word, (bits, words)
 
 
@@ -66,10 +73,10 @@ def test_an_observed_period_beside_growing_perturbations_is_no_period_and_says_b
     record = RANDOM.random(8)[np.arange(1501) % 8] + 5e-4 * RANDOM.normal(size=1501)
     grows, shrinks = steps(1500, 0.35, scatter), steps(1500, -0.1, scatter)
     for length in LENGTHS:
-        verdict = told(record, grows, length)
+        verdict = verdict_of(record, grows, length)
         assert verdict.period is None, length
     assert verdict.regime == "chaotic" and "repeats after 8" in verdict.reason and "grow by 0.3" in verdict.reason
-    verdicts = [told(record, shrinks, length) for length in LENGTHS]
+    verdicts = [verdict_of(record, shrinks, length) for length in LENGTHS]
     assert all(verdict.regime in ("undecided", "period-8") for verdict in verdicts)
     assert verdicts[-1].period == 8 and verdicts[-1].named("no growth").value < 0.1
 
@@ -88,6 +95,6 @@ def test_a_word_holds_beside_and_within_windows_of_the_logistic_map(rate):
         orbit = logistic(rate, 10_001, start, skip=0)
         growth = logistic_growth(rate, orbit)
         for length in (310, 735, 1500):
-            verdict = told(orbit, growth, length)
+            verdict = verdict_of(orbit, growth, length)
             assert verdict.period is None or growth[5000:].mean() < 0.0, (start, length)
             assert verdict.regime != "chaotic" or growth[2 * length // 3 : length].mean() > -0.01, (start, length)

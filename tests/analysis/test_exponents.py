@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from analysis import tangent_lyapunov, transverse_lyapunov
 from analysis.exponents import Exponent, no_exponent
@@ -16,67 +17,51 @@ def growth_of_a_bit(periods, seed):
     return logistic_growth(4.0, logistic(4.0, periods + 1, start, skip=0))
 
 
-def ar1(periods, seed, correlation=0.8):
-    noise = np.random.default_rng(seed).normal(size=periods)
-    for k in range(1, periods):
-        noise[k] += correlation * noise[k - 1]
-    return noise
-
-
-def test_the_logistic_map_gains_a_bit_an_iteration():
-    (found,) = tangent_lyapunov(growth_of_a_bit(20_000, 1))
-    assert abs(found.value - 1.0) < 3 * found.error
-    assert found.unit == "bits/period" and found.error < 0.02
+def ar1(periods, seed):
+    return lfilter([1.0], [1.0, -0.6], np.random.default_rng(seed).normal(size=periods))
 
 
 @pytest.mark.parametrize("periods", [200, 500, 2000])
 def test_errors_are_those_of_the_scatter(periods):
     """AR(1) growth, correlation 0.6, mean zero: deviations in errors scatter by 0.8 to 1.25."""
-    found = [tangent_lyapunov(ar1(periods, seed, 0.6))[0] for seed in range(400)]
-    assert 0.8 < np.std([one.value / one.error for one in found]) < 1.25
+    result = [tangent_lyapunov(ar1(periods, seed))[0] for seed in range(400)]
+    assert 0.8 < np.std([exponent.value / exponent.error for exponent in result]) < 1.25
 
 
 def test_errors_of_long_records_are_sure():
     """Six frequencies know the error to 30 %; of 8000 periods 24 count, and the scatter over starts is that of normal
     deviates to a twelfth."""
-    found = [tangent_lyapunov(ar1(8000, seed, 0.6))[0] for seed in range(150)]
-    errors, scatter = np.array([one.error for one in found]), np.std([one.value for one in found])
+    result = [tangent_lyapunov(ar1(8000, seed))[0] for seed in range(150)]
+    errors, scatter = np.array([exponent.error for exponent in result]), np.std([exponent.value for exponent in result])
     assert np.std(errors) < 0.2 * errors.mean() and errors.mean() == pytest.approx(scatter, rel=0.15)
-    assert 0.87 < np.std([one.value / one.error for one in found]) < 1.13
-    assert "this one run" in found[0].reason
-
-
-def test_the_error_falls_as_the_root_of_the_length():
-    def typical(periods):
-        return np.median([tangent_lyapunov(ar1(periods, seed))[0].error for seed in range(60)])
-
-    assert typical(6400) / typical(400) == pytest.approx(0.25, rel=0.2)
+    assert 0.87 < np.std([exponent.value / exponent.error for exponent in result]) < 1.13
+    assert "this one run" in result[0].reason
 
 
 def test_columns_are_exponents_in_their_order_and_periods_can_be_left_out():
-    found = tangent_lyapunov(np.log([[2.0, 0.25]] * 100), transient_periods=10)
-    assert [item.value for item in found] == pytest.approx([1.0, -2.0])
-    assert [item.details["periods"] for item in found] == [90, 90]
+    result = tangent_lyapunov(np.log([[2.0, 0.25]] * 100), transient_periods=10)
+    assert [item.value for item in result] == pytest.approx([1.0, -2.0])
+    assert [item.details["periods"] for item in result] == [90, 90]
     growth = np.where(np.arange(100) % 10 == 0, 50.0, np.log(2.0))
-    (found,) = tangent_lyapunov(growth, left_out=np.arange(100) % 10 == 0)
-    assert found.value == pytest.approx(1.0) and found.details["periods"] == 90
+    (result,) = tangent_lyapunov(growth, left_out=np.arange(100) % 10 == 0)
+    assert result.value == pytest.approx(1.0) and result.details["periods"] == 90
     with pytest.raises(ValueError, match="left_out"):
         tangent_lyapunov(np.zeros(40), left_out=[True])
 
 
 def test_a_short_record_gives_no_number_but_the_reason():
-    (found,) = tangent_lyapunov(np.zeros(40), transient_periods=9)
-    assert np.isnan(found.value) and "32 periods" in found.reason
+    (result,) = tangent_lyapunov(np.zeros(40), transient_periods=9)
+    assert np.isnan(result.value) and "32 periods" in result.reason
 
 
-@pytest.mark.parametrize("coupling", [0.1, 0.25, 0.4])
+@pytest.mark.parametrize("coupling", [0.0, 0.1, 0.25, 0.4])
 def test_coupled_maps_leave_their_diagonal_or_keep_to_it(coupling):
     """x' = (1 - c) f(x) + c f(y), y' = c f(x) + (1 - c) f(y), f(x) = 4 x (1 - x): across x = y the growth of a step is
     |1 - 2 c| |f'|, the exponent 1 + log2|1 - 2 c| bits, and the diagonal is left below c = 1/4."""
     growth = growth_of_a_bit(20_000, 3) + np.log(abs(1 - 2 * coupling))
-    found = transverse_lyapunov(growth, 100)
-    assert abs(found.value - (1 + np.log2(1 - 2 * coupling))) < 3 * found.error
-    assert found.unit == "bits/period" and found.details["periods"] == 19_900
+    result = transverse_lyapunov(growth, 100)
+    assert abs(result.value - (1 + np.log2(1 - 2 * coupling))) < 3 * result.error
+    assert result.unit == "bits/period" and result.details["periods"] == 19_900 and result.error < 0.02
 
 
 def test_loops_released_leave_no_exponent_across_the_plane():
@@ -112,9 +97,7 @@ def test_nonsense_is_refused(value, error, unit):
         Exponent(value, error, unit, "method")
 
 
-def test_details_are_read_only_and_travel_between_processes():
+def test_details_travel_between_processes():
     record = Exponent(1.0, 0.1, "nats/time", "method", details={"curve": np.arange(3.0)})
-    with pytest.raises(TypeError):
-        record.details["curve"] = None
-    again = pickle.loads(pickle.dumps(record))
-    assert again.value == 1.0 and np.array_equal(again.details["curve"], np.arange(3.0))
+    copy = pickle.loads(pickle.dumps(record))
+    assert copy.value == 1.0 and np.array_equal(copy.details["curve"], np.arange(3.0))

@@ -28,13 +28,10 @@ def test_windows_of_the_logistic_map_need_two_looks(rate, period, carried):
     assert motion_regime(orbit[:110], None, scale=0.5).regime == "undecided"
 
 
-@pytest.mark.parametrize(
-    ("orbit", "growth"), [(logistic(4.0, 1001), logistic_growth(4.0, logistic(4.0, 1001))), (henon(1001), None)]
-)
-def test_chaotic_maps(orbit, growth):
-    verdict = motion_regime(orbit, henon_growth(orbit) if growth is None else growth, scale=1.0)
-    assert verdict.regime == "chaotic"
-    assert motion_regime(orbit, None, scale=1.0).regime == "undecided"  # a strobed record alone does not tell
+def test_a_strobed_record_of_chaos_alone_does_not_tell():
+    orbit = logistic(4.0, 1001)
+    assert motion_regime(orbit, logistic_growth(4.0, orbit), scale=1.0).regime == "chaotic"
+    assert motion_regime(orbit, None, scale=1.0).regime == "undecided"
 
 
 @pytest.mark.parametrize(("coupling", "rotation"), [(0.5, 0.6180339), (0.8, 0.41421356), (0.5, 0.1314)])
@@ -50,14 +47,6 @@ def test_a_shear_does_not_make_a_torus_chaotic():
     """On a torus whose turns depend on its size a perturbation grows linearly in time: ln((k + 1)/k) a period."""
     growth = np.log1p(1.0 / np.arange(1, 1001))
     assert motion_regime(circle(0.6180339 * M), growth, scale=2.0).regime != "chaotic"
-
-
-def test_a_chaotic_transient_ends_in_a_period_and_is_named():
-    chaos, window = logistic(4.0, 100), logistic(3.832, 800)
-    growth = np.concatenate([logistic_growth(4.0, chaos), [0.0], logistic_growth(3.832, window)])
-    verdict = motion_regime(np.concatenate([chaos, window]), growth, scale=0.5)
-    assert verdict.period == 3 and "chaotic transient" in verdict.reason
-    assert 95 <= verdict.transient <= 105
 
 
 @pytest.mark.parametrize(("multiplier", "word"), [(0.97, "period-1"), (0.999, "transient")])
@@ -76,8 +65,8 @@ def test_chaos_has_to_survive_a_tighter_tolerance_after_the_look_that_finds_it()
     growth = henon_growth(orbit)
     for value, word in ((0.6, "chaotic"), (0.01, "undecided"), (np.nan, "undecided")):
         for end in (205, 465):  # two looks in a row, or one from 465 periods on
-            found = motion_regime(orbit[: end + 1], growth[:end], scale=1.0, tighter={end: going_on(value)})
-            assert found.regime == word and found.transient == end // 3
+            verdict = motion_regime(orbit[: end + 1], growth[:end], scale=1.0, tighter={end: going_on(value)})
+            assert verdict.regime == word and verdict.transient == end // 3
     assert motion_regime(orbit, growth, scale=1.0, tighter={}).points == 465 - 465 // 3 + 1  # to be gone on from
     refused = {135: going_on(0.01), 205: going_on(0.01), 310: going_on(0.01)}
     assert motion_regime(orbit, growth, scale=1.0, tighter={**refused, 465: going_on(0.6)}).regime == "chaotic"
@@ -95,8 +84,11 @@ def test_a_shrinking_flip_is_no_period_2():
 
 def test_perturbations_may_be_carried_from_later_on():
     orbit, growth = henon(1001), henon_growth(henon(1001))
-    growth[:90] = np.nan
-    assert motion_regime(orbit, growth, scale=1.0).regime == "chaotic"
+    growth[:400] = np.nan
+    verdict = motion_regime(orbit, growth, scale=1.0)
+    assert verdict.regime == "chaotic"
+    growth[400:410] = 50.0  # they need ten periods to turn, which do not count
+    assert motion_regime(orbit, growth, scale=1.0).named("exponent") == verdict.named("exponent")
 
 
 @pytest.mark.parametrize(("states", "growth"), [(np.zeros(10), np.zeros(10)), (np.full(200, np.nan), None)])

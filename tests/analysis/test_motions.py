@@ -1,7 +1,5 @@
 """Every start of a forced system is put to the motion that it ends in: settled, joined, grouped, matched, shares."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -18,7 +16,8 @@ def of_map(orbit):
 
 def test_every_start_is_put_to_its_motion():
     """Duffing's two wells at force .26 have a period 1 each, and both of them a period 5. Who joins is right later."""
-    runs = [wells(start, PERIODS) for start in np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2))]
+    orbits, extremes = wells(np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2)), PERIODS)
+    runs = list(zip(orbits.swapaxes(0, 1), extremes.swapaxes(0, 1), strict=True))
     late = [settled(*run, scale=(1.0, 1.0)) for run in runs]
     assert None not in late
     label = grouped(late)
@@ -29,9 +28,9 @@ def test_every_start_is_put_to_its_motion():
     joined = []
     for (run, measures), ends in zip(runs, label, strict=True):
         reached = ((n, joins(run[: n + 1], measures[:n], known)) for n in range(1, PERIODS))
-        when, motion = next((n, index) for n, index in reached if index is not None)
+        reached_at, motion = next((n, index) for n, index in reached if index is not None)
         assert motion == ends
-        joined.append(when)
+        joined.append(reached_at)
     assert np.median(joined) < 30
 
 
@@ -39,26 +38,26 @@ def test_every_start_is_put_to_its_motion():
 def test_a_slow_decay_has_not_settled_while_it_has_far_to_go(multiplier):
     decay = 0.3 * np.asarray(multiplier, dtype=complex) ** np.arange(600)
     x = 2.0 + np.column_stack([decay.real, decay.imag])
-    found = [(n, of_map(x[: n + 1])) for n in range(20, 600, 20)]
-    found = [(n, motion) for n, motion in found if motion is not None]
-    for n, motion in found:
+    result = [(n, of_map(x[: n + 1])) for n in range(20, 600, 20)]
+    result = [(n, motion) for n, motion in result if motion is not None]
+    for n, motion in result:
         assert motion.period == 1
         assert np.abs(motion.points - 2.0).max() < 0.03
         assert abs(decay[n]) < 0.02
-    assert found or abs(multiplier) > 0.995
+    assert result or abs(multiplier) > 0.995
 
 
 def test_a_motion_without_period_settles_and_is_one_motion():
-    whole, torus = henon(1200), circle_map(0.9, 0.31, 400)
-    parts = [of_map(part) for part in np.split(whole, 8)]
+    orbit, torus = henon(1200), circle_map(0.9, 0.31, 400)
+    parts = [of_map(part) for part in np.split(orbit, 8)]
     parts = [part for part in parts if part is not None]
     assert len(parts) >= 6 and {part.period for part in parts} == {None}
     round_ = next(motion for n in range(90, 200, 15) if (motion := of_map(torus[:n])) is not None)
     assert round_.period is None
-    other = of_map(henon(150) + 0.5)
-    assert list(grouped([*parts, round_, other])) == [0] * len(parts) + [1, 2]
+    shifted = of_map(henon(150) + 0.5)
+    assert list(grouped([*parts, round_, shifted])) == [0] * len(parts) + [1, 2]
     assert joins(torus[:230], torus[:229], [parts[0], round_]) == 1
-    assert joins(whole[:50], whole[:49], [round_, parts[0]]) == 1
+    assert joins(orbit[:50], orbit[:49], [round_, parts[0]]) == 1
 
 
 def test_a_cloud_that_moves_or_is_too_short_has_not_settled():
@@ -86,14 +85,33 @@ def test_motions_are_matched_by_least_distance_in_all():
     assert matched(at(0.0, 0.4), at(0.25, 0.65)) == [0, 1]
     assert matched(at(0.0, 0.4, 5.0), at(0.45, 2.0)) == [None, 0, None]
     assert matched([], at(1.0)) == [] and matched(at(1.0), []) == [None]
+    assert matched(at(0.0), at(0.4)) == [None] and matched(at(0.0), at(0.4), threshold=0.5) == [0]
 
 
-def test_shares_have_wilsons_interval():
-    found, z, p, n = share_of(16, 49), 1.959964, 16 / 49, 49
-    centre, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
-    assert (found.share, found.low, found.high) == pytest.approx(
-        (p, (centre - half) / (1 + z * z / n), (centre + half) / (1 + z * z / n)), abs=1e-6
-    )
+def test_a_cloud_that_lies_within_another_is_the_same_motion_and_an_orbit_within_it_is_not():
+    def placed(period, points):
+        return Settled(period, points, np.ones((len(points), 1)), np.ones(1), "")
+
+    line = np.linspace(0.0, 1.0, 201)[:, None]
+    assert distance(placed(None, line), placed(None, line[:100])) == 0.0
+    assert distance(placed(None, line), placed(1, line[:1])) == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.parametrize(("limit", "reached"), [(0.01, 0), (0.05, None)])
+def test_a_decay_is_joined_where_its_geometric_limit_is_the_orbit(limit, reached):
+    """Three windows of a dozen periods, at distances of limit + 0.4, limit + 0.2 and limit + 0.1."""
+    orbit = [Settled(1, np.zeros((1, 1)), np.ones((1, 1)), np.ones(1), "")]
+    x = np.append(np.repeat(limit + np.array([0.4, 0.2, 0.1]), 12), limit + 0.1)[:, None]
+    assert joins(x, np.ones((36, 1)), orbit) == reached
+
+
+@pytest.mark.parametrize(("confidence", "z"), [(0.95, 1.959964), (0.99, 2.575829)])
+def test_shares_have_wilsons_interval(confidence, z):
+    """Its ends are the shares q from which 16 of 49 is just z standard deviations away."""
+    wilson = share_of(16, 49, confidence)
+    assert wilson.share == 16 / 49 and wilson.low < wilson.share < wilson.high
+    for end in (wilson.low, wilson.high):
+        assert abs(end - 16 / 49) == pytest.approx(z * np.sqrt(end * (1.0 - end) / 49), abs=1e-6)
 
 
 def test_records_that_do_not_fit_are_refused():

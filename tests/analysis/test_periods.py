@@ -43,19 +43,6 @@ def test_close_returns_fool_the_residual_but_not_the_answer():
     assert "drift" in estimate.reason
 
 
-@pytest.mark.parametrize(("turns", "period"), [(1, 7), (2, 7), (3, 12), (4, 12), (1, 1)])
-def test_a_rational_rotation_has_its_denominator(turns, period):
-    orbit = circle(turns / period * np.arange(100))
-    assert detect_period(orbit, scale=2.0).period == period // np.gcd(turns, period)
-
-
-def test_a_torus_on_a_period_2_motion_is_no_period():
-    k = np.arange(300)
-    orbit = 0.1 * circle(0.1234567 * k) + np.outer((-1.0) ** k, [1.0, 0.0])
-    assert detect_period(orbit, scale=2.0).period is None
-    assert detect_period(orbit, scale=2.0, tolerance=0.2).period == 2  # seen from afar the torus is two points
-
-
 @pytest.mark.parametrize("length", [60, 61, 62])
 def test_a_record_need_not_be_whole_rounds_and_its_orbit_ends_where_it_ends(length):
     record = np.resize([0.3, 5.0, -2.0], length)
@@ -103,19 +90,13 @@ def test_the_multiplier_and_the_trend_are_those_of_the_decay(multiplier, period)
     assert estimate.multiplier[period - 1] == pytest.approx(multiplier**period, rel=1e-6)
     assert estimate.trend_nats_per_period[period - 1] == pytest.approx(np.log(abs(multiplier)), rel=1e-6)
     # The largest of the last N steps begins somewhere in the last but one round.
-    left = 0.1 * abs(multiplier) ** (120 - 2 * period)
-    assert estimate.projected[period - 1] == pytest.approx(left, rel=1e-6)
+    rest = 0.1 * abs(multiplier) ** (120 - 2 * period)
+    assert estimate.projected[period - 1] == pytest.approx(rest, rel=1e-6)
 
 
 def test_a_creep_by_the_last_digit_is_rounding_and_no_drift():
     creep = 20.8 + np.spacing(20.8) * np.arange(40)
     assert detect_period(creep, scale=1.0, tolerance=1e-12).period == 1
-
-
-def test_what_happened_before_the_last_half_does_not_matter():
-    k = np.arange(200)
-    orbit = np.where(k < 90, np.random.default_rng(0).normal(size=200), np.where(k % 2 == 0, 0.2, -0.4))
-    assert detect_period(orbit, scale=1.0).period == 2
 
 
 @pytest.mark.parametrize("points", [0, 1, 15])
@@ -139,11 +120,11 @@ def test_a_scale_tolerance_or_limit_without_meaning_is_refused(wrong):
         detect_period(np.zeros(100), **wrong)
 
 
-def answers(period, points, share, trials=60):
+def answers(period, points, share):
     """Periods found with noise of this share of the tolerance."""
     rng = np.random.default_rng(period * points)
     clean = BRANCHES[np.arange(points) % period]
-    noise = share * TOLERANCE * 7.0 * rng.uniform(-1, 1, (trials, points))
+    noise = share * TOLERANCE * 7.0 * rng.uniform(-1, 1, (60, points))
     return [detect_period(clean + row, scale=7.0, tolerance=TOLERANCE).period for row in noise]
 
 
@@ -156,14 +137,6 @@ def test_noise_gives_the_period_then_the_period_or_none_but_no_multiple_of_it_an
         for share in (0.5, 0.6, 0.8, 1.5):
             assert set(answers(period, points, share)) <= {period, None}
         assert set(answers(period, points, 5.0)) == {None}
-
-
-@pytest.mark.parametrize("period", [4, 8])
-def test_four_rounds_are_too_few_to_tell_noise_from_drift_always_but_mostly(period):
-    """The multiplier from 2 or 3 steps a branch exceeds 1/2 by chance at times; that must stay rare and give None."""
-    found = answers(period, 4 * period, 0.25, trials=200)
-    assert set(found) <= {period, None}
-    assert found.count(period) >= 0.95 * len(found)
 
 
 def test_independent_errors_about_a_point_have_the_multiplier_minus_one_half():

@@ -16,12 +16,6 @@ from tests.analysis.systems import henon, logistic
 PERIOD = 5.0
 
 
-def motion(t):
-    """A period-2 motion and its rate."""
-    w = 2 * np.pi / PERIOD
-    return np.column_stack([np.cos(w * t) + 0.3 * np.sin(w / 2 * t), np.sin(w * t)])
-
-
 @pytest.mark.parametrize("steps", range(60, 200))
 def test_a_record_of_whole_periods_has_one_point_more_than_periods_whatever_the_rounding_of_the_step(steps):
     section = poincare_section(np.zeros(40 * steps + 1), PERIOD / steps, PERIOD)
@@ -29,13 +23,12 @@ def test_a_record_of_whole_periods_has_one_point_more_than_periods_whatever_the_
     assert np.allclose(section.time_s, PERIOD * np.arange(41))
 
 
-@pytest.mark.parametrize(("phase", "transient"), [(0.0, 1), (0.3, 40), (0.9, 1)])
+@pytest.mark.parametrize(("phase", "transient"), [(0.0, 1), (0.3, 40)])
 def test_leaving_out_a_transient_only_drops_points_from_the_start(phase, transient):
     x = np.random.default_rng(0).normal(size=(3001, 2))
-    whole, part = (poincare_section(x, 0.1, PERIOD, phase, first) for first in (0, transient))
-    assert np.array_equal(part.points, whole.points[transient:])
-    assert np.array_equal(part.time_s, whole.time_s[transient:])
-    assert np.array_equal(part.period_index, whole.period_index[transient:]) and part.phase == phase
+    full, part = (poincare_section(x, 0.1, PERIOD, phase, first) for first in (0, transient))
+    for name in ("points", "time_s", "period_index"):
+        assert np.array_equal(getattr(part, name), getattr(full, name)[transient:])
 
 
 def test_coordinates_keep_their_order_and_phases_stand_side_by_side():
@@ -51,15 +44,11 @@ def test_coordinates_keep_their_order_and_phases_stand_side_by_side():
     ("arguments", "message"),
     [
         (dict(series=np.zeros(101), transient_periods=3), "needs 3 periods.*given 2 "),
-        (dict(series=np.zeros(0)), "given 0 .*0 samples"),
         (dict(series=np.zeros(20), phase=0.5), "needs 0.5 periods"),
         (dict(series=np.zeros(101), phase=1.0), "0 <= phase < 1"),
         (dict(series=np.zeros(101), period_s=0.0), "period_s"),
-        (dict(series=np.zeros(101), transient_periods=1.5), "transient_periods"),
         (dict(series={"a": np.zeros(10), "b": np.zeros(11)}), "equal length.*a: 10, b: 11"),
         (dict(series=[1.0, 2.0, 3.0], step_s=4.0, phase=0.5), "at least 4 of them, given 3"),
-        (dict(series={}), "empty mapping"),
-        (dict(series=np.zeros((2, 2, 2))), "1 or 2 dimension"),
     ],
 )
 def test_what_cannot_be_answered_is_refused_with_a_reason(arguments, message):
@@ -69,22 +58,10 @@ def test_what_cannot_be_answered_is_refused_with_a_reason(arguments, message):
 
 @pytest.mark.parametrize("phase", [0.0, 0.25, 0.5, 0.99])
 def test_phases_on_samples_give_the_samples(phase):
-    x = motion(0.05 * np.arange(2001))
+    x = np.random.default_rng(1).normal(size=(2001, 2))
     section = poincare_section(x, 0.05, PERIOD, phase=phase)
     assert np.array_equal(section.points, x[np.arange(len(section.points)) * 100 + round(100 * phase)])
     assert not section.interpolated and poincare_section(x, 0.05, PERIOD, phase=0.001).interpolated
-
-
-def test_the_error_of_a_step_that_does_not_divide_the_period_is_of_fourth_order():
-    """The largest error over all phases: at one phase it depends on where the strobe falls between samples."""
-    steps = 0.291 / np.array([1, 2, 4, 8])
-    errors = []
-    for step in steps:
-        t = step * np.arange(int(50 * PERIOD / step) + 1)
-        sections = [poincare_section(motion(t), step, PERIOD, phase=p) for p in np.linspace(0, 1, 100, endpoint=False)]
-        errors.append(max(np.abs(section.points - motion(section.time_s)).max() for section in sections))
-    assert np.polyfit(np.log(steps), np.log(errors), 1)[0] == pytest.approx(4.0, abs=0.1)
-    assert errors[0] < 1e-3
 
 
 @pytest.mark.parametrize("phase", [0.0, 0.013, 0.25, 0.5, 0.77, 0.999])
@@ -95,49 +72,28 @@ def test_a_cubic_motion_is_exact_at_any_phase(phase):
     assert np.allclose(section.points[:, 0], cubic(section.time_s), rtol=1e-9)
 
 
-def test_columns_follow_the_parameter_whatever_the_order_given_and_two_runs_of_one_value_share_one():
-    parameter = np.random.default_rng(0).permutation(20) / 100
-    diagram = orbit_diagram(parameter, [np.full(3, value) for value in parameter])
-    assert np.array_equal(diagram.parameter, np.sort(parameter))
-    assert np.array_equal(diagram.columns, np.repeat(diagram.parameter[:, None], 3, axis=1))
+def test_columns_follow_the_parameter_and_two_runs_of_one_value_share_one():
     diagram = orbit_diagram([0.2, 0.1, 0.2], [[1.0], [2.0], [3.0, 4.0]])
     assert np.array_equal(diagram.parameter, [0.1, 0.2])
-    assert np.array_equal(diagram.columns[1], [1.0, 3.0, 4.0])
-
-
-def test_the_logistic_diagram_doubles_where_it_must():
-    """x* = 1 - 1/r for 1 < r < 3; two points ((r+1) +- sqrt((r-3)(r+1)))/(2r) up to r = 1 + sqrt 6."""
-    rates = [2.0, 2.5, 3.2, 3.4]
-    diagram = orbit_diagram(rates, [logistic(rate, 100, skip=3000) for rate in rates])
-    for r, column in zip(diagram.parameter, diagram.columns, strict=True):
-        root = np.sqrt(max((r - 3) * (r + 1), 0.0))
-        expected = [1 - 1 / r] if r < 3 else [((r + 1) - root) / (2 * r), ((r + 1) + root) / (2 * r)]
-        assert np.allclose(np.unique(column.round(9)), expected, atol=1e-8)
+    assert [column.tolist() for column in diagram.columns] == [[2.0], [1.0, 3.0, 4.0]]
 
 
 @pytest.mark.parametrize("bins", [1, 7, 400])
-def test_counts_are_conserved_column_by_column_and_every_point_lies_in_its_pixel(bins):
-    rng = np.random.default_rng(0)
-    diagram = orbit_diagram(np.sort(rng.uniform(size=12)), [rng.normal(size=n) for n in rng.integers(0, 400, 12)])
-    image = density_image(diagram, bins)
-    counts, edges = image.counts, image.value_edges
-    assert counts.shape == (bins, 12)
-    assert np.array_equal(counts.sum(axis=0), [len(column) for column in diagram.columns])
-    for found, column in zip(counts.T, diagram.columns, strict=True):
-        assert np.array_equal(found, np.sum((edges[:-1, None] <= column) & (column < edges[1:, None]), axis=1))
-
-
-@pytest.mark.parametrize("value", [0.0, -3.0, 21.6])
-def test_a_single_fixed_point_still_makes_an_image(value):
-    assert density_image(orbit_diagram([0.13], [[value] * 5])).counts.sum() == 5
+def test_every_point_is_counted_in_its_pixel(bins):
+    columns = [np.random.default_rng(count).normal(size=count) for count in (0, 1, 400)]
+    image = density_image(orbit_diagram([1.0, 2.0, 3.0], columns), bins)
+    low, high = image.value_edges[:-1, None], image.value_edges[1:, None]
+    for counts, column in zip(image.counts.T, columns, strict=True):
+        assert np.array_equal(counts, np.sum((low <= column) & (column < high), axis=1))
+        assert counts.sum() == len(column)
 
 
 def test_points_beyond_the_range_are_counted_as_outside_and_only_the_last_points_are_kept():
     diagram = orbit_diagram([1.0, 2.0, 4.0], [np.arange(10.0)] * 3, last=4)
     assert np.array_equal(diagram.points(), [np.repeat([1.0, 2.0, 4.0], 4), np.tile(np.arange(6.0, 10.0), 3)])
     image = density_image(diagram, 2, value_range=(6.0, 8.0))
-    assert np.array_equal(image.counts, np.repeat([[1], [2]], 3, axis=1)) and np.array_equal(image.outside, [1] * 3)
-    assert np.array_equal(image.parameter_edges, [0.5, 1.5, 3.0, 5.0])
+    assert image.counts.tolist() == [[1] * 3, [2] * 3] and image.outside.tolist() == [1] * 3
+    assert image.parameter_edges.tolist() == [0.5, 1.5, 3.0, 5.0]
     with pytest.raises(ValueError, match="low < high"):
         density_image(diagram, value_range=(1.0, 1.0))
 
@@ -153,8 +109,6 @@ def test_brightness_rises_with_the_counts_and_is_zero_only_without_points(how, b
 def test_bad_requests_are_refused():
     with pytest.raises(ValueError, match="given 1 arrays for 2 values"):
         orbit_diagram([0.1, 0.2], [[1.0]])
-    with pytest.raises(ValueError, match="given 0 arrays for 0 values"):
-        orbit_diagram([], [])
     with pytest.raises(ValueError, match="without a single point"):
         density_image(orbit_diagram([1.0], [[]]))
 
@@ -171,24 +125,22 @@ def test_two_normal_clouds_have_the_distance_of_the_closed_form(shift):
     assert energy_distance(standard(1, 3000), standard(2, 3000, shift)) == pytest.approx(exact, abs=0.015)
 
 
-def test_the_ends_of_the_scale():
-    cloud = standard(3, 50)
-    assert energy_distance(cloud, cloud) == pytest.approx(0.0, abs=1e-7)
-    assert energy_distance(np.zeros((5, 2)), np.ones((7, 2))) == 1.0
-    assert energy_distance(np.zeros((5, 2)), np.zeros((5, 2))) == 0.0
+def test_single_points_are_at_the_ends_of_the_scale():
+    for place, wanted in ((0.0, 0.0), (1.0, 1.0)):
+        assert energy_distance(np.zeros((5, 2)), np.full((7, 2), place)) == wanted
 
 
 def test_two_orbits_of_one_map_are_as_far_apart_as_the_halves_of_one():
     starts = np.random.default_rng(0).uniform(0.0, 0.1, (40, 2, 2))
     pairs = [section_distance(*(henon(200, start=tuple(start)) for start in pair)) for pair in starts]
-    assert np.mean([found.across > 1.5 * found.within for found in pairs]) <= 0.1
+    assert np.mean([result.across > 1.5 * result.within for result in pairs]) <= 0.1
 
 
 def test_orbits_of_two_maps_are_farther_apart_than_their_halves_in_any_units():
     first, second = (np.column_stack([x[:-1], x[1:]]) for x in (logistic(4.0, 401), logistic(3.7, 401)))
-    found, scaled = section_distance(first, second), section_distance(first * [1e3, 1e-6], second * [1e3, 1e-6])
-    assert found.across > 3 * found.within
-    assert (scaled.across, scaled.within) == pytest.approx((found.across, found.within))
+    result, scaled = section_distance(first, second), section_distance(first * [1e3, 1e-6], second * [1e3, 1e-6])
+    assert result.across > 3 * result.within
+    assert (scaled.across, scaled.within) == pytest.approx((result.across, result.within))
 
 
 def test_too_short_is_said_and_wrong_shapes_are_refused():

@@ -22,36 +22,6 @@ def test_a_sine_on_a_bin_has_half_its_amplitude_there_and_nothing_elsewhere(harm
     assert np.delete(s.amplitude, line).max() < 1e-13
 
 
-def test_a_tone_between_bins_agrees_with_the_integral_to_second_order_of_the_step():
-    """(1/L) int_0^L cos(nu t) e^{iwt} dt in closed form; the trapezoid rule's error falls as step^2."""
-    nu, length = 0.996, 20 * T
-    errors = []
-    for step in (0.1, 0.05, 0.025):
-        s = spectrum(np.cos(nu * step * np.arange(round(60 * T / step) + 1)), step, T)
-        w = s.angular_frequency_radps[:60]
-        begin, end = 40 * T, 40 * T + length
-        exact = 0.0
-        for rate in (w + nu, w - nu):
-            exact = exact + (np.exp(1j * rate * end) - np.exp(1j * rate * begin)) / (2j * rate * length)
-        errors.append(np.abs(s.transform[:60] - exact).max())
-    assert np.diff(np.log2(errors)) == pytest.approx([-2.0, -2.0], abs=0.1)
-    assert errors[2] < 1e-4
-
-
-@pytest.mark.parametrize("samples", [200, 201])
-def test_squares_of_both_sides_add_up_to_the_mean_square(samples):
-    """|X_0|^2 + 2 sum |X_j|^2 = mean of x^2 over one repeat; the line at half the sampling rate has no mirror image."""
-    rng = np.random.default_rng(samples)
-    window = rng.normal(size=samples)
-    x = np.concatenate([rng.normal(size=3 * samples), window, window[:1]])
-    s = spectrum(x, 1.0, float(samples), start_periods=3, periods=1)
-    weight = np.full(len(s.amplitude), 2.0)
-    weight[0] = 1.0
-    if samples % 2 == 0:
-        weight[-1] = 1.0
-    assert np.sum(weight * s.amplitude**2) == pytest.approx(np.mean(window**2), rel=1e-13)
-
-
 def test_the_window_begins_at_tau_0_and_ends_n_periods_later():
     """Only the samples in [tau_0, tau_0 + n T] count, the two ends by half."""
     step, begin, end = 0.5, 40, 60  # 4 periods in, 2 periods long
@@ -102,13 +72,12 @@ def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest)
 
 
 @pytest.mark.parametrize("natural", [0.199, 0.55, 0.996])
-@pytest.mark.parametrize("phase", [0.0, 1.0, 2.0])
-def test_a_natural_frequency_beside_the_forcing_is_found_within_half_a_bin(natural, phase):
-    x = 20.8 + 0.1 * np.cos(natural * TIME + phase) + 0.2 * np.cos(WAVE * TIME)
-    found = peaks_near(spectrum(x, STEP, T), [natural, WAVE])
-    assert abs(found[0].bins_away) <= 0.5 + 1e-9 and [peak.reference_radps for peak in found] == [natural, WAVE]
-    assert found[1].bins_away == pytest.approx(0.0, abs=1e-9)
-    assert found[0].angular_frequency_radps - natural == pytest.approx(found[0].bins_away * 2 * np.pi / (20 * T))
+def test_a_natural_frequency_beside_the_forcing_is_found_within_half_a_bin(natural):
+    x = 20.8 + 0.1 * np.cos(natural * TIME + 1.0) + 0.2 * np.cos(WAVE * TIME)
+    line, wave = peaks_near(spectrum(x, STEP, T), [natural, WAVE])
+    assert abs(line.bins_away) <= 0.5 + 1e-9 and (line.reference_radps, wave.reference_radps) == (natural, WAVE)
+    assert wave.bins_away == pytest.approx(0.0, abs=1e-9)
+    assert line.angular_frequency_radps - natural == pytest.approx(line.bins_away * 2 * np.pi / (20 * T))
 
 
 @pytest.mark.parametrize("rest", [0.0, 20.8])

@@ -21,6 +21,8 @@ REST = (0.68, 0.0)
     [
         (PAPER, REST),
         (SnapOscillator(phase=1.0), (-3.0, 2.0)),
+        (SnapOscillator(damping=0.2, lift=-0.5), (-5.0, 0.0)),
+        (SnapOscillator(force=0.15, phase=0.4), REST),
         (SnapOscillator(damping=0.3, frequency=0.31, force=2.0, lift=0.1), (-1.0, -0.5)),
         (SnapOscillator(damping=0.0, frequency=0.8, force=0.5, lift=0.9), (2.0, 0.0)),
         pytest.param(
@@ -35,23 +37,9 @@ def test_states_and_switches_against_fifty_digits(oscillator, start):
     assert np.abs(got - wanted).max() < 2e-12 * max(1.0, np.abs(wanted).max())
     assert len(motion.switches) == len(switches)
     assert np.abs(motion.switches - switches).max(initial=0.0) < 1e-11
-
-
-def test_always_taut_is_the_linear_response():
-    oscillator = SnapOscillator(force=0.15, phase=0.4)
-    steady = strobed_states(oscillator, (0.6, 0.0), 1, transient_periods=3000)[0]
-    # of F exp(i (omega t + phase)), imaginary part taken
-    response = 0.15 / (1 - 1.14**2 + 0.025j * 1.14) * np.exp(0.4j)
-    assert np.allclose(steady, [0.68 + response.imag, (1.14j * response).imag], rtol=0, atol=1e-12)
-    assert snap_motion(oscillator, steady, 5).slack_fraction == 0.0
-
-
-def test_always_slack_is_a_forced_particle_with_drag():
-    oscillator = SnapOscillator(damping=0.2, lift=-0.5)
-    motion = snap_motion(oscillator, (-5.0, 0.0), 200)
-    terminal = (motion.displacement[-1] - motion.displacement[-65]) / oscillator.period
-    assert motion.slack_fraction == pytest.approx(1.0, abs=1e-13)
-    assert np.isclose(terminal, -0.5 / 0.2, rtol=1e-9)
+    spans = np.diff([0.0, *switches, 4 * oscillator.period])  # taut and slack in turn
+    slack_time = spans[int(start[0] > 0) :: 2].sum()
+    assert motion.slack_fraction == pytest.approx(slack_time / (4 * oscillator.period), abs=1e-12)
 
 
 def test_sampling_changes_no_state_and_no_switch():
@@ -108,16 +96,8 @@ def test_double_crossings_of_any_depth_are_found(depth, time):
 
 @pytest.mark.parametrize("clearance", [1e-1, 1e-5, 1e-9, 1e-12])
 def test_a_near_miss_is_no_crossing(clearance):
-    found = first_crossing(1, 0.0, *touching(-clearance, 2.0), 0, tables(GENTLE))
-    assert found == NONE or found > 2.5
-
-
-def test_first_crossing_against_a_fine_scan():
-    for start in np.random.default_rng(5).normal(0.0, 3.0, (60, 2)):
-        motion = snap_motion(PAPER, start, 1, samples_per_period=20000)
-        changes = np.flatnonzero(np.diff(np.sign(motion.displacement)))
-        assert len(changes) == len(motion.switches)
-        assert np.abs(motion.time[changes] - motion.switches).max(initial=0.0) < PAPER.period / 15000
+    result = first_crossing(1, 0.0, *touching(-clearance, 2.0), 0, tables(GENTLE))
+    assert result == NONE or result > 2.5
 
 
 @pytest.mark.parametrize(
@@ -161,7 +141,7 @@ def states(o, start, periods):
     with mp.workdps(DIGITS):
         x, v = (mpf(repr(float(entry))) for entry in start)
         period = 2 * mp.pi / mpf(repr(o.frequency))
-        found, switches = [], []
+        result, switches = [], []
         a = 1 if x > 0 or (x == 0 and v > 0) else 0
         for n in range(periods):
             t, end = n * period, (n + 1) * period
@@ -181,5 +161,5 @@ def states(o, start, periods):
                 x, v, t = g, u, t + h
                 if abs(end - t) < mpf(10) ** (-DIGITS + 10):
                     break
-            found.append((float(x), float(v)))
-        return found, switches
+            result.append((float(x), float(v)))
+        return result, switches
