@@ -36,7 +36,7 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
     (tmp_path / "columns.csv").write_text(DICTIONARY, encoding="utf-8")
     rows = [
         {"steepness": 0.13, "radius_min_m": 19.876, "growth": -0.04, "growth_error": 0.002, "status": "ok"},
-        {"steepness": 0.1, "radius_min_m": math.nan, "growth": 1e-9, "growth_error": None, "status": ""},
+        {"steepness": 0.1, "radius_min_m": "", "growth": 1e-9, "growth_error": None, "status": ""},
     ]
     columns, names = read_columns(tmp_path / "columns.csv"), ["steepness", "radius_min_m", "growth", "status"]
     table = table_of(columns, names, rows, "Two runs.", {"status": lambda row: row["status"].upper()})

@@ -139,15 +139,15 @@ def test_a_single_short_run_gives_a_report(tmp_path):
     assert figures >= 2 and boxes
 
 
-@pytest.mark.slow
-def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):
-    folder = campaign(tmp_path / "out", [0.016, 0.05, 0.13], periods=30, transient=5)
+def test_a_damaged_a_missing_and_a_strange_trajectory_cost_only_themselves(tmp_path):
+    folder = campaign(tmp_path / "out", [0.016, 0.05, 0.08, 0.13], periods=30, transient=5)
     files = [folder / "trajectories" / f"{row['run_key']}.nc" for row in read_rows(folder / "table.csv")]
     files[0].write_bytes(files[0].read_bytes()[:1000])
     files[1].unlink()
+    shutil.copy(files[3], files[2])
     boxes, sheets, figures = content(folder)
-    assert any("0.016" in line and "0.05" in line for line in boxes) and figures >= 2
-    assert sum(file.name in line for file in files[:2] for line in sheets) == 2
+    assert any("kA = 0.016 to 0.08." in line for line in boxes) and figures >= 2
+    assert sum(file.name in line for file in files for line in sheets) == 3
     assert not any(str(tmp_path) in line for line in boxes + sheets)
 
 

@@ -22,7 +22,7 @@ from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text,
 from reports.parts.first_page import how_long, opened
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
-from tables import read_table
+from tables import printed, read_table
 from tests.reports.conftest import Page, points_of, rows_in, write
 
 LABELS = "kA", "r (m)"
@@ -165,7 +165,11 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
     kinds = [type(item) for item in report.items]
     first = kinds.index(Heading)
     assert kinds[:first] == [Bullets, Text, Figure]
-    assert report.items[0].lines and re.search(r"8 runs over [\d\u202f]+ periods", report.items[1].text)
+    answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
+    assert list(report.items[0].lines) == list(map(printed, answer))
+    assert re.search(
+        r"8 runs over [\d\u202f]+ periods", report.items[1].text
+    )
     page = render_html(report).decode()
     order = [page.index(one) for one in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
     assert order == sorted(order)

@@ -134,19 +134,24 @@ def test_a_table_with_one_motion_gives_the_figure_of_one_without(folder, several
     assert orbit_figure(read_sweep(several)) == orbit_figure(read_sweep(folder))
 
 
-def test_a_sweep_of_any_key_keeps_motions_apart():
+def test_a_sweep_of_any_key_keeps_motions_and_failed_runs_apart(drawn):
     key, depth, pull = Column("kA", digits=2), Column("H", digits=1), Column("tension_top_max_N", "N", digits=0)
     rows = [
         {"kA": kA, "H": 1.0, "motion": letter, "status": "ok", "tension_top_max_N": kA if letter == "A" else 9.0 + kA}
         for kA in (1.0, 2.0)
         for letter in "AB"
     ]
+    rows.append(rows[0] | {"kA": 3.0, "status": "newton-failed", "tension_top_max_N": 3.0})
     motions, shown = colours_of(rows), [((pull, None),)]
     (panel,) = panels_over(rows, key, shown, motions)
-    seen = {one.colour: one.y.tolist() for one in panel.curves if len(one.y)}
-    assert seen == {motions["A"]: [1.0, 2.0], motions["B"]: [10.0, 11.0]}
+    seen = {(curve.colour, curve.mark): curve.y.tolist() for curve in panel.curves if len(curve.y)}
+    calm, worst = motions["A"], motions["B"]
+    assert seen == {(calm, "o"): [1.0, 2.0], (calm, "x"): [3.0], (worst, "o"): [10.0, 11.0]} and worst == VERMILION
     maps = _maps_of_each([key, depth], rows, shown, motions)
     assert [item.text[-8:] for item in maps if isinstance(item, Heading)] == ["motion A", "motion B"]
+    first = drawn[0].axes[0]
+    assert (first.get_xlabel(), first.get_ylabel()) == ("kA (–)", "H (–)")
+    assert first.images[0].get_array().tolist() == [[1.0, 2.0, 3.0]]
 
 
 @pytest.mark.slow

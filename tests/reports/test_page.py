@@ -7,7 +7,7 @@ import pytest
 
 from reports.parts.content import Report, Text, link, plain, spans
 from reports.parts.html import render_html
-from reports.parts.pdf import render_pdf
+from reports.parts.pdf import render_pdf, typst_data
 from tables import sub
 from tests.reports.conftest import ODD_TITLE, Page, every_kind
 
@@ -76,6 +76,8 @@ def test_a_report_without_an_explorer_has_no_script():
 def test_odd_text_in_every_place_gives_both_forms(text):
     report = every_kind(text)
     assert render_pdf(report).startswith(b"%PDF")
+    for_paper = {entry["type"] for entry in typst_data(report)[0]["items"]}
+    assert for_paper == {type(item).__name__.lower() for item in report.items} - {"explorer", "cellsheets"}
     if "\x00" not in text:  # HTML has no way to write it
         page = Page(render_html(report).decode())
         wanted = " ".join(plain(text).split())

@@ -19,8 +19,8 @@ from reports.paper.index import entries, markdown, named_in
 from reports.paper.report import report, short_answer
 from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
-from reports.parts.judged import read_statements
-from tables import FAILS, HOLDS_IF, dictionary, names
+from reports.parts.judged import read_statements, statements_table
+from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS, dictionary, names
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
 
@@ -85,6 +85,12 @@ def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once(tm
     told = [line.partition("“")[2].partition("”")[0] for line in short_answer(judged)[1:]]
     lacking = {row["statement"].rstrip(".") for row in judged if row["verdict"] in (FAILS, HOLDS_IF)}
     assert sorted(told) == sorted(lacking) and len(told) > 60
+
+
+def test_a_verdict_stands_with_its_condition_its_rule_and_its_evidence():
+    said = ("7", "4.2", "It jumps.", HOLDS_IF, "H = 21 m; not H = 25 m", "Two.", "at least 1", "doubled grid")
+    (cells,) = statements_table([dict(zip(STATEMENT_COLUMNS, said, strict=True))], "").rows
+    assert cells == (*said[:3], "holds if: H = 21 m; not H = 25 m", "Two.", "at least 1. doubled grid")
 
 
 def test_tensions_of_fast_and_slow_breaks_have_identical_scales():

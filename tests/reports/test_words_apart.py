@@ -1,14 +1,16 @@
 """The words of a drawing can be read: none lies on another, numbers of an axis stand apart, none leaves the sheet."""
 
+import io
 from itertools import combinations
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from PIL import Image, ImageSequence
 
 from reports.buoy_sweep.report import report
-from reports.figures.animations import Snap, tether_stills
+from reports.figures.animations import Snap, tether_animation, tether_stills
 
 APART = 2.0  # pixels of 100 to an inch, between two numbers of one axis; half a space
 
@@ -67,6 +69,13 @@ def snap(way_m: float) -> Snap:
 def test_the_tether_at_six_moments_however_far_it_swings(drawn, way_m):
     tether_stills(snap(way_m))
     assert drawn == [[]]
+
+
+def test_a_moving_picture_lasts_as_long_as_all_its_frames_though_some_are_left_out():
+    """Of 60 frames every second is drawn; twelve a second."""
+    with Image.open(io.BytesIO(tether_animation(snap(3.0)).data)) as moving:
+        lasts_ms = sum(frame.info["duration"] for frame in ImageSequence.Iterator(moving))
+    assert lasts_ms == pytest.approx(60 / 12 * 1e3, rel=0.05), "GIF counts in hundredths"
 
 
 def test_words_on_others_are_found(drawn):
