@@ -8,7 +8,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import matplotlib
@@ -57,16 +56,6 @@ def test_the_reader_s_own_figure_settings_do_not_count_and_stay(folder, built):
 
 
 @pytest.mark.slow
-def test_sixty_long_runs_within_fifteen_seconds_of_processor_and_ten_megabytes(tmp_path):
-    steepness = [round(0.01 + 0.0025 * k, 4) for k in range(60)]
-    folder = campaign(tmp_path / "out", steepness, periods=300, transient=100)
-    start = time.process_time()
-    paths = build(folder)
-    assert time.process_time() - start < 15.0
-    assert all(path.stat().st_size < 10e6 for path in paths)
-
-
-@pytest.mark.slow
 def test_four_hundred_runs_with_their_evidence_make_files_of_less_than_ten_megabytes(tmp_path):
     place = campaign(tmp_path / "many", [round(0.1 + 0.0001 * k, 4) for k in range(400)])
     evidence = "; ".join(f"name of a test, halves {k}: 0.123/0.456/yes" for k in range(13))
@@ -99,14 +88,12 @@ def test_the_title_of_a_notice_stays_with_its_first_line(tmp_path):
     """Eighty notices at as many heights of a page."""
     items = []
     for k in range(80):
-        between = [Text(f"Between, {j}.") for j in range(k % 7)]
-        items += [*between, Notice("warning", f"Title {k}.", (f"Line {k}.", "b"))]
+        items += [Text("Between.")] * (k % 7) + [Notice("warning", f"Title {k}.", (f"Line {k}.", "b"))]
     (tmp_path / "a.pdf").write_bytes(render_pdf(Report("a", "b", tuple(items))))
     pages = words_of(tmp_path / "a.pdf").split("\f")
     assert len(pages) > 8
-    for k in range(80):
-        (place,) = (page for page in pages if f"Title {k}." in page)
-        assert f"Line {k}." in place
+    for page in pages:
+        assert re.findall(r"Title (\d+)\.", page) == re.findall(r"Line (\d+)\.", page)
 
 
 @pytest.mark.parametrize("height", [110, 140])
@@ -126,12 +113,13 @@ def content(folder):
     return boxes, sheets, sum(isinstance(item, Figure) for item in items)
 
 
-def test_runs_that_failed_are_named_with_their_reason_and_message(tmp_path):
-    failing = {0.1: ("newton-failed", 0), 0.13: ("statics-failed", 0.004)}
-    boxes, sheets, figures = content(campaign(tmp_path / "out", [0.1, 0.13], failing=failing))
-    for steepness, (reason, _) in failing.items():
-        assert any(f"{steepness}" in line and reason in line and "did not converge" in line for line in boxes)
-    assert figures == 0 and sum("did not converge" in line for line in sheets) == 2
+def test_runs_that_failed_are_named_with_their_reason_and_message_which_is_told_once(tmp_path):
+    failing = dict.fromkeys([0.1, 0.11, 0.12], ("newton-failed", 0)) | {0.13: ("statics-failed", 0.004)}
+    boxes, sheets, figures = content(campaign(tmp_path / "out", list(failing), failing=failing))
+    told = [line for line in boxes if "did not converge" in line]
+    assert "newton-failed" in told[1] and told[1].endswith("kA = 0.1 to 0.12.")
+    assert "statics-failed" in told[0] and told[0].endswith("kA = 0.13.") and len(told) == 2
+    assert figures == 0 and sum("did not converge" in line for line in sheets) == 4
 
 
 def test_a_single_short_run_gives_a_report(tmp_path):
@@ -149,14 +137,6 @@ def test_a_damaged_a_missing_and_a_strange_trajectory_cost_only_themselves(tmp_p
     assert any("kA = 0.016 to 0.08." in line for line in boxes) and figures >= 2
     assert sum(file.name in line for file in files for line in sheets) == 3
     assert not any(str(tmp_path) in line for line in boxes + sheets)
-
-
-def test_thirty_failures_are_summed_up(tmp_path):
-    steepness = [round(0.01 + 0.001 * k, 3) for k in range(30)]
-    folder = campaign(tmp_path / "out", steepness, failing={value: ("step-limit", 0) for value in steepness})
-    boxes, sheets, _ = content(folder)
-    assert sum("did not converge" in line for line in boxes) == 1
-    assert sum("did not converge" in line for line in sheets) == 30
 
 
 HEAD = "name,unit,symbol,meaning,digits\n"

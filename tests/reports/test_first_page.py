@@ -2,8 +2,6 @@
 unchanged folder is not drawn again.
 """
 
-import json
-import math
 import re
 import shutil
 from dataclasses import replace
@@ -15,10 +13,10 @@ from matplotlib.colors import same_color, to_hex
 import reports
 from campaigns.explore.rows import COLUMNS
 from reports import build, content_of
-from reports.buoy_sweep.figures import orbit_figure, regime_items
+from reports.buoy_sweep.figures import evidence_table, orbit_figure, regime_items
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Range, Strobes
-from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text, plain
+from reports.parts.content import Bullets, Figure, Heading, Report, Text, plain
 from reports.parts.first_page import how_long, opened
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
@@ -95,6 +93,7 @@ def sweep(folder, tmp_path):
     for row in rows:
         row["regime"] = words.get(float(row["steepness"]), "")
         if row["regime"]:
+            row |= {"evidence": "halves: -0.5/0.01/no", "regime_reason": "it drifts"}
             row |= {"lyapunov_wolf_bits_per_period": 0.2, "lyapunov_wolf_error": 0.05}
         if row["regime"] == "chaotic":
             row |= {"lyapunov_tangent_bits_per_period": 0.1, "lyapunov_tangent_error": 0.01}
@@ -112,6 +111,12 @@ def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_mo
     assert np.ptp(two) == pytest.approx(4 * 0.01), "two errors on both sides"
 
 
+def test_the_tests_behind_a_regime_are_told_with_its_reason(sweep):
+    tables = [evidence_table(run) for run in read_sweep(sweep).judged]
+    assert [table.rows for table in tables] == [(("halves", "−0.5", "0.01", "no"),)] * 3
+    assert tables[2].caption == "Evidence at kA = 0.13, in the order of the tests: it drifts."
+
+
 def test_columns_of_wolf_are_there_only_where_he_was_asked(sweep, folder):
     def heads():
         return [plain(one.title) for one in regime_items(read_sweep(sweep))[2].columns]
@@ -123,41 +128,31 @@ def test_columns_of_wolf_are_there_only_where_he_was_asked(sweep, folder):
 
 
 def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_made_without_them_too(sweep, drawn):
-    alone = orbit_figure(read_sweep(sweep))
+    orbit_figure(read_sweep(sweep))
     rows = {float(row["steepness"]): row for row in rows_in(sweep)}
-    beside = {**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}
-    write(sweep / "between", [beside])
+    write(sweep / "between", [{**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}])
     (sweep / "between" / "trajectories").symlink_to(sweep / "trajectories")
-    role = replace(COLUMNS[-1], name="role")
-    nodes = replace(COLUMNS[1], name="nodes")
-    made = {"status": "ok", "steepness": 0.13, "nodes": 41}
-    others = [
-        {**made, "role": "wetted cap", "tension_top_max_N": 3000.0},
-        {**made, "role": "wetted cap", "steepness": 0.1, "tension_top_max_N": 2000.0},
-        {**made, "role": "as run", "tension_top_max_N": 6000.0},  # of folders made before
-    ]
-    write(sweep / "companions", others, (role, nodes, *COLUMNS))
-    both = orbit_figure(read_sweep(sweep))
-    before, after = drawn[0], drawn[2]
-    assert sum(map(len, points_of(after.axes[0]).values())) == 1 + sum(map(len, points_of(before.axes[0]).values()))
-    panel = next(axes for axes in after.axes if axes.get_ylabel().startswith("largest T"))
+    capped = {"status": "ok", "role": "wetted cap", "steepness": 0.13, "tension_top_max_N": 3000.0}
+    others = [capped, capped | {"steepness": 0.1, "tension_top_max_N": 2000.0}, capped | {"role": "as run"}]
+    write(sweep / "companions", others, (replace(COLUMNS[-1], name="role"), *COLUMNS))
+    read = read_sweep(sweep)
+    orbit_figure(read)
+    before, after = (sum(map(len, points_of(drawn[place].axes[0]).values())) for place in (0, 2))
+    assert after == before + 1
+    panel = next(axes for axes in drawn[2].axes if axes.get_ylabel().startswith("largest T"))
     lines = {line.get_label(): line for line in panel.lines}
-    static_N = read_sweep(sweep).modes.static_tension_N
-    assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2000.0, 3000.0]) / static_N)
-    assert both.caption.startswith(alone.caption.partition(" Below")[0][:20])
-    (run,) = read_sweep(sweep).between
+    assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2e3, 3e3]) / read.modes.static_tension_N)
+    (run,) = read.between
     assert run.transient == 30 and len(run.section) == 80 - 30 + 1
 
 
-def test_a_transient_of_each_run_s_own_is_left_out_of_its_points(sweep):
-    rows = rows_in(sweep)
-    for place, row in enumerate(rows):
-        row["transient_periods"] = 10 + place
+def test_a_transient_of_each_run_s_own_is_left_out_of_its_points_or_that_of_the_provenance(sweep):
+    rows = [row | {"transient_periods": 10 + place} for place, row in enumerate(rows_in(sweep))]
     write(sweep, rows)
-    told = json.loads((sweep / "provenance.json").read_text())
-    (sweep / "provenance.json").write_text(json.dumps(told | {"transient": None}))
     good = read_sweep(sweep).good
     assert [len(run.section) for run in good] == [81 - run["transient_periods"] for run in good]
+    write(sweep, rows, [column for column in COLUMNS if column.name != "transient_periods"])
+    assert {len(run.section) for run in read_sweep(sweep).good} == {81 - 20}
 
 
 def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_last(folder):
@@ -167,9 +162,7 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
     assert kinds[:first] == [Bullets, Text, Figure]
     answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
     assert list(report.items[0].lines) == list(map(printed, answer))
-    assert re.search(
-        r"8 runs over [\d\u202f]+ periods", report.items[1].text
-    )
+    assert re.search(r"8 runs over [\d\u202f]+ periods", report.items[1].text)
     page = render_html(report).decode()
     order = [page.index(one) for one in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
     assert order == sorted(order)
@@ -220,12 +213,3 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
     monkeypatch.setattr("reports.parts.unchanged._LIBRARIES", ("numpy",))
     assert [drawn(), drawn()] == [True, False], "other libraries draw otherwise"
     assert build(sweep, again=True) and len(times) == 10
-
-
-def test_a_table_without_numbers_for_the_transient_still_reads(sweep):
-    for row in (rows := rows_in(sweep)):
-        row.pop("transient_periods")
-    write(sweep, rows, [one for one in COLUMNS if one.name != "transient_periods"])
-    assert all(run.transient == 20 for run in read_sweep(sweep).good)
-    assert all(math.isnan(run["transient_periods"]) for run in read_sweep(sweep).good)
-    assert [item for item in regime_items(read_sweep(sweep)) if isinstance(item, Table)]

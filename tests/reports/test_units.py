@@ -26,10 +26,11 @@ from reports.validation.report import Study, figure
 from tests.campaigns.fake_engine import sines
 
 SCENE = load_scene("tethered_buoy")
-DIAMETER_M = SCENE.buoy.diameter_m
+MODES, DIAMETER_M = natural_frequencies(SCENE), SCENE.buoy.diameter_m
+HEIGHT = "max_buoy_height_above_water_m"
 SOUND = {
     "status": "ok", "dimensions": 3, "loop_releases": 0, "max_turn_rad": 0.0, "message": "", "steepness": 0.1,
-    "tension_top_max_N": 1000.0, "tension_top_max_error_N": 0.0, "max_buoy_height_above_water_m": 0.0,
+    "tension_top_max_N": 1000.0, "tension_top_max_error_N": 0.0, HEIGHT: 0.0, "periods_done": 60.0, "depth_m": 25.0,
 }  # fmt: skip
 
 
@@ -47,19 +48,14 @@ def test_a_spectrum_is_linear_with_its_peak_in_sight_and_logarithmic_over_four_d
     spectrum = Curve(np.arange(4.0), np.array([1e-9, 2.0, 1e-2, 5.0]))
     curves([spectrum_panels([spectrum], 2.5, ("x", "y"), [(1.0, "waves")])], 2.0)
     left, right = drawn[0].axes
-    assert (left.get_yscale(), right.get_yscale()) == ("linear", "log")
-    assert left.get_ylim()[0] == 0.0 and 2.0 < left.get_ylim()[1] < 5.0, "no wider than what is shown"
-    assert right.get_ylim()[0] == pytest.approx(2e-4) and right.get_ylim()[1] > 2.0
+    assert left.get_yscale() == "linear" and 2.0 < left.get_ylim()[1] < 5.0, "no wider than what is shown"
+    assert right.get_yscale() == "log" and right.get_ylim()[0] == pytest.approx(2e-4)
 
 
 def test_a_sheet_has_tensions_in_kN_and_exponents_in_bits(monkeypatch):
     """A perturbation that doubles each wave period grows by one bit."""
     shown = {}
-
-    def keep(words, bins, periods, histories, *_, **panels):
-        shown.update(panels, pull=histories[0])
-
-    monkeypatch.setattr(runs, "run_sheet", keep)
+    monkeypatch.setattr(runs, "run_sheet", lambda *given, **panels: shown.update(panels, pull=given[3][0]))
     tangent = SimpleNamespace(growth_nats=np.full((60, 1), math.log(2.0)))
     runs.drawing(Run(SOUND, transient=40, periods_done=60.0), replace(sines(SCENE, 60), tangent=tangent), 80, None)
     at, bits = shown["exponent"]
@@ -68,6 +64,9 @@ def test_a_sheet_has_tensions_in_kN_and_exponents_in_bits(monkeypatch):
     assert name == "T (kN)" and (low.min(), high.max()) == pytest.approx((1.49, 2.51), abs=1e-3)
     omega, amplitude = shown["spectrum"]
     assert omega[np.argmax(amplitude)] == pytest.approx(2.0 * math.pi / SCENE.waves.period_s)
+
+
+SINKING_M = 20.0 * (1.0 + MODES.static_strain) + 0.5 * DIAMETER_M  # depth at which the buoy at rest is just covered
 
 
 @pytest.mark.parametrize(
@@ -79,29 +78,20 @@ def test_a_sheet_has_tensions_in_kN_and_exponents_in_bits(monkeypatch):
         ({"max_turn_rad": 1.57}, {"max_turn_rad": 1.58}, "turns by more than π/2"),
         ({}, {"message": "becomes another motion"}, "the motion becomes another one"),
         ({}, {"message": "ringing is not resolved"}, "ringing of the line is not resolved"),
-        (
-            {"max_buoy_height_above_water_m": 0.99 * DIAMETER_M},
-            {"max_buoy_height_above_water_m": DIAMETER_M + 0.12},
-            "its lowest point by up to 0.12 m",
-        ),
+        ({HEIGHT: DIAMETER_M - 0.01}, {HEIGHT: DIAMETER_M + 0.12}, "its lowest point by up to 0.12 m"),
         ({}, {"status": "newton-failed", "message": "no end"}, "newton-failed; the first after 60 periods: no end"),
+        ({"periods_done": 60.0}, {"periods_done": 59.9}, "shorter than the 60 wave periods"),
+        ({"depth_m": SINKING_M + 0.1}, {"depth_m": SINKING_M - 0.25}, "is 0.25 m above still water"),
     ],
 )
 def test_a_caveat_is_told_from_its_threshold_on(below, above, phrase):
     for changes, wanted in ((below, False), (above, True)):
-        run = Run(SOUND | changes, periods_done=60.0)
-        notice = warnings(Sweep(Folder(None, {}, (), SCENE, {}), (run,), (), 0.01, 16, None))
-        assert any(phrase in line and line.endswith("kA = 0.1.") for line in notice.lines) is wanted
-
-
-@pytest.mark.parametrize("dry_m", [-0.01, 0.25])
-def test_a_buoy_dry_at_rest_and_a_record_too_short_are_told(dry_m):
-    modes = natural_frequencies(SCENE)
-    depth_m = 20.0 * (1.0 + modes.static_strain) + 0.5 * DIAMETER_M - dry_m
-    scene = load_scene("tethered_buoy", {"water.depth_m": depth_m})
-    run = Run(SOUND, periods_done=60.0 - max(dry_m, 0.0))
-    said = " ".join(warnings(Sweep(Folder(None, {}, (), scene, {}), (run,), (), 0.01, 16, modes)).lines)
-    assert ("0.25 m above still water" in said) is ("shorter than the 60 wave periods" in said) is (dry_m > 0.0)
+        row = SOUND | changes
+        scene = load_scene("tethered_buoy", {"water.depth_m": row["depth_m"]})
+        sweep = Sweep(
+            Folder(None, {}, (), scene, {}), (Run(row, periods_done=row["periods_done"]),), (), 0.01, 16, MODES
+        )
+        assert any(phrase in line and line.endswith("kA = 0.1.") for line in warnings(sweep).lines) is wanted
 
 
 def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(drawn):
@@ -111,10 +101,8 @@ def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(d
         for v in (-1.0, 0.0, 1.0)
     ]
     rows[-1] |= {"motion": "", "outcome": "unsettled"}
-    motions = [
-        {"motion": letter, "regime": "chaotic", "tension_top_max_N": pull_N}
-        for letter, pull_N in zip("AB", (9e3, 7e3), strict=True)
-    ]
+    chaos = {"motion": "A", "regime": "chaotic", "tension_top_max_N": 9e3}
+    motions = [chaos, chaos | {"motion": "B", "tension_top_max_N": 7e3}]
     list(_map(Folder(None, {}, tuple(rows), SCENE, {}), ["vx", "phase"], motions, None))
     (axes,) = drawn[0].axes
     assert axes.get_xlim() == (-1.5, 1.5) and axes.get_ylim() == (-0.125, 0.875)
@@ -138,9 +126,8 @@ def test_curves_of_a_validation_are_called_whose_they_are(drawn):
 def test_an_orbit_attracts_where_both_multipliers_lie_inside_the_circle():
     points = np.arange(6.0).reshape(3, 2)
     saddle, focus = [1, 0.5, 0.0, -2.0, 0.0, 0.0, 0], [2, 0.6, 0.6, 0.6, -0.6, 0.0, 1]
-    for table, orbit in (([saddle, focus], points[1:]), ([saddle], None)):
-        study = SimpleNamespace(arrays={"orbits": {"table": table, "points": points}})
-        assert np.array_equal(attracting_orbit(study), orbit) if orbit is not None else attracting_orbit(study) is None
+    study = SimpleNamespace(arrays={"orbits": {"table": [saddle, focus], "points": points}})
+    assert np.array_equal(attracting_orbit(study), points[1:])
 
 
 def test_exponents_of_the_paper_stand_with_their_errors_at_the_curve_of_their_wave(drawn):
