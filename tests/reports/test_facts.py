@@ -14,7 +14,7 @@ from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
 from reports.figures.motion import envelope
 from reports.figures.run_sheet import NOTHING, run_sheet
-from reports.parts.columns import table_of
+from reports.parts.columns import shown_on, table_of
 from reports.parts.content import Explorer, ExplorerColumn, plain
 from reports.parts.folder import read_columns
 from reports.parts.html import explorer_json
@@ -46,6 +46,7 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
         ("0.130", "19.88", "−0.040\u00a0±\u00a00.002", "OK"),
         ("0.100", "–", "1e-9\u00a0±\u00a0–", ""),
     )
+    assert shown_on(columns, rows[1:]) == ["steepness", "growth"], "what says nothing is left out"
     said = "Two runs. kA: wave steepness; rmin: least distance, after the transient; σ: exponent."
     assert plain(table.caption) == said
     with pytest.raises(KeyError):

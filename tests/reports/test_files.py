@@ -69,15 +69,15 @@ def test_four_hundred_runs_with_their_evidence_make_files_of_less_than_ten_megab
 @pytest.mark.slow
 @needs_pdftotext
 def test_the_pdf_opens_with_the_answer_and_its_figure_and_lists_every_section_after_them(folder, built):
-    items = content_of(folder)[0].items
-    first, second = (" ".join(words_of(built[1], "-f", page, "-l", page).split()) for page in "12")
+    items, everything = content_of(folder)[0].items, words_of(built[1])
+    first, second = (" ".join(page.split()) for page in everything.split("\f")[:2])
     headings = [plain(item.text) for item in items if isinstance(item, Heading)]
     answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
     assert all(line.split(":")[0] in first for line in answer) and "It took" in first and "Figure 1:" in first
-    everything, figures = words_of(built[1]), sum(isinstance(item, Figure) for item in items)
     assert everything.index("Figure 1:") < everything.index("Contents") < everything.index(headings[0])
     assert second.startswith("Tethered buoy") and re.search(r"2 ?/ ?\d", second)
-    assert all(f"Figure {number}:" in everything for number in range(1, figures + 1)), "each under its figure"
+    figures = re.findall(r"Figure (\d+):", everything)
+    assert len(set(figures)) == sum(isinstance(item, Figure) for item in items), "each under its figure"
     document = built[1].read_bytes()
     assert len(LINK.findall(document)) >= len(headings) and b"/Outlines" in document
 
@@ -146,7 +146,6 @@ PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajector
 @pytest.mark.parametrize(
     ("part", "content", "said"),
     [
-        *((part, None, f"{part} is missing") for part in PARTS),
         ("columns.csv", None, "older version"),
         ("columns.csv", "name,unit\n", "its first line is not name,unit,symbol,meaning,digits"),
         ("columns.csv", HEAD + "a,,,,two\n", "columns.csv cannot be read"),
@@ -191,9 +190,7 @@ def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, c
 
 
 def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
-    assert main([str(tmp_path)]) == 2
-    message = capsys.readouterr().err
-    assert all(part in message for part in PARTS)
-    assert main([str(tmp_path / "nowhere")]) == 2
-    assert "no such folder" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+    for place, said in ((tmp_path, [f"{part} is missing" for part in PARTS]), (tmp_path / "no", ["no such folder"])):
+        assert main([str(place)]) == 2
+        message = capsys.readouterr().err
+        assert all(words in message for words in said) and list(tmp_path.iterdir()) == []

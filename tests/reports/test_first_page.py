@@ -13,11 +13,11 @@ from matplotlib.colors import same_color, to_hex
 import reports
 from campaigns.explore.rows import COLUMNS
 from reports import build, content_of
-from reports.buoy_sweep.figures import evidence_table, orbit_figure, regime_items
+from reports.buoy_sweep.figures import evidence_table, orbit_figure
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Range, Strobes
-from reports.parts.content import Bullets, Figure, Heading, Report, Text, plain
-from reports.parts.first_page import how_long, opened
+from reports.parts.content import Bullets, Figure, Heading, Text, plain
+from reports.parts.first_page import how_long
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
 from tables import printed, read_table
@@ -117,16 +117,6 @@ def test_the_tests_behind_a_regime_are_told_with_its_reason(sweep):
     assert tables[2].caption == "Evidence at kA = 0.13, in the order of the tests: it drifts."
 
 
-def test_columns_of_wolf_are_there_only_where_he_was_asked(sweep, folder):
-    def heads():
-        return [plain(one.title) for one in regime_items(read_sweep(sweep))[2].columns]
-
-    assert "σW" in heads()
-    rows = [{**row, "lyapunov_wolf_bits_per_period": "", "lyapunov_wolf_error": ""} for row in rows_in(sweep)]
-    write(sweep, rows)
-    assert "σW" not in heads() and "σt" in heads()
-
-
 def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_made_without_them_too(sweep, drawn):
     orbit_figure(read_sweep(sweep))
     rows = {float(row["steepness"]): row for row in rows_in(sweep)}
@@ -180,11 +170,6 @@ def test_how_long_it_took_is_told_with_runs_periods_and_cores():
     assert all(one in said for one in ("69 s", "49 runs", "1\u202f235 periods", "3 runs", "2 at a time", "4 cores"))
     assert how_long({"timing": {"run_s": 600.0}, "runs": {"total": 1}}, []) == "It took 10 minutes: 1 run."
     assert how_long({}, rows) == how_long({"timing": {}}, rows) == ""
-
-
-def test_a_folder_without_an_answer_begins_with_what_the_report_says(tmp_path):
-    report = Report("a", "b", (Text("c"),))
-    assert opened(report, tmp_path, {}) == report
 
 
 @pytest.mark.slow

@@ -106,17 +106,19 @@ def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(severa
 
 def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     items = content_of(several)[0].items
-    sheets = {item.anchor: item for item in items if isinstance(item, Sheet)}
-    assert len(sheets) == 11 and len({one.title for one in sheets.values()}) == 11
-    at_large = next(one for one in sheets.values() if "kA = 0.08, motion B" in one.title)
-    along, across = (plain(line) for line in at_large.lines)
-    assert "kA = 0.03, motion B" in along and "kA = 0.1, motion B" in along and "motion A" not in along
-    assert across == "At the same kA: kA = 0.08, motion A."
+    sheets = {item.title: item for item in items if isinstance(item, Sheet)}
+    assert len(sheets) == len({sheet.anchor for sheet in sheets.values()}) == 11
+    (large,) = (sheet for title, sheet in sheets.items() if "kA = 0.08, motion B" in title)
+    assert list(map(plain, large.lines)) == [
+        "Next to it: kA = 0.03, motion B and kA = 0.1, motion B.",
+        "At the same kA: kA = 0.08, motion A.",
+    ]
     (explorer,) = (item for item in items if isinstance(item, Explorer))
-    assert {one.colour for one in explorer.columns} == set(read_sweep(several).colours.values())
-    first = next(item for item in items if isinstance(item, Table))
-    assert [row[0] for row in first.rows] == ["A", "B"] and first.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
-    starts = next(item for item in items if isinstance(item, Table) and "Starts at" in item.caption)
+    assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
+    motions, *_ = tables = [item for item in items if isinstance(item, Table)]
+    assert [row[0] for row in motions.rows] == ["A", "B"]
+    assert motions.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
+    (starts,) = (table for table in tables if "Starts at" in table.caption)
     assert starts.rows == (("0.03", "4", "0", "3", "1", "A 2, B 1"),)
 
 

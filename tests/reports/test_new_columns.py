@@ -13,7 +13,7 @@ from reports.out_of_plane.report import _runs_tables
 from reports.out_of_plane.runs import VARIED, Run, Study
 from reports.parts.content import Sheet, Table
 from reports.parts.folder import Folder, read_folder
-from reports.parts.provenance import scene_table
+from reports.parts.provenance import _flat, scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
 from tables import PLANE, RUNS, SHEET, Column, read_columns, write_table
@@ -81,23 +81,17 @@ def test_a_dictionary_of_before_there_were_pages_is_read(tmp_path):
     assert "page" not in dictionary.read_text() and read_columns(dictionary) == {NEW.name: NEW}
 
 
-def leaves(section, prefix=""):
-    """(dotted key, entry) of a scene's dictionary."""
-    for key, entry in section.items():
-        yield from leaves(entry, f"{prefix}{key}.") if isinstance(entry, dict) else [(prefix + key, entry)]
-
-
 @pytest.mark.parametrize("scene", list_scenes())
 def test_whatever_is_varied_is_in_the_table_of_the_scene(scene):
     """Every key of every scene, an element of each list, and a word of a campaign that is no key."""
     loaded = load_scene(scene)
-    for key, entry in leaves(loaded.as_dict()):
-        name = f"{key}[0]" if isinstance(entry, list) else key
+    for key, entry in _flat(loaded.as_dict()):
         if key in ("name", "title"):
             continue
+        name = f"{key}[0]" if isinstance(entry, list) else key
         rows = {row[0]: row for row in scene_table(loaded, scene, {name: "0 and 4"}, "").rows}
-        assert rows[f"`{name}`"][2] == "0 and 4" and rows[f"`{name}`"][4] == "varied by this campaign"
-        assert rows[f"`{key}`"][4] == "varied by this campaign"
+        assert rows[f"`{name}`"][2] == "0 and 4"
+        assert rows[f"`{name}`"][4] == rows[f"`{key}`"][4] == "varied by this campaign"
     assert scene_table(loaded, scene, {"kick": "two"}, "").rows == scene_table(loaded, scene, {}, "").rows
 
 

@@ -87,10 +87,8 @@ SINKING_M = 20.0 * (1.0 + MODES.static_strain) + 0.5 * DIAMETER_M  # depth at wh
 def test_a_caveat_is_told_from_its_threshold_on(below, above, phrase):
     for changes, wanted in ((below, False), (above, True)):
         row = SOUND | changes
-        scene = load_scene("tethered_buoy", {"water.depth_m": row["depth_m"]})
-        sweep = Sweep(
-            Folder(None, {}, (), scene, {}), (Run(row, periods_done=row["periods_done"]),), (), 0.01, 16, MODES
-        )
+        folder = Folder(None, {}, (), load_scene("tethered_buoy", {"water.depth_m": row["depth_m"]}), {})
+        sweep = Sweep(folder, (Run(row, periods_done=row["periods_done"]),), (), 0.01, 16, MODES)
         assert any(phrase in line and line.endswith("kA = 0.1.") for line in warnings(sweep).lines) is wanted
 
 
