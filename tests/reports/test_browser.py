@@ -93,11 +93,7 @@ def test_in_the_dark_figures_are_dark_and_keep_their_hues(tmp_path, browse):
 
 
 def test_nothing_moves_on_paper_nor_for_those_who_asked_for_less_motion(kinds, browse):
-    for how, seen in (
-        ({}, True),
-        ({"media": "print"}, False),
-        ({"media": "screen", "reduced_motion": "reduce"}, False),
-    ):
+    for how, seen in (({}, True), ({"media": "print"}, False), ({"reduced_motion": "reduce"}, False)):
         with browse(kinds) as page:
             page.emulate_media(**how)
             assert page.locator(".moving").first.is_visible() is seen
