@@ -33,11 +33,11 @@ def violations(page) -> list[str]:
     """What axe-core finds serious or critical on a page, with a run chosen where it has an explorer."""
     page.evaluate("document.querySelector('#explorer button[value=after]')?.click()")
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    found = page.evaluate("axe.run(document).then((result) => result.violations)")
+    results = page.evaluate("axe.run(document).then((result) => result.violations)")
     return [
-        f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]} ({len(one['nodes'])})"
-        for one in found
-        if one["impact"] in ("serious", "critical")
+        f"{violation['id']}: {violation['help']}: {violation['nodes'][0]['html'][:200]} ({len(violation['nodes'])})"
+        for violation in results
+        if violation["impact"] in ("serious", "critical")
     ]
 
 
@@ -58,8 +58,8 @@ def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_siz
             assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
             for drawing in ("figure .wide img", ".sheet svg.glance"):
                 assert all(width >= 650.0 for width in page.eval_on_selector_all(drawing, widths)), drawing
-            found = page.eval_on_selector_all(".equation svg", shares)
-            assert found and all(share > 0.5 for share in found)
+            equations = page.eval_on_selector_all(".equation svg", shares)
+            assert equations and all(share > 0.5 for share in equations)
 
 
 def test_on_a_telephone_the_whole_diagram_of_the_first_page_is_seen_in_a_form_of_its_own(built, browse):
@@ -76,7 +76,7 @@ def test_on_a_telephone_the_whole_diagram_of_the_first_page_is_seen_in_a_form_of
 def test_in_the_dark_figures_are_dark_and_keep_their_hues(tmp_path, browse):
     """Three colours on white paper: the paper becomes dark, each colour stays within 17 degrees of its hue."""
     colours = (BLUE, GREEN, VERMILION)
-    bars = "".join(f'<rect x="{100 * k}" width="60" height="100" fill="{one}"/>' for k, one in enumerate(colours))
+    bars = "".join(f'<rect x="{100 * k}" width="60" height="100" fill="{item}"/>' for k, item in enumerate(colours))
     paper = '<path fill="#fff" d="M0 0h300v100H0z"/>'
     svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 100">{paper}{bars}</svg>'
     path, hues = tmp_path / "colours.html", []
@@ -85,7 +85,7 @@ def test_in_the_dark_figures_are_dark_and_keep_their_hues(tmp_path, browse):
         with browse(path, color_scheme=scheme) as page:
             drawn = Image.open(io.BytesIO(page.locator("figure img").screenshot()))
             at = [(round(drawn.width * share), drawn.height // 2) for share in (0.27, 0.1, 0.43, 0.77)]
-            paper, *bars = (colorsys.rgb_to_hsv(*(part / 255 for part in drawn.getpixel(one)[:3])) for one in at)
+            paper, *bars = (colorsys.rgb_to_hsv(*(part / 255 for part in drawn.getpixel(item)[:3])) for item in at)
             hues.append([hue for hue, *_ in bars])
             assert paper[2] > 0.95 if scheme == "light" else paper[2] < 0.15
             assert all(light > 0.4 and strong > 0.4 for _, strong, light in bars)
@@ -93,9 +93,9 @@ def test_in_the_dark_figures_are_dark_and_keep_their_hues(tmp_path, browse):
 
 
 def test_nothing_moves_on_paper_nor_for_those_who_asked_for_less_motion(kinds, browse):
-    for how, seen in (({}, True), ({"media": "print"}, False), ({"reduced_motion": "reduce"}, False)):
+    for media, seen in (({}, True), ({"media": "print"}, False), ({"reduced_motion": "reduce"}, False)):
         with browse(kinds) as page:
-            page.emulate_media(**how)
+            page.emulate_media(**media)
             assert page.locator(".moving").first.is_visible() is seen
             assert page.locator("figure img").first.is_visible()
 

@@ -47,8 +47,8 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
         ("0.100", "–", "1e-9\u00a0±\u00a0–", ""),
     )
     assert shown_on(columns, rows[1:]) == ["steepness", "growth"], "what says nothing is left out"
-    said = "Two runs. kA: wave steepness; rmin: least distance, after the transient; σ: exponent."
-    assert plain(table.caption) == said
+    caption = "Two runs. kA: wave steepness; rmin: least distance, after the transient; σ: exponent."
+    assert plain(table.caption) == caption
     with pytest.raises(KeyError):
         table_of(columns, ["mass"], rows, "")
 
@@ -97,9 +97,9 @@ def test_every_parameter_has_a_source_and_changes_are_marked():
 
 
 def test_spectrum_window_never_reaches_beyond_the_record():
-    for done in np.arange(0.0, 130.0, 0.37):
-        window = spectrum_window(done)
-        assert window is None or sum(window) <= done + 1e-6
+    for periods in np.arange(0.0, 130.0, 0.37):
+        window = spectrum_window(periods)
+        assert window is None or sum(window) <= periods + 1e-6
     assert spectrum_window(60.0) == spectrum_window(300.0) == (40, 20)
     assert spectrum_window(9.9) is None
 
@@ -135,12 +135,12 @@ def glance(peak: float) -> str:
 
 def bands(drawing: str) -> list[np.ndarray]:
     """Corners of every band of a drawing, in fifths of a pixel."""
-    found = []
+    corners = []
     for path in re.findall(r'class="band"[^>]* d="M([^"]*)z"', drawing):
         start, *steps = path.split("l")
         numbers = [[int(word) for word in re.findall(r"-?\d+", part)] for part in (start, *steps)]
-        found.append(np.cumsum(numbers, axis=0))
-    return found
+        corners.append(np.cumsum(numbers, axis=0))
+    return corners
 
 
 def test_a_single_high_sample_among_thousands_is_drawn():

@@ -48,11 +48,11 @@ def test_a_copy_elsewhere_in_another_process_gives_the_same_bytes(folder, built,
 
 @pytest.mark.slow
 def test_the_reader_s_own_figure_settings_do_not_count_and_stay(folder, built):
-    before = [path.read_bytes() for path in built]
+    contents = [path.read_bytes() for path in built]
     with matplotlib.rc_context({"lines.linewidth": 7.0, "svg.fonttype": "none", "font.size": 20.0}):
         build(folder, again=True)
         assert matplotlib.rcParams["lines.linewidth"] == 7.0
-    assert [path.read_bytes() for path in built] == before
+    assert [path.read_bytes() for path in built] == contents
 
 
 @pytest.mark.slow
@@ -116,9 +116,9 @@ def content(folder):
 def test_runs_that_failed_are_named_with_their_reason_and_message_which_is_told_once(tmp_path):
     failing = dict.fromkeys([0.1, 0.11, 0.12], ("newton-failed", 0)) | {0.13: ("statics-failed", 0.004)}
     boxes, sheets, figures = content(campaign(tmp_path / "out", list(failing), failing=failing))
-    told = [line for line in boxes if "did not converge" in line]
-    assert "newton-failed" in told[1] and told[1].endswith("kA = 0.1 to 0.12.")
-    assert "statics-failed" in told[0] and told[0].endswith("kA = 0.13.") and len(told) == 2
+    lines = [line for line in boxes if "did not converge" in line]
+    assert "newton-failed" in lines[1] and lines[1].endswith("kA = 0.1 to 0.12.")
+    assert "statics-failed" in lines[0] and lines[0].endswith("kA = 0.13.") and len(lines) == 2
     assert figures == 0 and sum("did not converge" in line for line in sheets) == 4
 
 
@@ -165,9 +165,9 @@ def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, ca
         (folder / part).rename(tmp_path / "away")
     else:
         (folder / part).write_text(content, encoding="utf-8")
-    before = sorted(folder.iterdir())
+    files = sorted(folder.iterdir())
     assert main([str(folder)]) == 2
-    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == before
+    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == files
 
 
 @pytest.mark.parametrize(

@@ -35,21 +35,23 @@ def columns_of(wide_m=(0.1, 8.0)):
 
 def bar_of(axes):
     """[(colour, low, high)] of the spans of a bar."""
-    spans = ((to_hex(one.get_facecolor()), one.get_x(), one.get_x() + one.get_width()) for one in axes.patches)
+    spans = (
+        (to_hex(patch.get_facecolor()), patch.get_x(), patch.get_x() + patch.get_width()) for patch in axes.patches
+    )
     return [(colour, round(low, 6), round(high, 6)) for colour, low, high in spans]
 
 
 def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_it_holds(drawn):
     between = [Strobes(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
-    every = sorted(columns_of() + between, key=lambda one: one.at)
-    loops = Range("loops released", [one.at > 0.12 for one in every])
-    OrbitDiagram(every, LABELS, [], [loops], [(0.13, "paper")]).drawn()
+    columns = sorted(columns_of() + between, key=lambda one: one.at)
+    loops = Range("loops released", [column.at > 0.12 for column in columns])
+    OrbitDiagram(columns, LABELS, [], [loops], [(0.13, "paper")]).drawn()
     top, bar, released = drawn[0].axes
-    found = points_of(top)
-    assert sum(map(len, found.values())) == len(every)
+    points = points_of(top)
+    assert sum(map(len, points.values())) == len(columns)
     for word in set(WORDS):
         colour = REGIME_COLOURS["period-" if word.startswith("period-") else word]
-        assert np.allclose(found[colour], VALUES[[one == word for one in WORDS]])
+        assert np.allclose(points[colour], VALUES[[column == word for column in WORDS]])
     assert [colour for colour, *_ in bar_of(bar)] == [REGIME_COLOURS[word] for word in ("period-", *WORDS[20::5])]
     edges = [edge for _, *pair in bar_of(bar) for edge in pair]
     assert edges[1:-1] == pytest.approx([0.1175, 0.1175, 0.1375, 0.1375]), "half-way between neighbours"
@@ -64,13 +66,13 @@ def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_ot
     top = drawn[0].axes[0]
     (inner,) = top.child_axes
     drawn[0].draw_without_rendering()
-    again = np.concatenate([line.get_ydata() for line in inner.lines])
-    assert np.ptp(again) == pytest.approx(0.1) and len(again) == 20 * 7
+    heights = np.concatenate([line.get_ydata() for line in inner.lines])
+    assert np.ptp(heights) == pytest.approx(0.1) and len(heights) == 20 * 7
     per_m = [axes.get_window_extent().height / np.ptp(axes.get_ylim()) for axes in (top, inner)]
     assert per_m[1] > 10.0 * per_m[0]
     place = inner.get_window_extent().transformed(top.transData.inverted())
-    inside = [one for one in columns_of() if place.x0 <= one.at <= place.x1]
-    assert all(((one.points < place.y0) | (one.points > place.y1)).all() for one in inside)
+    inside = [column for column in columns_of() if place.x0 <= column.at <= place.x1]
+    assert all(((column.points < place.y0) | (column.points > place.y1)).all() for column in inside)
     OrbitDiagram(columns_of((8.0, 8.0)), LABELS, []).drawn()
     assert not drawn[1].axes[0].child_axes, "nothing small, nothing larger"
 
@@ -122,12 +124,12 @@ def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_
     write(sweep / "between", [{**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}])
     (sweep / "between" / "trajectories").symlink_to(sweep / "trajectories")
     capped = {"status": "ok", "role": "wetted cap", "steepness": 0.13, "tension_top_max_N": 3000.0}
-    others = [capped, capped | {"steepness": 0.1, "tension_top_max_N": 2000.0}, capped | {"role": "as run"}]
-    write(sweep / "companions", others, (replace(COLUMNS[-1], name="role"), *COLUMNS))
+    companions = [capped, capped | {"steepness": 0.1, "tension_top_max_N": 2000.0}, capped | {"role": "as run"}]
+    write(sweep / "companions", companions, (replace(COLUMNS[-1], name="role"), *COLUMNS))
     read = read_sweep(sweep)
     orbit_figure(read)
-    before, after = (sum(map(len, points_of(drawn[place].axes[0]).values())) for place in (0, 2))
-    assert after == before + 1
+    alone_count, full_count = (sum(map(len, points_of(drawn[place].axes[0]).values())) for place in (0, 2))
+    assert full_count == alone_count + 1
     panel = next(axes for axes in drawn[2].axes if axes.get_ylabel().startswith("largest T"))
     lines = {line.get_label(): line for line in panel.lines}
     assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2e3, 3e3]) / read.modes.static_tension_N)
@@ -153,9 +155,9 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
     assert list(report.items[0].lines) == list(map(printed, answer))
     assert re.search(r"8 runs over [\d\u202f]+ periods", report.items[1].text)
     page = render_html(report).decode()
-    order = [page.index(one) for one in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
+    order = [page.index(entry) for entry in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
     assert order == sorted(order)
-    assert not [one for one in Page(page).all("nav") if one.get("class")] and "<summary>Figures" not in page
+    assert not [entry for entry in Page(page).all("nav") if entry.get("class")] and "<summary>Figures" not in page
     headings = [plain(item.text) for item in report.items if isinstance(item, Heading) and item.level == 1]
     assert headings[-1].startswith("Appendix")
     below = [plain(item.text) for item in report.items if isinstance(item, Heading) and item.level == 2]
@@ -163,10 +165,17 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
 
 
 def test_how_long_it_took_is_told_with_runs_periods_and_cores():
-    made = {"timing": {"compile_s": 1.0, "run_s": 68.0}, "runs": {"total": 49, "found": 3}, "jobs": 2, "cpu_count": 4}
+    provenance = {
+        "timing": {"compile_s": 1.0, "run_s": 68.0},
+        "runs": {"total": 49, "found": 3},
+        "jobs": 2,
+        "cpu_count": 4,
+    }
     rows = [{"periods": "100.0"}, {"periods": "1135"}, {"periods": ""}]
-    said = how_long(made, rows)
-    assert all(one in said for one in ("69 s", "49 runs", "1\u202f235 periods", "3 runs", "2 at a time", "4 cores"))
+    sentence = how_long(provenance, rows)
+    assert all(
+        phrase in sentence for phrase in ("69 s", "49 runs", "1\u202f235 periods", "3 runs", "2 at a time", "4 cores")
+    )
     assert how_long({"timing": {"run_s": 600.0}, "runs": {"total": 1}}, []) == "It took 10 minutes: 1 run."
     assert how_long({}, rows) == how_long({"timing": {}}, rows) == ""
 
@@ -178,10 +187,10 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
     monkeypatch.setattr("reports.parts.pdf.render_pdf", lambda report: b"paper")
 
     def drawn() -> bool:
-        before = len(times)
+        drawings = len(times)
         html, pdf = build(sweep)
         assert (html.read_bytes(), pdf.read_bytes()) == (b"page", b"paper")
-        return len(times) > before
+        return len(times) > drawings
 
     assert [drawn(), drawn()] == [True, False]
     for spoil in (

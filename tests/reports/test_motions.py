@@ -52,7 +52,11 @@ def several(folder, tmp_path):
     end = {"motion": "B", "end": "lower", "leads_to": "A", "status": "ok"}
     write(place / "ends", [{**end, "steepness_with": 0.021, "steepness_without": 0.019}], ENDS)
     start = {"steepness": 0.03, "outcome": "joined"}
-    write(place / "starts", [{**start, "motion": one} for one in "AAB"] + [{**start, "outcome": "unsettled"}], STARTS)
+    write(
+        place / "starts",
+        [{**start, "motion": motion} for motion in "AAB"] + [{**start, "outcome": "unsettled"}],
+        STARTS,
+    )
     return place
 
 
@@ -65,28 +69,30 @@ def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
     assert sweep.colours["B"] == VERMILION, "the largest tension"
     orbit_figure(sweep)
     assert not any(map(crowded, drawn))
-    static_N, found = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
+    static_N, points = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
     for letter in "AB":
-        own = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
-        assert np.allclose(found[sweep.colours[letter]], sorted(own))
+        tensions = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
+        assert np.allclose(points[sweep.colours[letter]], sorted(tensions))
         mine = [
-            one for one in panel_of(drawn[0], "largest T").lines if same_color(one.get_color(), sweep.colours[letter])
+            curve
+            for curve in panel_of(drawn[0], "largest T").lines
+            if same_color(curve.get_color(), sweep.colours[letter])
         ]
         for line in mine:
             seen = {x: y for x, y in zip(*line.get_data(), strict=True) if np.isfinite(y)}
-            assert seen == pytest.approx(own)
+            assert seen == pytest.approx(tensions)
         gap = [x for x, y in zip(*mine[0].get_data(), strict=True) if np.isnan(y)]
-        assert gap == [kA for kA in sweep.values if kA not in own], "broken where the motion is not"
+        assert gap == [kA for kA in sweep.values if kA not in tensions], "broken where the motion is not"
 
 
 def test_shares_fill_every_value_and_what_did_not_settle_is_hatched(several, drawn):
     orbit_figure(read_sweep(several))
     boxes = [
-        (round(one.get_x(), 6), one.get_height(), bool(one.get_hatch())) for one in panel_of(drawn[0], "starts").patches
+        (round(box.get_x(), 6), box.get_height(), bool(box.get_hatch())) for box in panel_of(drawn[0], "starts").patches
     ]
     filled = Counter()
-    for left, height, _ in boxes:
-        filled[left] += height
+    for edge, height, _ in boxes:
+        filled[edge] += height
     assert len(filled) == 6 and set(filled.values()) == {1.0}, "at 0.12 and 0.16 no run has a motion"
     assert sorted(height for _, height, hatched in boxes if hatched) == [0.25, 0.25]
 
@@ -95,13 +101,13 @@ def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(severa
     sweep = read_sweep(several)
     orbit_figure(sweep)
     panel = panel_of(drawn[0], "largest T")
-    ((x, tail), (_, head)) = next((one.xyann, one.xy) for one in panel.texts if hasattr(one, "xyann"))
+    ((x, tail), (_, head)) = next((text.xyann, text.xy) for text in panel.texts if hasattr(text, "xyann"))
     first, near = sweep.motions["B"][0], sweep.motions["A"][0]
     assert x == 0.02 and near.steepness == 0.016 and first.steepness == 0.03
     assert np.array([tail, head]) * sweep.modes.static_tension_N == pytest.approx(
         [first["tension_top_max_N"], near["tension_top_max_N"]]
     )
-    assert ".020" in [one.get_text() for one in panel.texts]
+    assert ".020" in [text.get_text() for text in panel.texts]
 
 
 def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
@@ -124,8 +130,8 @@ def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
 
 def test_a_run_between_takes_the_colour_of_the_motion_that_it_is_like(several):
     rows = {(row["motion"], float(row["steepness"])): row for row in rows_in(several)}
-    beside = [{**rows[letter, 0.08], "steepness": 0.09, "regime": ""} for letter in "BA"]
-    write(several / "between", beside)
+    unjudged = [{**rows[letter, 0.08], "steepness": 0.09, "regime": ""} for letter in "BA"]
+    write(several / "between", unjudged)
     (several / "between" / "trajectories").symlink_to(several / "trajectories")
     assert [run.motion for run in read_sweep(several).between] == ["B", "A"]
 
@@ -167,7 +173,7 @@ def test_a_click_chooses_the_motion_whose_point_is_nearest(several, browse):
         canvas.evaluate("(one) => one.scrollIntoView({block: 'center'})")
         box = canvas.bounding_box()
         x = box["x"] + 48 + (box["width"] - 58) * (0.03 + (0.03 - 0.016) / 0.144) / 1.06
-        for column in (one for one in data.columns if one.at == 0.03):
+        for column in (candidate for candidate in data.columns if candidate.at == 0.03):
             share = 1.0 - (max(column.points, key=lambda point: abs(point - 20.8)) - low + 0.04 * wide) / (1.08 * wide)
             page.mouse.click(x, box["y"] + 20 + share * (box["height"] - 64 - 92 * len(data.lower)))
             assert page.evaluate("document.getElementById('explorer-sheet').dataset.run") == column.anchor

@@ -27,8 +27,11 @@ def orbits(folder, tmp_path):
     place = tmp_path / "orbits"
     (place / "trajectories").mkdir(parents=True)
     shutil.copy(folder / "scene.toml", place)
-    told = json.loads((folder / "provenance.json").read_text()) | {"campaign": "orbits", "vary": {"steepness": [0, 1]}}
-    (place / "provenance.json").write_text(json.dumps(told))
+    provenance = json.loads((folder / "provenance.json").read_text()) | {
+        "campaign": "orbits",
+        "vary": {"steepness": [0, 1]},
+    }
+    (place / "provenance.json").write_text(json.dumps(provenance))
     (place / "answer.txt").write_text("Two branches.")
     usual, rows = {"status": "ok", "message": "", "motion": "A"}, []
     strobes = ["branch,place,strobe,radius_m"]
@@ -51,14 +54,18 @@ def orbits(folder, tmp_path):
         "kind": "flip", "steepness": FLIP, "tension_top_max_N": 3000.0 + 5000.0 * np.sqrt(FLIP - FOLD),
         "angle_rad": np.pi, "error": 9e-4, "finer": "", "leads_to": "2",
     }  # fmt: skip
-    whole = usual | {
+    complete = usual | {
         "branch": "1",
         "begins": "reaches the end of the range, 0.15",
         "ends": "meets the orbit of period 1",
     }
-    failed = whole | {"branch": "2", "motion": "", "ends": "at 0.15 no step above 0.001 succeeds: a loop is released"}
+    failed = complete | {
+        "branch": "2",
+        "motion": "",
+        "ends": "at 0.15 no step above 0.001 succeeds: a loop is released",
+    }
     chosen = [rows[2], rows[11]]
-    for part, table in (("", rows), ("events", [fold, flip]), ("branches", [whole, failed]), ("orbits", chosen)):
+    for part, table in (("", rows), ("events", [fold, flip]), ("branches", [complete, failed]), ("orbits", chosen)):
         write(place / part, table, columns_of(table, WORDS, SYMBOLS))
     for row in chosen:
         history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"
@@ -70,14 +77,14 @@ def orbits(folder, tmp_path):
 
 
 def test_a_line_is_solid_between_the_events_where_it_is_stable(orbits):
-    one, two = read_branches(read_folder(orbits), "steepness", [])
-    assert one.colour == two.colour, "it begins at an event of the first"
-    saddle, node, flipped = one.lines("strobes")
+    first, two = read_branches(read_folder(orbits), "steepness", [])
+    assert first.colour == two.colour, "it begins at an event of the first"
+    saddle, node, flipped = first.lines("strobes")
     assert [curve.line == "-" for curve in (saddle, node, flipped)] == [False, True, False]
     assert node.x[0] == saddle.x[-2] == FOLD and node.x[-2] == flipped.x[0] == FLIP
     known = np.isfinite(node.x)
     assert np.allclose(node.y[known][1:-1] - node.x[known][1:-1], 21.0)
-    moduli = np.concatenate([curve.y for curve in one.lines("modulus")])
+    moduli = np.concatenate([curve.y for curve in first.lines("modulus")])
     assert (moduli == 1.0).sum() == 4, "both ends of the node, and the ends of its neighbours"
     (solid,) = two.lines("strobes")
     assert np.isnan(solid.x).sum() == 2 and solid.line == "-", "two strobes"
@@ -89,8 +96,8 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     cells = {row[1]: row[2] for row in table.rows}
     assert cells == {"fold": "0.06000\u00a0±\u00a00.0001", "flip": "0.11000\u00a0±\u00a00.0009‡†"}
     (notice,) = (item for item in items if isinstance(item, Notice))
-    said = " ".join(notice.lines)
-    assert "Branch 2 was not followed to its end: at 0.15" in said and "flip of branch 1 at 0.1100" in said
+    caveats = " ".join(notice.lines)
+    assert "Branch 2 was not followed to its end: at 0.15" in caveats and "flip of branch 1 at 0.1100" in caveats
     multipliers = next(item for item in items if isinstance(item, Table) and item.columns[2].title == "μ1")
     known = [float(row["multiplier_1_real"]) for row in rows_in(orbits / "orbits")]
     assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]

@@ -47,7 +47,7 @@ def test_every_figure_has_a_caption_and_a_text_alternative(page):
 def test_headings_go_down_one_level_at_a_time_and_there_is_one_title(page):
     levels = [HEADINGS[tag] for tag, _ in page.tags if tag in HEADINGS]
     assert levels[0] == 1 and levels.count(1) == 1 and ODD_TITLE in page.text
-    assert all(after <= before + 1 for before, after in pairwise(levels))
+    assert all(lower <= upper + 1 for upper, lower in pairwise(levels))
 
 
 def test_every_header_of_a_table_says_what_it_heads(page):

@@ -94,12 +94,12 @@ def folder_of(tmp_path):
                 if abs(x - BORDER) < 0.6 * WIDE:
                     quarter = [(x + a * WIDE / 4, y + b * HIGH / 4) for a in (-1, 1) for b in (-1, 1)]
                     cells += [cell(*at, 1, page) for at in quarter]
-        rows = [one for row in cells for one in motions_of(row)]
+        rows = [motion for row in cells for motion in motions_of(row)]
         write(place / "cells", cells, columns_of(cells, WORDS, SYMBOLS))
         write(place, rows, columns_of(rows, WORDS, SYMBOLS))
         sines(load_scene("tethered_buoy"), 8).save(place / "trajectories" / "0.nc", {"run_key": "0"})
-        kept = {"radius_m": np.linspace(19.0, 21.0, 64)[None], "tension_N": np.full((1, 64), 2400.0)}
-        np.savez(place / "strobes.npz", run_key=np.array(["0"]), **kept)
+        strobes = {"radius_m": np.linspace(19.0, 21.0, 64)[None], "tension_N": np.full((1, 64), 2400.0)}
+        np.savez(place / "strobes.npz", run_key=np.array(["0"]), **strobes)
         return place
 
     return made
@@ -125,11 +125,11 @@ def test_shares_are_areas_of_the_cells_on_top(folder_of):
 def test_nothing_screened_counts_as_computed(folder_of):
     place = folder_of()
     atlas = atlas_of(place)
-    told = [said for _, said in legend(atlas)]
-    shares = {said.partition(":")[0]: float(said.split()[-2]) for said in told if said.endswith("%")}
+    texts = [text for _, text in legend(atlas)]
+    shares = {text.partition(":")[0]: float(text.split()[-2]) for text in texts if text.endswith("%")}
     kinds = ("period 1", "period 5", "chaotic", "only screened", "failed")
     assert sum(shares[kind] for kind in kinds) == pytest.approx(100.0, abs=1.5), "each rounded to two digits"
-    assert "irregular, screened" in told
+    assert "irregular, screened" in texts
     (page,) = atlas.pages
     assert page.rows[regimes(page).star]["source"] == COMPUTED
     assert "irregular" not in {row[0] for row in _regimes(atlas).rows}
@@ -140,7 +140,7 @@ def test_nothing_screened_counts_as_computed(folder_of):
 
 def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
     """A chess board of 4 x 3 cells: every inner side is a border once; two cells of one kind have none."""
-    i, j = (one.ravel() for one in np.meshgrid(np.arange(4.0), np.arange(3.0)))
+    i, j = (index.ravel() for index in np.meshgrid(np.arange(4.0), np.arange(3.0)))
     nothing = np.zeros(12, bool)
     for kinds, length in (((i + j) % 2, 3 * 3 + 4 * 2), (i > 1.5, 3), (0 * i, 0)):
         cells = Cells(np.column_stack([i, i + 1, j, j + 1]), kinds.astype(str), nothing, nothing)
@@ -168,11 +168,11 @@ def test_every_cell_on_top_has_its_sheet_with_its_motions_and_their_series(folde
     sheets = cell_sheets(read_folder(place), atlas_of(place))
     cells = {cell["name"]: cell for cell in json.loads(zlib.decompress(base64.b64decode(packed(sheets))))}
     assert len(cells) == NX * NY + 3 * NY, "a bisected one is told by its parts"
-    whole = cells["kA = 0.16, H = 24.5"]
-    assert [motion["motion"] for motion in whole["motions"]] == ["A", "B"] and "released" in whole["note"]
-    assert "contraction 0.53 (threshold 1, met)" in whole["motions"][0]["said"]
-    (low, high), (_, pull) = whole["scales"]
-    radius, tension, strobes, _ = (np.array(steps) / 999 for steps in whole["motions"][1]["series"])
+    large = cells["kA = 0.16, H = 24.5"]
+    assert [motion["motion"] for motion in large["motions"]] == ["A", "B"] and "released" in large["note"]
+    assert "contraction 0.53 (threshold 1, met)" in large["motions"][0]["said"]
+    (low, high), (_, pull) = large["scales"]
+    radius, tension, strobes, _ = (np.array(steps) / 999 for steps in large["motions"][1]["series"])
     assert pull == 2510.0 and tension.max() == 1.0, "the largest between samples is kept"
     assert np.allclose(low + (high - low) * strobes, np.linspace(19.0, 21.0, 64), atol=2e-3)
     truth = 20.0 + np.sin(2.0 * np.pi * np.linspace(0.0, 4.0, 201)[:-1])
@@ -187,7 +187,7 @@ def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_ma
     for title, column in columns.items():
         seen = set()
         for page, maps in zip(atlas.pages, numbers(atlas), strict=True):
-            (shown,) = (one for one in maps if one.title == title)
+            (shown,) = (candidate for candidate in maps if candidate.title == title)
             seen.update(zip(page.column(column), shown.colours, strict=True))
         known = {(value, colour) for value, colour in seen if np.isfinite(value)}
         assert len(known) == len(dict(known)) > 1
@@ -231,8 +231,8 @@ def test_a_screen_alone_has_its_report_too(folder_of):
 @pytest.mark.slow
 def test_each_page_has_its_maps_and_no_word_lies_on_another(folder_of, drawn):
     figures = [item for item in content_of(folder_of(("full", "spherical-cap")))[0].items if isinstance(item, Figure)]
-    assert [len(one.places[0]) for one in figures] == [2, 4, 4] and not any(map(crowded, drawn))
-    assert [{place.page for place in one.places[1]} for one in figures] == [{0, 1}, {0}, {1}]
+    assert [len(figure.places[0]) for figure in figures] == [2, 4, 4] and not any(map(crowded, drawn))
+    assert [{place.page for place in figure.places[1]} for figure in figures] == [{0, 1}, {0}, {1}]
 
 
 @pytest.mark.slow
@@ -242,7 +242,7 @@ def test_a_click_opens_the_sheet_and_arrows_walk_along_the_row(folder_of, browse
         page.wait_for_selector("#cells-hint:not([hidden])")
         picture = page.locator("#figure-1 picture")
         places = json.loads(page.locator("#figure-1").get_attribute("data-places"))
-        (left, top, wide, high), (x0, x1, y0, y1), _ = places[window.get("width", 1200) < 700][0]
+        (edge, top, wide, high), (x0, x1, y0, y1), _ = places[window.get("width", 1200) < 700][0]
         box = picture.bounding_box()
 
         def steepness(*keys):
@@ -250,7 +250,7 @@ def test_a_click_opens_the_sheet_and_arrows_walk_along_the_row(folder_of, browse
                 page.keyboard.press(key)
             return float(re.search(r"kA = ([\d.]+), H", page.locator("#cell [role=status]").text_content())[1])
 
-        x, y = left + wide * (0.02 - x0) / (x1 - x0), top + high * (y1 - 23.8) / (y1 - y0)
+        x, y = edge + wide * (0.02 - x0) / (x1 - x0), top + high * (y1 - 23.8) / (y1 - y0)
         picture.click(position={"x": x * box["width"], "y": y * box["height"]})
         seen = [steepness(), *(steepness("ArrowRight") for _ in range(8))]
         assert seen == [0.02, 0.04, 0.06, 0.08, 0.1, 0.115, 0.125, 0.14, 0.16], "both halves of the bisected one"

@@ -47,8 +47,8 @@ def test_a_second_axis_shows_the_same_heights_in_its_own_unit(drawn):
 def test_a_spectrum_is_linear_with_its_peak_in_sight_and_logarithmic_over_four_decades(drawn):
     spectrum = Curve(np.arange(4.0), np.array([1e-9, 2.0, 1e-2, 5.0]))
     curves([spectrum_panels([spectrum], 2.5, ("x", "y"), [(1.0, "waves")])], 2.0)
-    left, right = drawn[0].axes
-    assert left.get_yscale() == "linear" and 2.0 < left.get_ylim()[1] < 5.0, "no wider than what is shown"
+    linear, right = drawn[0].axes
+    assert linear.get_yscale() == "linear" and 2.0 < linear.get_ylim()[1] < 5.0, "no wider than what is shown"
     assert right.get_yscale() == "log" and right.get_ylim()[0] == pytest.approx(2e-4)
 
 
@@ -135,16 +135,23 @@ def test_exponents_of_the_paper_stand_with_their_errors_at_the_curve_of_their_wa
             data |= {f"{wave}_{method}_value": bits, f"{wave}_{method}_error": abs(bits) / 5.0}
             data |= {f"{wave}_{method}_periods": ("n", [1.0, 9.0]), f"{wave}_{method}_bits": ("n", [bits] * 2)}
     sources = [{"label": f"kA = {kA}", "settings": ""} for kA in (0.13, 0.016)]
-    told = running_exponents(xarray.Dataset(data, attrs={"sources": json.dumps(sources), "run_seconds": 1.0}), "svg")
-    assert "kA = 0.13: 0.250 ± 0.05 (Wolf) and 0.250 ± 0.05 (tangent)" in told.caption
-    assert "kA = 0.016: −0.500 ± 0.1 (Wolf)" in told.caption
+    shown = running_exponents(xarray.Dataset(data, attrs={"sources": json.dumps(sources), "run_seconds": 1.0}), "svg")
+    assert "kA = 0.13: 0.250 ± 0.05 (Wolf) and 0.250 ± 0.05 (tangent)" in shown.caption
+    assert "kA = 0.016: −0.500 ± 0.1 (Wolf)" in shown.caption
     lines = {line.get_label(): line.get_ydata()[0] for line in drawn[0].axes[0].lines}
     assert (lines["kA = 0.13, Wolf"], lines["kA = 0.016, tangent"]) == (0.25, -0.5)
 
 
 def test_all_of_the_provenance_is_printed_zeros_too():
-    made = {"command": ["a", "b c"], "seed": 0, "quick": False, "versions": {"numpy": "2"}, "left": None, "tol": 1e-9}
-    *_, command, table = provenance_items(Folder(None, made | {"timing": {"run_s": 1.0}}, (), SCENE, {}))
+    provenance = {
+        "command": ["a", "b c"],
+        "seed": 0,
+        "quick": False,
+        "versions": {"numpy": "2"},
+        "left": None,
+        "tol": 1e-9,
+    }
+    *_, command, table = provenance_items(Folder(None, provenance | {"timing": {"run_s": 1.0}}, (), SCENE, {}))
     assert command == Listing("a 'b c'")
     shown = {"`seed`": "0", "`quick`": "no", "`versions.numpy`": "2", "`left`": "–", "`tol`": "1e-9"}
     assert dict(table.rows) == shown

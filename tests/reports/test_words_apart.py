@@ -22,22 +22,22 @@ def crowded(figure) -> list[tuple[str, ...]]:
     for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
         low, high = sorted(axis.get_view_interval())
         for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
-            kept = numbers if low <= tick.get_loc() <= high else hidden
-            kept |= {tick.label1, tick.label2}
+            drawn_numbers = numbers if low <= tick.get_loc() <= high else hidden
+            drawn_numbers |= {tick.label1, tick.label2}
     words = [
-        (one, one.get_window_extent())
-        for one in figure.findobj(Text)
-        if one.get_visible() and one.get_text().strip() and one not in hidden
+        (word, word.get_window_extent())
+        for word in figure.findobj(Text)
+        if word.get_visible() and word.get_text().strip() and word not in hidden
     ]
-    found = [
-        (one.get_text(), other.get_text())
-        for (one, a), (other, b) in combinations(words, 2)
-        if min(a.x1, b.x1) - max(a.x0, b.x0) > (-APART if {one, other} <= numbers else 1.0)
+    pairs = [
+        (word.get_text(), second.get_text())
+        for (word, a), (second, b) in combinations(words, 2)
+        if min(a.x1, b.x1) - max(a.x0, b.x0) > (-APART if {word, second} <= numbers else 1.0)
         and min(a.y1, b.y1) - max(a.y0, b.y0) > 1.0
     ]
     edge = figure.bbox.padded(1.0)
-    return found + [
-        (one.get_text(),) for one, box in words if not edge.contains(*box.min) or not edge.contains(*box.max)
+    return pairs + [
+        (word.get_text(),) for word, box in words if not edge.contains(*box.min) or not edge.contains(*box.max)
     ]
 
 
