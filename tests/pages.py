@@ -44,8 +44,8 @@ def commands(text: str) -> Iterator[tuple[str, list[str]]]:
 
 def file_of(text: str) -> str | None:
     """Name under which the page says to save a TOML block, or None for a part of a scene."""
-    found = re.match(r"# (\w+\.toml)\n", text)
-    return found and found[1]
+    match = re.match(r"# (\w+\.toml)\n", text)
+    return match and match[1]
 
 
 def without_numbers(text: str) -> list[str]:
@@ -56,6 +56,6 @@ def without_numbers(text: str) -> list[str]:
 def compare(printed: str, shown: str) -> None:
     """Words are the same exactly, numbers to two units of the last digit (another machine rounds otherwise)."""
     assert without_numbers(printed) == without_numbers(shown)
-    for found, said in zip(re.findall(NUMBER, printed), re.findall(NUMBER, shown), strict=True):
-        if "e" not in said:
-            assert float(found) == pytest.approx(float(said), abs=2.01 * 10.0 ** -len(said.partition(".")[2]))
+    for computed, stated in zip(re.findall(NUMBER, printed), re.findall(NUMBER, shown), strict=True):
+        if "e" not in stated:
+            assert float(computed) == pytest.approx(float(stated), abs=2.01 * 10.0 ** -len(stated.partition(".")[2]))

@@ -82,8 +82,8 @@ def test_every_tool_has_one_version():
     pinned = {
         re.sub(r"[-_.]+", "-", name).lower() for name in re.findall(r"^([\w.-]+)==", text("constraints.txt"), re.M)
     }
-    asked = re.findall(r'"([a-z][\w-]+)>=[\d.]+[^"=]*"', text("pyproject.toml"))
-    assert asked and {name.replace("_", "-").lower() for name in asked} - pinned <= {"setuptools"}
+    required = re.findall(r'"([a-z][\w-]+)>=[\d.]+[^"=]*"', text("pyproject.toml"))
+    assert required and {name.replace("_", "-").lower() for name in required} - pinned <= {"setuptools"}
     assert "==" not in text("pyproject.toml")
 
 
@@ -94,7 +94,7 @@ def test_the_page_is_what_the_model_says():
 
 def test_every_key_is_declared():
     listed = list(keys())
-    assert all(key in listed or any(other.startswith(f"{key}.") for other in listed) for key in known_fields(Scene))
+    assert all(key in listed or any(longer.startswith(f"{key}.") for longer in listed) for key in known_fields(Scene))
     assert all(key.meaning for key in keys().values())
 
 
@@ -109,8 +109,8 @@ def test_sources_are_of_keys_that_the_scene_has(scene):
 
 
 def test_the_values_of_the_papers_table_have_their_source():
-    found = sources("tethered_buoy")
-    assert found["buoy.mass_kg"] == "Table 1: M" and found["tether.tension.stiffness_N"].startswith("section 4.2")
+    origins = sources("tethered_buoy")
+    assert origins["buoy.mass_kg"] == "Table 1: M" and origins["tether.tension.stiffness_N"].startswith("section 4.2")
 
 
 TABLES_ON_PAGES = [(name, table) for name in PAGES for table in write_tables.blocks(text(name))]

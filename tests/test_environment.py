@@ -19,8 +19,8 @@ ODD = "été 浮标 Ω"
 
 
 def python(*words, **environment):
-    own = os.environ | {"PYTHONPATH": str(ROOT)} | environment
-    return subprocess.run([sys.executable, *words], capture_output=True, env=own, cwd=ROOT)
+    variables = os.environ | {"PYTHONPATH": str(ROOT)} | environment
+    return subprocess.run([sys.executable, *words], capture_output=True, env=variables, cwd=ROOT)
 
 
 @pytest.mark.parametrize("letters", ["latin-1", "ascii"])
@@ -36,26 +36,28 @@ def python(*words, **environment):
     ids=lambda command: command[0],
 )
 def test_a_refusal_is_printed_whatever_letters_it_holds(command, letters):
-    done = python("-m", *command, PYTHONIOENCODING=letters)
-    assert done.returncode == 2 and b"Traceback" not in done.stderr
-    assert ODD[-1].encode("ascii", "backslashreplace") in done.stderr
+    process = python("-m", *command, PYTHONIOENCODING=letters)
+    assert process.returncode == 2 and b"Traceback" not in process.stderr
+    assert ODD[-1].encode("ascii", "backslashreplace") in process.stderr
 
 
 @pytest.mark.parametrize("command", ["campaigns", "engine"])
 def test_a_reader_that_leaves_is_no_fault(command):
     read, write = os.pipe()
     os.close(read)
-    own = os.environ | {"PYTHONPATH": str(ROOT)}
-    done = subprocess.run([sys.executable, "-m", command], stdout=write, stderr=subprocess.PIPE, env=own, cwd=ROOT)
+    variables = os.environ | {"PYTHONPATH": str(ROOT)}
+    process = subprocess.run(
+        [sys.executable, "-m", command], stdout=write, stderr=subprocess.PIPE, env=variables, cwd=ROOT
+    )
     os.close(write)
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert (process.returncode, process.stderr) == (0, b"")
 
 
 @pytest.mark.parametrize("first", ["", "import numba; "])
 def test_numba_compiles_though_it_is_told_not_to(first):
     code = f"{first}import machine_code, numba; print(type(numba.njit(lambda x: x)).__name__)"
-    done = python("-c", code, NUMBA_DISABLE_JIT="1")
-    assert done.stdout.split() == [b"CPUDispatcher"] and b"NUMBA_DISABLE_JIT is ignored, because" in done.stderr
+    process = python("-c", code, NUMBA_DISABLE_JIT="1")
+    assert process.stdout.split() == [b"CPUDispatcher"] and b"NUMBA_DISABLE_JIT is ignored, because" in process.stderr
     assert python("-c", code, NUMBA_DISABLE_JIT="0").stderr == b""
 
 

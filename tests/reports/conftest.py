@@ -5,6 +5,7 @@ skipped, and `pytest` says so with the reason at its end (`-rs` in pyproject.tom
 """
 
 import csv
+import re
 import shutil
 from collections.abc import Mapping
 from contextlib import contextmanager
@@ -71,9 +72,9 @@ class Motions(FakeEngine):
         run = sines(scene, reached, status, message, tension=(2000.0, 5e4 * kA), releases=releases)
         step_s = scene.sample_step_s()  # one more on both sides, for rates at the ends
         phase = 2.0 * np.pi / scene.waves.period_s * step_s * np.arange(-1, len(run.columns["time_s"]) + 1)
-        more = 0.8 * np.sin(0.5 * phase + 0.3) if 0.06 <= kA < 0.1 else 0.0
-        more = 0.7 * np.sin(phase / np.pi) * np.cos(phase / np.e) if kA >= 0.1 else more
-        r = 20.8 + 12.0 * kA * (np.sin(phase) + more)
+        modulation = 0.8 * np.sin(0.5 * phase + 0.3) if 0.06 <= kA < 0.1 else 0.0
+        modulation = 0.7 * np.sin(phase / np.pi) * np.cos(phase / np.e) if kA >= 0.1 else modulation
+        r = 20.8 + 12.0 * kA * (np.sin(phase) + modulation)
         changed = {"radius_m": r[1:-1], "radius_rate_mps": np.gradient(r, step_s)[1:-1]}
         changed["z_m"] = changed["radius_m"] * np.cos(run.columns["angle_rad"])
         return replace(run, columns=run.columns | changed)
@@ -85,9 +86,9 @@ def campaign(directory: Path, steepness, periods=80, transient=20, failing=None,
     scene.parent.mkdir(parents=True, exist_ok=True)
     scene.write_text(load_scene("tethered_buoy", overrides or {}).to_toml(), encoding="utf-8")
     length = ["--periods", str(periods), "--transient", str(transient), "--scene", str(scene)]
-    how = ["--jobs", "1", "--backend", "threading", "--no-report", "--no-accuracy", "--out", str(directory)]
+    options = ["--jobs", "1", "--backend", "threading", "--no-report", "--no-accuracy", "--out", str(directory)]
     swept = ["--steepness", *map(str, steepness), "--set", "output.tangent_vectors=0"]
-    assert buoy_sweep.main([*swept, *length, *how], simulate=Motions(failing=failing or {})) in (0, 1)
+    assert buoy_sweep.main([*swept, *length, *options], simulate=Motions(failing=failing or {})) in (0, 1)
     return Path(directory)
 
 
@@ -96,20 +97,14 @@ class Page(HTMLParser):
 
     def __init__(self, source: str):
         super().__init__()
-        self.tags, self.text, self._open = [], "", []
-        self.feed(source)
+        self.tags, self.text = [], ""
+        self.feed(re.sub(r"<style>.*?</style>", "", source, flags=re.DOTALL))
 
     def handle_starttag(self, tag, attributes):
         self.tags.append((tag, dict(attributes)))
-        self._open.append(tag)
-
-    def handle_endtag(self, tag):
-        if tag in self._open:
-            del self._open[len(self._open) - 1 - self._open[::-1].index(tag) :]
 
     def handle_data(self, data):
-        if "style" not in self._open:
-            self.text += data
+        self.text += data
 
     def all(self, wanted: str) -> list[dict]:
         """The attributes of every such tag."""
@@ -118,25 +113,25 @@ class Page(HTMLParser):
 
 def every_kind(text: str) -> Report:
     """A report of every kind of item, with the text in every place where text can be, in wide tables too."""
-    some = text or "x"
+    words = text or "x"
     dot = Picture(DOT, "svg")
     drawing = Figure(
-        dot, f"{some} caption", f"{some} of five words", Picture(b"GIF89a", "gif"), dot, ((WHOLE,), (WHOLE,))
+        dot, f"{words} caption", f"{words} of five words", Picture(b"GIF89a", "gif"), dot, ((WHOLE,), (WHOLE,))
     )
-    heads = tuple(Head(some, some, "right" if k else "left") for k in range(14))
+    heads = tuple(Head(words, words, "right" if k else "left") for k in range(14))
     narrow, wide = Table(heads[:1], ((text,),) * 40, text, small=True), Table(heads, ((text,) * 14,) * 4, text)
     cell = {"page": 0, "box": [0, 1, 0, 1], "name": text, "note": text, "scales": [[0, 1], [0, 1]]}
     motion = {"motion": text, "colour": "", "facts": [text], "said": text, "series": [[0, 999], [9], [5], [9]]}
     items = (
         Heading(text), Text(text + LONG), Heading(text, 2), Bullets((text, text)), equation("buoy"), drawing,
         narrow, wide, *(Notice(kind, text, (text, text)) for kind in ("note", "warning")), Listing(text + LONG),
-        Links(((some, "part/report.html"),)),
+        Links(((words, "part/report.html"),)),
         Explorer(text, text, (ExplorerColumn(0.1, (1.0,), text, "run-1"),)),
         CellSheets(((text, text),), (cell | {"motions": [motion]},)),
-        Sheet("run-1", some, ((some, text),), (text,), "", narrow, chosen=True),
+        Sheet("run-1", words, ((words, text),), (text,), "", narrow, chosen=True),
     )  # fmt: skip
     assert {type(item) for item in items} == set(get_args(Item)), "a new kind of item belongs here"
-    return Report(some, text, items)
+    return Report(words, text, items)
 
 
 @pytest.fixture(scope="session")
@@ -194,14 +189,14 @@ def browse():
 @pytest.fixture
 def drawn(monkeypatch):
     """Every drawing that is saved from here on."""
-    kept, save = [], Drawing.savefig
+    figures, save = [], Drawing.savefig
 
-    def keep(figure, *how, **options):
-        kept.append(figure)
-        return save(figure, *how, **options)
+    def keep(figure, *place, **options):
+        figures.append(figure)
+        return save(figure, *place, **options)
 
     monkeypatch.setattr(Drawing, "savefig", keep)
-    return kept
+    return figures
 
 
 def write(place, rows, columns=COLUMNS):
@@ -209,7 +204,7 @@ def write(place, rows, columns=COLUMNS):
     place.mkdir(exist_ok=True)
     (place / "columns.csv").write_bytes(dictionary(columns))
     with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, [one.name for one in columns], extrasaction="ignore")
+        writer = csv.DictWriter(file, [column.name for column in columns], extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
 

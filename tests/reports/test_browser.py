@@ -33,11 +33,11 @@ def violations(page) -> list[str]:
     """What axe-core finds serious or critical on a page, with a run chosen where it has an explorer."""
     page.evaluate("document.querySelector('#explorer button[value=after]')?.click()")
     page.evaluate(AXE.read_text(encoding="utf-8"))
-    found = page.evaluate("axe.run(document).then((result) => result.violations)")
+    results = page.evaluate("axe.run(document).then((result) => result.violations)")
     return [
-        f"{one['id']}: {one['help']}: {one['nodes'][0]['html'][:200]} ({len(one['nodes'])})"
-        for one in found
-        if one["impact"] in ("serious", "critical")
+        f"{violation['id']}: {violation['help']}: {violation['nodes'][0]['html'][:200]} ({len(violation['nodes'])})"
+        for violation in results
+        if violation["impact"] in ("serious", "critical")
     ]
 
 
@@ -46,15 +46,6 @@ def test_axe_finds_nothing_serious(built, kinds, browse, window):
     for path in (built[0], kinds):
         with browse(path, **window) as page:
             assert violations(page) == []
-
-
-def test_axe_would_have_found_something(built, browse, tmp_path):
-    """A picture without its text and grey letters on grey are found: the check can fail."""
-    source = built[0].read_text(encoding="utf-8")
-    spoilt = tmp_path / "spoilt.html"
-    spoilt.write_text(source.replace(' alt="', ' data-alt="').replace("--soft: #57606a", "--soft: #c0c4c8"), "utf-8")
-    with browse(spoilt) as page:
-        assert {line.partition(":")[0] for line in violations(page)} >= {"image-alt", "color-contrast"}
 
 
 def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_size(built, kinds, browse):
@@ -67,8 +58,8 @@ def test_on_a_telephone_nothing_lies_beside_the_page_and_drawings_keep_their_siz
             assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
             for drawing in ("figure .wide img", ".sheet svg.glance"):
                 assert all(width >= 650.0 for width in page.eval_on_selector_all(drawing, widths)), drawing
-            found = page.eval_on_selector_all(".equation svg", shares)
-            assert found and all(share > 0.5 for share in found)
+            equations = page.eval_on_selector_all(".equation svg", shares)
+            assert equations and all(share > 0.5 for share in equations)
 
 
 def test_on_a_telephone_the_whole_diagram_of_the_first_page_is_seen_in_a_form_of_its_own(built, browse):
@@ -85,7 +76,7 @@ def test_on_a_telephone_the_whole_diagram_of_the_first_page_is_seen_in_a_form_of
 def test_in_the_dark_figures_are_dark_and_keep_their_hues(tmp_path, browse):
     """Three colours on white paper: the paper becomes dark, each colour stays within 17 degrees of its hue."""
     colours = (BLUE, GREEN, VERMILION)
-    bars = "".join(f'<rect x="{100 * k}" width="60" height="100" fill="{one}"/>' for k, one in enumerate(colours))
+    bars = "".join(f'<rect x="{100 * k}" width="60" height="100" fill="{item}"/>' for k, item in enumerate(colours))
     paper = '<path fill="#fff" d="M0 0h300v100H0z"/>'
     svg = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 100">{paper}{bars}</svg>'
     path, hues = tmp_path / "colours.html", []
@@ -94,38 +85,25 @@ def test_in_the_dark_figures_are_dark_and_keep_their_hues(tmp_path, browse):
         with browse(path, color_scheme=scheme) as page:
             drawn = Image.open(io.BytesIO(page.locator("figure img").screenshot()))
             at = [(round(drawn.width * share), drawn.height // 2) for share in (0.27, 0.1, 0.43, 0.77)]
-            paper, *bars = (colorsys.rgb_to_hsv(*(part / 255 for part in drawn.getpixel(one)[:3])) for one in at)
+            paper, *bars = (colorsys.rgb_to_hsv(*(part / 255 for part in drawn.getpixel(item)[:3])) for item in at)
             hues.append([hue for hue, *_ in bars])
             assert paper[2] > 0.95 if scheme == "light" else paper[2] < 0.15
             assert all(light > 0.4 and strong > 0.4 for _, strong, light in bars)
     assert np.allclose(*hues, atol=17 / 360)
 
 
-def test_on_paper_captions_are_smaller_than_text_and_nothing_moves(kinds, browse):
-    with browse(kinds) as page:
-        page.emulate_media(media="print")
-        size = "(one) => parseFloat(getComputedStyle(one).fontSize)"
-        text, *captions = (page.eval_on_selector(one, size) for one in ("main p:not([class])", "figcaption", "caption"))
-        assert max(captions) < text == pytest.approx(10.0 / 0.75, abs=0.01)
-        assert not page.locator(".moving").first.is_visible()
-
-
-@pytest.mark.parametrize("motion", ["no-preference", "reduce"])
-def test_moving_pictures_are_hidden_from_those_who_asked_for_less_motion(kinds, browse, motion):
-    with browse(kinds, reduced_motion=motion) as page:
-        assert page.locator(".moving").first.is_visible() is (motion == "no-preference")
-        assert page.locator("figure img").first.is_visible()
+def test_nothing_moves_on_paper_nor_for_those_who_asked_for_less_motion(kinds, browse):
+    for media, seen in (({}, True), ({"media": "print"}, False), ({"reduced_motion": "reduce"}, False)):
+        with browse(kinds) as page:
+            page.emulate_media(**media)
+            assert page.locator(".moving").first.is_visible() is seen
+            assert page.locator("figure img").first.is_visible()
 
 
 @pytest.fixture(scope="module")
 def window(built, browse):
     with browse(built[0]) as page:
         yield page
-
-
-def share_of(steepness):
-    """Where a steepness stands: the ends of the axis lie 3 % beyond the eight runs, which go from 0.016 to 0.16."""
-    return (0.03 + (steepness - 0.016) / 0.144) / 1.06
 
 
 def at(window, share):
@@ -136,17 +114,14 @@ def at(window, share):
     return box["x"] + 48 + (box["width"] - 58) * share, box["y"] + 0.3 * box["height"]
 
 
-def test_a_click_on_a_steepness_shows_the_sheet_of_that_run(window):
-    for steepness, number in ((0.016, 1), (0.05, 3), (0.13, 7)):
-        window.mouse.click(*at(window, share_of(steepness)))
+def test_a_click_on_a_steepness_keys_and_the_list_show_the_sheet_of_that_run(window):
+    """The ends of the axis lie 3 % beyond the eight runs, which go from 0.016 to 0.16."""
+    for steepness, number in ((0.05, 3), (0.13, 7), (0.016, 1)):
+        window.mouse.click(*at(window, (0.03 + (steepness - 0.016) / 0.144) / 1.06))
         assert window.evaluate(SHOWN) == f"run-{number}"
         assert f"kA = {steepness:g}" in window.locator("#explorer-sheet").inner_text()
         assert window.locator("#explorer-sheet svg.glance").count() == 1
         assert f"kA = {steepness:g}" in window.locator("[role=status]").text_content()
-
-
-def test_keys_and_list_choose_runs_too(window):
-    window.mouse.click(*at(window, 0.03))
     for key, run in (("ArrowRight", 2), ("ArrowLeft", 1), ("ArrowLeft", 1)):  # before the first there is none
         window.keyboard.press(key)
         assert window.evaluate(SHOWN) == f"run-{run}"
@@ -155,20 +130,19 @@ def test_keys_and_list_choose_runs_too(window):
 
 
 def test_wheel_keys_and_drags_change_the_view_and_all_brings_it_back(window):
-    window.mouse.click(*at(window, 0.5))
-    seen = [window.evaluate(DRAWN)]
     x, y = at(window, 0.5)
+    window.mouse.click(x, y)
+    seen = [window.evaluate(DRAWN)]
     window.mouse.wheel(0, -240)
     window.wait_for_function(f"(before) => {DRAWN} !== before", arg=seen[0])
-    seen.append(window.evaluate(DRAWN))
     for key in ("+", "d"):
-        window.keyboard.press(key)
         seen.append(window.evaluate(DRAWN))
+        window.keyboard.press(key)
+    seen.append(window.evaluate(DRAWN))
     window.mouse.down()
     window.mouse.move(x + 60, y + 20)
     window.mouse.up()
-    seen.append(window.evaluate(DRAWN))
-    assert len(set(seen)) == len(seen), "each of them draws another view"
+    assert len({*seen, window.evaluate(DRAWN)}) == 5, "each of them draws another view"
     window.locator("#explorer button[value=whole]").click()
     assert window.evaluate(DRAWN) == seen[0]
 
@@ -191,10 +165,6 @@ def test_a_run_without_points_is_seen_too(window):
       }).map((column) => column.at);
     }""")
     assert marked == [0.12, 0.16]
-
-
-def test_nothing_is_asked_of_a_network(window):
-    assert [url for url in window.asked if not url.startswith(("file:", "data:"))] == []
 
 
 def test_without_scripts_the_page_has_every_sheet_and_no_empty_explorer(built, browse):

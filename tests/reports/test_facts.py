@@ -14,7 +14,7 @@ from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
 from reports.figures.motion import envelope
 from reports.figures.run_sheet import NOTHING, run_sheet
-from reports.parts.columns import table_of
+from reports.parts.columns import shown_on, table_of
 from reports.parts.content import Explorer, ExplorerColumn, plain
 from reports.parts.folder import read_columns
 from reports.parts.html import explorer_json
@@ -36,7 +36,7 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
     (tmp_path / "columns.csv").write_text(DICTIONARY, encoding="utf-8")
     rows = [
         {"steepness": 0.13, "radius_min_m": 19.876, "growth": -0.04, "growth_error": 0.002, "status": "ok"},
-        {"steepness": 0.1, "radius_min_m": math.nan, "growth": 1e-9, "growth_error": None, "status": ""},
+        {"steepness": 0.1, "radius_min_m": "", "growth": 1e-9, "growth_error": None, "status": ""},
     ]
     columns, names = read_columns(tmp_path / "columns.csv"), ["steepness", "radius_min_m", "growth", "status"]
     table = table_of(columns, names, rows, "Two runs.", {"status": lambda row: row["status"].upper()})
@@ -46,8 +46,9 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
         ("0.130", "19.88", "−0.040\u00a0±\u00a00.002", "OK"),
         ("0.100", "–", "1e-9\u00a0±\u00a0–", ""),
     )
-    said = "Two runs. kA: wave steepness; rmin: least distance, after the transient; σ: exponent."
-    assert plain(table.caption) == said
+    assert shown_on(columns, rows[1:]) == ["steepness", "growth"], "what says nothing is left out"
+    caption = "Two runs. kA: wave steepness; rmin: least distance, after the transient; σ: exponent."
+    assert plain(table.caption) == caption
     with pytest.raises(KeyError):
         table_of(columns, ["mass"], rows, "")
 
@@ -96,9 +97,9 @@ def test_every_parameter_has_a_source_and_changes_are_marked():
 
 
 def test_spectrum_window_never_reaches_beyond_the_record():
-    for done in np.arange(0.0, 130.0, 0.37):
-        window = spectrum_window(done)
-        assert window is None or sum(window) <= done + 1e-6
+    for periods in np.arange(0.0, 130.0, 0.37):
+        window = spectrum_window(periods)
+        assert window is None or sum(window) <= periods + 1e-6
     assert spectrum_window(60.0) == spectrum_window(300.0) == (40, 20)
     assert spectrum_window(9.9) is None
 
@@ -134,12 +135,12 @@ def glance(peak: float) -> str:
 
 def bands(drawing: str) -> list[np.ndarray]:
     """Corners of every band of a drawing, in fifths of a pixel."""
-    found = []
+    corners = []
     for path in re.findall(r'class="band"[^>]* d="M([^"]*)z"', drawing):
         start, *steps = path.split("l")
         numbers = [[int(word) for word in re.findall(r"-?\d+", part)] for part in (start, *steps)]
-        found.append(np.cumsum(numbers, axis=0))
-    return found
+        corners.append(np.cumsum(numbers, axis=0))
+    return corners
 
 
 def test_a_single_high_sample_among_thousands_is_drawn():
@@ -177,13 +178,11 @@ def test_words_of_a_sheet_end_within_it_and_subscripts_are_set_below(full):
 
 
 def test_explorer_data_reads_back_to_a_hundred_thousandth_of_the_range():
-    rng = np.random.default_rng(3)
-    points = [tuple(rng.normal(20.0, 3.0, size)) for size in (5, 0, 40)]
-    columns = tuple(ExplorerColumn(0.1 * k, values, f"</script> {k}", f"run-{k}") for k, values in enumerate(points))
-    lower = (("slack", (0.1, float("nan"), 0.3), (float("nan"),) * 3),)
-    text = explorer_json(Explorer("x", "y", columns, lower))
+    points = np.random.default_rng(3).normal(20.0, 3.0, 40)
+    columns = (ExplorerColumn(0.1, tuple(points), "</script>", "run-1"), ExplorerColumn(0.2, (), "", "run-2"))
+    text = explorer_json(Explorer("x", "y", columns, (("slack", (0.1, math.nan), (math.nan,) * 2),)))
     assert "<" not in text
     read = json.loads(text)
-    for column, values in zip(read["columns"], points, strict=True):
-        assert column["points"] == pytest.approx(values, abs=1e-5 * (read["high"] - read["low"]))
-    assert read["lower"][0]["values"] == [0.1, None, 0.3] and read["lower"][0]["errors"] == [None] * 3
+    assert read["columns"][0]["points"] == pytest.approx(points, abs=1e-5 * np.ptp(points))
+    assert (read["low"], read["high"]) == pytest.approx((points.min(), points.max()))
+    assert read["lower"] == [{"label": "slack", "values": [0.1, None], "errors": [None, None]}]

@@ -8,7 +8,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import matplotlib
@@ -49,21 +48,11 @@ def test_a_copy_elsewhere_in_another_process_gives_the_same_bytes(folder, built,
 
 @pytest.mark.slow
 def test_the_reader_s_own_figure_settings_do_not_count_and_stay(folder, built):
-    before = [path.read_bytes() for path in built]
+    contents = [path.read_bytes() for path in built]
     with matplotlib.rc_context({"lines.linewidth": 7.0, "svg.fonttype": "none", "font.size": 20.0}):
         build(folder, again=True)
         assert matplotlib.rcParams["lines.linewidth"] == 7.0
-    assert [path.read_bytes() for path in built] == before
-
-
-@pytest.mark.slow
-def test_sixty_long_runs_within_fifteen_seconds_of_processor_and_ten_megabytes(tmp_path):
-    steepness = [round(0.01 + 0.0025 * k, 4) for k in range(60)]
-    folder = campaign(tmp_path / "out", steepness, periods=300, transient=100)
-    start = time.process_time()
-    paths = build(folder)
-    assert time.process_time() - start < 15.0
-    assert all(path.stat().st_size < 10e6 for path in paths)
+    assert [path.read_bytes() for path in built] == contents
 
 
 @pytest.mark.slow
@@ -80,14 +69,14 @@ def test_four_hundred_runs_with_their_evidence_make_files_of_less_than_ten_megab
 @pytest.mark.slow
 @needs_pdftotext
 def test_the_pdf_opens_with_the_answer_and_its_figure_and_lists_every_section_after_them(folder, built):
-    items = content_of(folder)[0].items
-    first, second = (" ".join(words_of(built[1], "-f", page, "-l", page).split()) for page in "12")
+    items, everything = content_of(folder)[0].items, words_of(built[1])
+    first, second = (" ".join(page.split()) for page in everything.split("\f")[:2])
     headings = [plain(item.text) for item in items if isinstance(item, Heading)]
     answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
     assert all(line.split(":")[0] in first for line in answer) and "It took" in first and "Figure 1:" in first
-    everything, figures = words_of(built[1]), sum(isinstance(item, Figure) for item in items)
     assert everything.index("Figure 1:") < everything.index("Contents") < everything.index(headings[0])
     assert second.startswith("Tethered buoy") and re.search(r"2 ?/ ?\d", second)
+    figures = sum(isinstance(item, Figure) for item in items)
     assert all(f"Figure {number}:" in everything for number in range(1, figures + 1)), "each under its figure"
     document = built[1].read_bytes()
     assert len(LINK.findall(document)) >= len(headings) and b"/Outlines" in document
@@ -99,14 +88,12 @@ def test_the_title_of_a_notice_stays_with_its_first_line(tmp_path):
     """Eighty notices at as many heights of a page."""
     items = []
     for k in range(80):
-        between = [Text(f"Between, {j}.") for j in range(k % 7)]
-        items += [*between, Notice("warning", f"Title {k}.", (f"Line {k}.", "b"))]
+        items += [Text("Between.")] * (k % 7) + [Notice("warning", f"Title {k}.", (f"Line {k}.", "b"))]
     (tmp_path / "a.pdf").write_bytes(render_pdf(Report("a", "b", tuple(items))))
     pages = words_of(tmp_path / "a.pdf").split("\f")
     assert len(pages) > 8
-    for k in range(80):
-        (place,) = (page for page in pages if f"Title {k}." in page)
-        assert f"Line {k}." in place
+    for page in pages:
+        assert re.findall(r"Title (\d+)\.", page) == re.findall(r"Line (\d+)\.", page)
 
 
 @pytest.mark.parametrize("height", [110, 140])
@@ -126,12 +113,13 @@ def content(folder):
     return boxes, sheets, sum(isinstance(item, Figure) for item in items)
 
 
-def test_runs_that_failed_are_named_with_their_reason_and_message(tmp_path):
-    failing = {0.1: ("newton-failed", 0), 0.13: ("statics-failed", 0.004)}
-    boxes, sheets, figures = content(campaign(tmp_path / "out", [0.1, 0.13], failing=failing))
-    for steepness, (reason, _) in failing.items():
-        assert any(f"{steepness}" in line and reason in line and "did not converge" in line for line in boxes)
-    assert figures == 0 and sum("did not converge" in line for line in sheets) == 2
+def test_runs_that_failed_are_named_with_their_reason_and_message_which_is_told_once(tmp_path):
+    failing = dict.fromkeys([0.1, 0.11, 0.12], ("newton-failed", 0)) | {0.13: ("statics-failed", 0.004)}
+    boxes, sheets, figures = content(campaign(tmp_path / "out", list(failing), failing=failing))
+    lines = [line for line in boxes if "did not converge" in line]
+    assert "newton-failed" in lines[1] and lines[1].endswith("kA = 0.1 to 0.12.")
+    assert "statics-failed" in lines[0] and lines[0].endswith("kA = 0.13.") and len(lines) == 2
+    assert figures == 0 and sum("did not converge" in line for line in sheets) == 4
 
 
 def test_a_single_short_run_gives_a_report(tmp_path):
@@ -139,24 +127,16 @@ def test_a_single_short_run_gives_a_report(tmp_path):
     assert figures >= 2 and boxes
 
 
-@pytest.mark.slow
-def test_a_damaged_and_a_missing_trajectory_cost_only_themselves(tmp_path):
-    folder = campaign(tmp_path / "out", [0.016, 0.05, 0.13], periods=30, transient=5)
+def test_a_damaged_a_missing_and_a_strange_trajectory_cost_only_themselves(tmp_path):
+    folder = campaign(tmp_path / "out", [0.016, 0.05, 0.08, 0.13], periods=30, transient=5)
     files = [folder / "trajectories" / f"{row['run_key']}.nc" for row in read_rows(folder / "table.csv")]
     files[0].write_bytes(files[0].read_bytes()[:1000])
     files[1].unlink()
+    shutil.copy(files[3], files[2])
     boxes, sheets, figures = content(folder)
-    assert any("0.016" in line and "0.05" in line for line in boxes) and figures >= 2
-    assert sum(file.name in line for file in files[:2] for line in sheets) == 2
+    assert any("kA = 0.016 to 0.08." in line for line in boxes) and figures >= 2
+    assert sum(file.name in line for file in files for line in sheets) == 3
     assert not any(str(tmp_path) in line for line in boxes + sheets)
-
-
-def test_thirty_failures_are_summed_up(tmp_path):
-    steepness = [round(0.01 + 0.001 * k, 3) for k in range(30)]
-    folder = campaign(tmp_path / "out", steepness, failing={value: ("step-limit", 0) for value in steepness})
-    boxes, sheets, _ = content(folder)
-    assert sum("did not converge" in line for line in boxes) == 1
-    assert sum("did not converge" in line for line in sheets) == 30
 
 
 HEAD = "name,unit,symbol,meaning,digits\n"
@@ -166,7 +146,6 @@ PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajector
 @pytest.mark.parametrize(
     ("part", "content", "said"),
     [
-        *((part, None, f"{part} is missing") for part in PARTS),
         ("columns.csv", None, "older version"),
         ("columns.csv", "name,unit\n", "its first line is not name,unit,symbol,meaning,digits"),
         ("columns.csv", HEAD + "a,,,,two\n", "columns.csv cannot be read"),
@@ -186,9 +165,9 @@ def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, ca
         (folder / part).rename(tmp_path / "away")
     else:
         (folder / part).write_text(content, encoding="utf-8")
-    before = sorted(folder.iterdir())
+    files = sorted(folder.iterdir())
     assert main([str(folder)]) == 2
-    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == before
+    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == files
 
 
 @pytest.mark.parametrize(
@@ -211,9 +190,7 @@ def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, c
 
 
 def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
-    assert main([str(tmp_path)]) == 2
-    message = capsys.readouterr().err
-    assert all(part in message for part in PARTS)
-    assert main([str(tmp_path / "nowhere")]) == 2
-    assert "no such folder" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+    for place, said in ((tmp_path, [f"{part} is missing" for part in PARTS]), (tmp_path / "no", ["no such folder"])):
+        assert main([str(place)]) == 2
+        message = capsys.readouterr().err
+        assert all(words in message for words in said) and list(tmp_path.iterdir()) == []

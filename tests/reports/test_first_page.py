@@ -2,8 +2,6 @@
 unchanged folder is not drawn again.
 """
 
-import json
-import math
 import re
 import shutil
 from dataclasses import replace
@@ -12,17 +10,16 @@ import numpy as np
 import pytest
 from matplotlib.colors import same_color, to_hex
 
-import reports
 from campaigns.explore.rows import COLUMNS
 from reports import build, content_of
-from reports.buoy_sweep.figures import orbit_figure, regime_items
+from reports.buoy_sweep.figures import evidence_table, orbit_figure
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Range, Strobes
-from reports.parts.content import Bullets, Figure, Heading, Report, Table, Text, plain
-from reports.parts.first_page import how_long, opened
+from reports.parts.content import Bullets, Figure, Heading, Text, plain
+from reports.parts.first_page import how_long
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
-from tables import read_table
+from tables import printed, read_table
 from tests.reports.conftest import Page, points_of, rows_in, write
 
 LABELS = "kA", "r (m)"
@@ -38,21 +35,23 @@ def columns_of(wide_m=(0.1, 8.0)):
 
 def bar_of(axes):
     """[(colour, low, high)] of the spans of a bar."""
-    spans = ((to_hex(one.get_facecolor()), one.get_x(), one.get_x() + one.get_width()) for one in axes.patches)
+    spans = (
+        (to_hex(patch.get_facecolor()), patch.get_x(), patch.get_x() + patch.get_width()) for patch in axes.patches
+    )
     return [(colour, round(low, 6), round(high, 6)) for colour, low, high in spans]
 
 
 def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_it_holds(drawn):
     between = [Strobes(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
-    every = sorted(columns_of() + between, key=lambda one: one.at)
-    loops = Range("loops released", [one.at > 0.12 for one in every])
-    OrbitDiagram(every, LABELS, [], [loops], [(0.13, "paper")]).drawn()
+    columns = sorted(columns_of() + between, key=lambda one: one.at)
+    loops = Range("loops released", [column.at > 0.12 for column in columns])
+    OrbitDiagram(columns, LABELS, [], [loops], [(0.13, "paper")]).drawn()
     top, bar, released = drawn[0].axes
-    found = points_of(top)
-    assert sum(map(len, found.values())) == len(every)
+    points = points_of(top)
+    assert sum(map(len, points.values())) == len(columns)
     for word in set(WORDS):
         colour = REGIME_COLOURS["period-" if word.startswith("period-") else word]
-        assert np.allclose(found[colour], VALUES[[one == word for one in WORDS]])
+        assert np.allclose(points[colour], VALUES[[column == word for column in WORDS]])
     assert [colour for colour, *_ in bar_of(bar)] == [REGIME_COLOURS[word] for word in ("period-", *WORDS[20::5])]
     edges = [edge for _, *pair in bar_of(bar) for edge in pair]
     assert edges[1:-1] == pytest.approx([0.1175, 0.1175, 0.1375, 0.1375]), "half-way between neighbours"
@@ -67,13 +66,13 @@ def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_ot
     top = drawn[0].axes[0]
     (inner,) = top.child_axes
     drawn[0].draw_without_rendering()
-    again = np.concatenate([line.get_ydata() for line in inner.lines])
-    assert np.ptp(again) == pytest.approx(0.1) and len(again) == 20 * 7
+    heights = np.concatenate([line.get_ydata() for line in inner.lines])
+    assert np.ptp(heights) == pytest.approx(0.1) and len(heights) == 20 * 7
     per_m = [axes.get_window_extent().height / np.ptp(axes.get_ylim()) for axes in (top, inner)]
     assert per_m[1] > 10.0 * per_m[0]
     place = inner.get_window_extent().transformed(top.transData.inverted())
-    inside = [one for one in columns_of() if place.x0 <= one.at <= place.x1]
-    assert all(((one.points < place.y0) | (one.points > place.y1)).all() for one in inside)
+    inside = [column for column in columns_of() if place.x0 <= column.at <= place.x1]
+    assert all(((column.points < place.y0) | (column.points > place.y1)).all() for column in inside)
     OrbitDiagram(columns_of((8.0, 8.0)), LABELS, []).drawn()
     assert not drawn[1].axes[0].child_axes, "nothing small, nothing larger"
 
@@ -95,6 +94,7 @@ def sweep(folder, tmp_path):
     for row in rows:
         row["regime"] = words.get(float(row["steepness"]), "")
         if row["regime"]:
+            row |= {"evidence": "halves: -0.5/0.01/no", "regime_reason": "it drifts"}
             row |= {"lyapunov_wolf_bits_per_period": 0.2, "lyapunov_wolf_error": 0.05}
         if row["regime"] == "chaotic":
             row |= {"lyapunov_tangent_bits_per_period": 0.1, "lyapunov_tangent_error": 0.01}
@@ -112,52 +112,38 @@ def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_mo
     assert np.ptp(two) == pytest.approx(4 * 0.01), "two errors on both sides"
 
 
-def test_columns_of_wolf_are_there_only_where_he_was_asked(sweep, folder):
-    def heads():
-        return [plain(one.title) for one in regime_items(read_sweep(sweep))[2].columns]
-
-    assert "σW" in heads()
-    rows = [{**row, "lyapunov_wolf_bits_per_period": "", "lyapunov_wolf_error": ""} for row in rows_in(sweep)]
-    write(sweep, rows)
-    assert "σW" not in heads() and "σt" in heads()
+def test_the_tests_behind_a_regime_are_told_with_its_reason(sweep):
+    tables = [evidence_table(run) for run in read_sweep(sweep).judged]
+    assert [table.rows for table in tables] == [(("halves", "−0.5", "0.01", "no"),)] * 3
+    assert tables[2].caption == "Evidence at kA = 0.13, in the order of the tests: it drifts."
 
 
 def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_made_without_them_too(sweep, drawn):
-    alone = orbit_figure(read_sweep(sweep))
+    orbit_figure(read_sweep(sweep))
     rows = {float(row["steepness"]): row for row in rows_in(sweep)}
-    beside = {**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}
-    write(sweep / "between", [beside])
+    write(sweep / "between", [{**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}])
     (sweep / "between" / "trajectories").symlink_to(sweep / "trajectories")
-    role = replace(COLUMNS[-1], name="role")
-    nodes = replace(COLUMNS[1], name="nodes")
-    made = {"status": "ok", "steepness": 0.13, "nodes": 41}
-    others = [
-        {**made, "role": "wetted cap", "tension_top_max_N": 3000.0},
-        {**made, "role": "wetted cap", "steepness": 0.1, "tension_top_max_N": 2000.0},
-        {**made, "role": "as run", "tension_top_max_N": 6000.0},  # of folders made before
-    ]
-    write(sweep / "companions", others, (role, nodes, *COLUMNS))
-    both = orbit_figure(read_sweep(sweep))
-    before, after = drawn[0], drawn[2]
-    assert sum(map(len, points_of(after.axes[0]).values())) == 1 + sum(map(len, points_of(before.axes[0]).values()))
-    panel = next(axes for axes in after.axes if axes.get_ylabel().startswith("largest T"))
+    capped = {"status": "ok", "role": "wetted cap", "steepness": 0.13, "tension_top_max_N": 3000.0}
+    companions = [capped, capped | {"steepness": 0.1, "tension_top_max_N": 2000.0}, capped | {"role": "as run"}]
+    write(sweep / "companions", companions, (replace(COLUMNS[-1], name="role"), *COLUMNS))
+    read = read_sweep(sweep)
+    orbit_figure(read)
+    alone_count, full_count = (sum(map(len, points_of(drawn[place].axes[0]).values())) for place in (0, 2))
+    assert full_count == alone_count + 1
+    panel = next(axes for axes in drawn[2].axes if axes.get_ylabel().startswith("largest T"))
     lines = {line.get_label(): line for line in panel.lines}
-    static_N = read_sweep(sweep).modes.static_tension_N
-    assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2000.0, 3000.0]) / static_N)
-    assert both.caption.startswith(alone.caption.partition(" Below")[0][:20])
-    (run,) = read_sweep(sweep).between
+    assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2e3, 3e3]) / read.modes.static_tension_N)
+    (run,) = read.between
     assert run.transient == 30 and len(run.section) == 80 - 30 + 1
 
 
-def test_a_transient_of_each_run_s_own_is_left_out_of_its_points(sweep):
-    rows = rows_in(sweep)
-    for place, row in enumerate(rows):
-        row["transient_periods"] = 10 + place
+def test_a_transient_of_each_run_s_own_is_left_out_of_its_points_or_that_of_the_provenance(sweep):
+    rows = [row | {"transient_periods": 10 + place} for place, row in enumerate(rows_in(sweep))]
     write(sweep, rows)
-    told = json.loads((sweep / "provenance.json").read_text())
-    (sweep / "provenance.json").write_text(json.dumps(told | {"transient": None}))
     good = read_sweep(sweep).good
     assert [len(run.section) for run in good] == [81 - run["transient_periods"] for run in good]
+    write(sweep, rows, [column for column in COLUMNS if column.name != "transient_periods"])
+    assert {len(run.section) for run in read_sweep(sweep).good} == {81 - 20}
 
 
 def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_last(folder):
@@ -165,11 +151,13 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
     kinds = [type(item) for item in report.items]
     first = kinds.index(Heading)
     assert kinds[:first] == [Bullets, Text, Figure]
-    assert report.items[0].lines and re.search(r"8 runs over [\d\u202f]+ periods", report.items[1].text)
+    answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
+    assert list(report.items[0].lines) == list(map(printed, answer))
+    assert re.search(r"8 runs over [\d\u202f]+ periods", report.items[1].text)
     page = render_html(report).decode()
-    order = [page.index(one) for one in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
+    order = [page.index(entry) for entry in ("<h1", '<ul class="bullets">', 'id="figure-1"', "<nav", 'id="section-1"')]
     assert order == sorted(order)
-    assert not [one for one in Page(page).all("nav") if one.get("class")] and "<summary>Figures" not in page
+    assert not [entry for entry in Page(page).all("nav") if entry.get("class")] and "<summary>Figures" not in page
     headings = [plain(item.text) for item in report.items if isinstance(item, Heading) and item.level == 1]
     assert headings[-1].startswith("Appendix")
     below = [plain(item.text) for item in report.items if isinstance(item, Heading) and item.level == 2]
@@ -177,51 +165,43 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
 
 
 def test_how_long_it_took_is_told_with_runs_periods_and_cores():
-    made = {"timing": {"compile_s": 1.0, "run_s": 68.0}, "runs": {"total": 49, "found": 3}, "jobs": 2, "cpu_count": 4}
+    provenance = {
+        "timing": {"compile_s": 1.0, "run_s": 68.0},
+        "runs": {"total": 49, "found": 3},
+        "jobs": 2,
+        "cpu_count": 4,
+    }
     rows = [{"periods": "100.0"}, {"periods": "1135"}, {"periods": ""}]
-    said = how_long(made, rows)
-    assert all(one in said for one in ("69 s", "49 runs", "1\u202f235 periods", "3 runs", "2 at a time", "4 cores"))
+    sentence = how_long(provenance, rows)
+    assert all(
+        phrase in sentence for phrase in ("69 s", "49 runs", "1\u202f235 periods", "3 runs", "2 at a time", "4 cores")
+    )
     assert how_long({"timing": {"run_s": 600.0}, "runs": {"total": 1}}, []) == "It took 10 minutes: 1 run."
     assert how_long({}, rows) == how_long({"timing": {}}, rows) == ""
 
 
-def test_a_folder_without_an_answer_begins_with_what_the_report_says(tmp_path):
-    report = Report("a", "b", (Text("c"),))
-    assert opened(report, tmp_path, {}) == report
-
-
-@pytest.mark.slow
 def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
-    times, render = [], reports.parts.html.render_html
-    monkeypatch.setattr(reports.parts.html, "render_html", lambda report: times.append(1) or render(report))
+    times = []
+    monkeypatch.setattr("reports.content_of", lambda directory: (times.append(1), {}))
+    monkeypatch.setattr("reports.parts.html.render_html", lambda report: b"page")
+    monkeypatch.setattr("reports.parts.pdf.render_pdf", lambda report: b"paper")
 
     def drawn() -> bool:
-        before = len(times)
+        drawings = len(times)
         html, pdf = build(sweep)
-        assert html.stat().st_size and pdf.stat().st_size
-        return len(times) > before
+        assert (html.read_bytes(), pdf.read_bytes()) == (b"page", b"paper")
+        return len(times) > drawings
 
     assert [drawn(), drawn()] == [True, False]
     for spoil in (
-        lambda: (sweep / "report.html").unlink(),
-        lambda: (sweep / "report.pdf").unlink(),
+        (sweep / "report.html").unlink,
         lambda: (sweep / "report.pdf").write_bytes(b"%PDF"),
         lambda: (sweep / "answer.txt").write_text("Another answer.\n"),
         lambda: write(sweep, rows_in(sweep)[:-1]),
-        lambda: next((sweep / "trajectories").iterdir()).unlink(),
+        next((sweep / "trajectories").iterdir()).unlink,
         lambda: (sweep / ".report.json").write_text("[]"),
+        lambda: monkeypatch.setattr("reports.parts.unchanged._LIBRARIES", ("numpy",)),
     ):
         spoil()
         assert [drawn(), drawn()] == [True, False]
-    monkeypatch.setattr("reports.parts.unchanged._LIBRARIES", ("numpy",))
-    assert [drawn(), drawn()] == [True, False], "other libraries draw otherwise"
-    assert build(sweep, again=True) and len(times) == 10
-
-
-def test_a_table_without_numbers_for_the_transient_still_reads(sweep):
-    for row in (rows := rows_in(sweep)):
-        row.pop("transient_periods")
-    write(sweep, rows, [one for one in COLUMNS if one.name != "transient_periods"])
-    assert all(run.transient == 20 for run in read_sweep(sweep).good)
-    assert all(math.isnan(run["transient_periods"]) for run in read_sweep(sweep).good)
-    assert [item for item in regime_items(read_sweep(sweep)) if isinstance(item, Table)]
+    assert build(sweep, again=True) and len(times) == 9

@@ -52,7 +52,11 @@ def several(folder, tmp_path):
     end = {"motion": "B", "end": "lower", "leads_to": "A", "status": "ok"}
     write(place / "ends", [{**end, "steepness_with": 0.021, "steepness_without": 0.019}], ENDS)
     start = {"steepness": 0.03, "outcome": "joined"}
-    write(place / "starts", [{**start, "motion": one} for one in "AAB"] + [{**start, "outcome": "unsettled"}], STARTS)
+    write(
+        place / "starts",
+        [{**start, "motion": motion} for motion in "AAB"] + [{**start, "outcome": "unsettled"}],
+        STARTS,
+    )
     return place
 
 
@@ -65,28 +69,30 @@ def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
     assert sweep.colours["B"] == VERMILION, "the largest tension"
     orbit_figure(sweep)
     assert not any(map(crowded, drawn))
-    static_N, found = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
+    static_N, points = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
     for letter in "AB":
-        own = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
-        assert np.allclose(found[sweep.colours[letter]], sorted(own))
+        tensions = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
+        assert np.allclose(points[sweep.colours[letter]], sorted(tensions))
         mine = [
-            one for one in panel_of(drawn[0], "largest T").lines if same_color(one.get_color(), sweep.colours[letter])
+            curve
+            for curve in panel_of(drawn[0], "largest T").lines
+            if same_color(curve.get_color(), sweep.colours[letter])
         ]
         for line in mine:
             seen = {x: y for x, y in zip(*line.get_data(), strict=True) if np.isfinite(y)}
-            assert seen == pytest.approx(own)
+            assert seen == pytest.approx(tensions)
         gap = [x for x, y in zip(*mine[0].get_data(), strict=True) if np.isnan(y)]
-        assert gap == [kA for kA in sweep.values if kA not in own], "broken where the motion is not"
+        assert gap == [kA for kA in sweep.values if kA not in tensions], "broken where the motion is not"
 
 
 def test_shares_fill_every_value_and_what_did_not_settle_is_hatched(several, drawn):
     orbit_figure(read_sweep(several))
     boxes = [
-        (round(one.get_x(), 6), one.get_height(), bool(one.get_hatch())) for one in panel_of(drawn[0], "starts").patches
+        (round(box.get_x(), 6), box.get_height(), bool(box.get_hatch())) for box in panel_of(drawn[0], "starts").patches
     ]
     filled = Counter()
-    for left, height, _ in boxes:
-        filled[left] += height
+    for edge, height, _ in boxes:
+        filled[edge] += height
     assert len(filled) == 6 and set(filled.values()) == {1.0}, "at 0.12 and 0.16 no run has a motion"
     assert sorted(height for _, height, hatched in boxes if hatched) == [0.25, 0.25]
 
@@ -95,35 +101,37 @@ def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(severa
     sweep = read_sweep(several)
     orbit_figure(sweep)
     panel = panel_of(drawn[0], "largest T")
-    ((x, tail), (_, head)) = next((one.xyann, one.xy) for one in panel.texts if hasattr(one, "xyann"))
+    ((x, tail), (_, head)) = next((text.xyann, text.xy) for text in panel.texts if hasattr(text, "xyann"))
     first, near = sweep.motions["B"][0], sweep.motions["A"][0]
     assert x == 0.02 and near.steepness == 0.016 and first.steepness == 0.03
     assert np.array([tail, head]) * sweep.modes.static_tension_N == pytest.approx(
         [first["tension_top_max_N"], near["tension_top_max_N"]]
     )
-    assert ".020" in [one.get_text() for one in panel.texts]
+    assert ".020" in [text.get_text() for text in panel.texts]
 
 
 def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     items = content_of(several)[0].items
-    sheets = {item.anchor: item for item in items if isinstance(item, Sheet)}
-    assert len(sheets) == 11 and len({one.title for one in sheets.values()}) == 11
-    at_large = next(one for one in sheets.values() if "kA = 0.08, motion B" in one.title)
-    along, across = (plain(line) for line in at_large.lines)
-    assert "kA = 0.03, motion B" in along and "kA = 0.1, motion B" in along and "motion A" not in along
-    assert across == "At the same kA: kA = 0.08, motion A."
+    sheets = {item.title: item for item in items if isinstance(item, Sheet)}
+    assert len(sheets) == len({sheet.anchor for sheet in sheets.values()}) == 11
+    (large,) = (sheet for title, sheet in sheets.items() if "kA = 0.08, motion B" in title)
+    assert list(map(plain, large.lines)) == [
+        "Next to it: kA = 0.03, motion B and kA = 0.1, motion B.",
+        "At the same kA: kA = 0.08, motion A.",
+    ]
     (explorer,) = (item for item in items if isinstance(item, Explorer))
-    assert {one.colour for one in explorer.columns} == set(read_sweep(several).colours.values())
-    first = next(item for item in items if isinstance(item, Table))
-    assert [row[0] for row in first.rows] == ["A", "B"] and first.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
-    starts = next(item for item in items if isinstance(item, Table) and "Starts at" in item.caption)
+    assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
+    motions, *_ = tables = [item for item in items if isinstance(item, Table)]
+    assert [row[0] for row in motions.rows] == ["A", "B"]
+    assert motions.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
+    (starts,) = (table for table in tables if "Starts at" in table.caption)
     assert starts.rows == (("0.03", "4", "0", "3", "1", "A 2, B 1"),)
 
 
 def test_a_run_between_takes_the_colour_of_the_motion_that_it_is_like(several):
     rows = {(row["motion"], float(row["steepness"])): row for row in rows_in(several)}
-    beside = [{**rows[letter, 0.08], "steepness": 0.09, "regime": ""} for letter in "BA"]
-    write(several / "between", beside)
+    unjudged = [{**rows[letter, 0.08], "steepness": 0.09, "regime": ""} for letter in "BA"]
+    write(several / "between", unjudged)
     (several / "between" / "trajectories").symlink_to(several / "trajectories")
     assert [run.motion for run in read_sweep(several).between] == ["B", "A"]
 
@@ -134,19 +142,24 @@ def test_a_table_with_one_motion_gives_the_figure_of_one_without(folder, several
     assert orbit_figure(read_sweep(several)) == orbit_figure(read_sweep(folder))
 
 
-def test_a_sweep_of_any_key_keeps_motions_apart():
+def test_a_sweep_of_any_key_keeps_motions_and_failed_runs_apart(drawn):
     key, depth, pull = Column("kA", digits=2), Column("H", digits=1), Column("tension_top_max_N", "N", digits=0)
     rows = [
         {"kA": kA, "H": 1.0, "motion": letter, "status": "ok", "tension_top_max_N": kA if letter == "A" else 9.0 + kA}
         for kA in (1.0, 2.0)
         for letter in "AB"
     ]
+    rows.append(rows[0] | {"kA": 3.0, "status": "newton-failed", "tension_top_max_N": 3.0})
     motions, shown = colours_of(rows), [((pull, None),)]
     (panel,) = panels_over(rows, key, shown, motions)
-    seen = {one.colour: one.y.tolist() for one in panel.curves if len(one.y)}
-    assert seen == {motions["A"]: [1.0, 2.0], motions["B"]: [10.0, 11.0]}
+    seen = {(curve.colour, curve.mark): curve.y.tolist() for curve in panel.curves if len(curve.y)}
+    calm, worst = motions["A"], motions["B"]
+    assert seen == {(calm, "o"): [1.0, 2.0], (calm, "x"): [3.0], (worst, "o"): [10.0, 11.0]} and worst == VERMILION
     maps = _maps_of_each([key, depth], rows, shown, motions)
     assert [item.text[-8:] for item in maps if isinstance(item, Heading)] == ["motion A", "motion B"]
+    first = drawn[0].axes[0]
+    assert (first.get_xlabel(), first.get_ylabel()) == ("kA (–)", "H (–)")
+    assert first.images[0].get_array().tolist() == [[1.0, 2.0, 3.0]]
 
 
 @pytest.mark.slow
@@ -160,7 +173,7 @@ def test_a_click_chooses_the_motion_whose_point_is_nearest(several, browse):
         canvas.evaluate("(one) => one.scrollIntoView({block: 'center'})")
         box = canvas.bounding_box()
         x = box["x"] + 48 + (box["width"] - 58) * (0.03 + (0.03 - 0.016) / 0.144) / 1.06
-        for column in (one for one in data.columns if one.at == 0.03):
+        for column in (candidate for candidate in data.columns if candidate.at == 0.03):
             share = 1.0 - (max(column.points, key=lambda point: abs(point - 20.8)) - low + 0.04 * wide) / (1.08 * wide)
             page.mouse.click(x, box["y"] + 20 + share * (box["height"] - 64 - 92 * len(data.lower)))
             assert page.evaluate("document.getElementById('explorer-sheet').dataset.run") == column.anchor

@@ -4,8 +4,6 @@ import shutil
 
 import pytest
 
-from campaigns import buoy_sweep, sweep
-from campaigns.explore import rows as buoy_rows
 from campaigns.explore.rows import COLUMNS
 from campaigns.out_of_plane.rows import COLUMNS as IN_SPACE
 from engine import list_scenes, load_scene
@@ -15,21 +13,16 @@ from reports.out_of_plane.report import _runs_tables
 from reports.out_of_plane.runs import VARIED, Run, Study
 from reports.parts.content import Sheet, Table
 from reports.parts.folder import Folder, read_folder
-from reports.parts.provenance import scene_table
+from reports.parts.provenance import _flat, scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
-from tables import PLANE, RUNS, SHEET, Column, read_columns, read_rows, write_table
-from tests.reports.conftest import Motions, columns_of, rows_in, write
+from tables import PLANE, RUNS, SHEET, Column, read_columns, write_table
+from tests.reports.conftest import columns_of, rows_in, write
 from tests.reports.test_regime_map import SYMBOLS, WORDS, folder_of
 
 __all__ = ["folder_of"]  # a fixture
 NEW = Column("snaps_per_period", "1/T", "snaps", "snaps in a wave period", 2)
 ERROR = Column("snaps_per_period_error", "1/T", "± snaps", "standard error of the snaps", 2)
-SHORT = "--periods 5 --transient 1 --jobs 1 --backend threading --no-report --set output.tangent_vectors=0".split()
-SWEEPS = {
-    buoy_sweep: "--steepness 0.05 0.1 --no-accuracy",
-    sweep: "--vary waves.steepness 0.05 0.1 2 --starts rest",
-}
 
 
 def shown(items) -> list[str]:
@@ -44,30 +37,6 @@ def shown(items) -> list[str]:
 def one_row(columns) -> dict[str, object]:
     """A row with a number, or a word, in every column."""
     return {column.name: "word" if column.digits is None else 1.0 for column in columns}
-
-
-@pytest.mark.parametrize("campaign", SWEEPS, ids=lambda campaign: campaign.STUDY.name)
-def test_a_declaration_and_its_formula_bring_a_column_into_table_dictionary_and_report(campaign, monkeypatch, tmp_path):
-    """The declaration stands among the columns of a run of the buoy, the formula in the function that fills its row."""
-    described = buoy_rows.buoy_row
-    for module in (buoy_rows, campaign):
-        if hasattr(module, "COLUMNS"):
-            monkeypatch.setattr(module, "COLUMNS", (*COLUMNS, NEW))
-        if hasattr(module, "buoy_row"):
-            monkeypatch.setattr(
-                module,
-                "buoy_row",
-                lambda *given, **how: described(*given, **how) | {NEW.name: given[0].scene.waves.steepness},
-            )
-    assert campaign.main([*SWEEPS[campaign].split(), *SHORT, "--out", str(tmp_path)], simulate=Motions()) == 0
-    assert [float(row[NEW.name]) for row in read_rows(tmp_path / "table.csv")] == [0.05, 0.1]
-    assert read_columns(tmp_path / "columns.csv")[NEW.name] == NEW
-    items = content_of(tmp_path)[0].items
-    assert {"0.05", "0.10"} == set(shown(items))
-    sheets = [item for item in items if isinstance(item, Sheet)]
-    assert all(
-        (NEW.symbol, f"{value} 1/T") in sheet.facts for sheet, value in zip(sheets, ("0.05", "0.10"), strict=False)
-    )
 
 
 def test_a_new_column_is_in_the_sheets_of_a_map(folder_of):
@@ -112,23 +81,17 @@ def test_a_dictionary_of_before_there_were_pages_is_read(tmp_path):
     assert "page" not in dictionary.read_text() and read_columns(dictionary) == {NEW.name: NEW}
 
 
-def leaves(section, prefix=""):
-    """(dotted key, entry) of a scene's dictionary."""
-    for key, entry in section.items():
-        yield from leaves(entry, f"{prefix}{key}.") if isinstance(entry, dict) else [(prefix + key, entry)]
-
-
 @pytest.mark.parametrize("scene", list_scenes())
 def test_whatever_is_varied_is_in_the_table_of_the_scene(scene):
     """Every key of every scene, an element of each list, and a word of a campaign that is no key."""
     loaded = load_scene(scene)
-    for key, entry in leaves(loaded.as_dict()):
-        name = f"{key}[0]" if isinstance(entry, list) else key
+    for key, entry in _flat(loaded.as_dict()):
         if key in ("name", "title"):
             continue
+        name = f"{key}[0]" if isinstance(entry, list) else key
         rows = {row[0]: row for row in scene_table(loaded, scene, {name: "0 and 4"}, "").rows}
-        assert rows[f"`{name}`"][2] == "0 and 4" and rows[f"`{name}`"][4] == "varied by this campaign"
-        assert rows[f"`{key}`"][4] == "varied by this campaign"
+        assert rows[f"`{name}`"][2] == "0 and 4"
+        assert rows[f"`{name}`"][4] == rows[f"`{key}`"][4] == "varied by this campaign"
     assert scene_table(loaded, scene, {"kick": "two"}, "").rows == scene_table(loaded, scene, {}, "").rows
 
 

@@ -25,41 +25,48 @@ FOLD, FLIP = 0.06, 0.11  # at the fold the orbits are 21 m and the multiplier is
 def orbits(folder, tmp_path):
     """A saddle comes up to the fold, the node leaves it, flips, and begins a branch of period 2 that ends early."""
     place = tmp_path / "orbits"
-    shutil.copytree(folder, place, ignore=lambda *_: ("report.html", "report.pdf", ".report.json", "trajectories"))
-    (place / "trajectories").mkdir()
-    told = json.loads((place / "provenance.json").read_text()) | {"campaign": "orbits", "vary": {"steepness": [0, 1]}}
-    (place / "provenance.json").write_text(json.dumps(told))
-    rows, usual = [], {"status": "ok", "message": "", "motion": "A"}
+    (place / "trajectories").mkdir(parents=True)
+    shutil.copy(folder / "scene.toml", place)
+    provenance = json.loads((folder / "provenance.json").read_text()) | {
+        "campaign": "orbits",
+        "vary": {"steepness": [0, 1]},
+    }
+    (place / "provenance.json").write_text(json.dumps(provenance))
+    (place / "answer.txt").write_text("Two branches.")
+    usual, rows = {"status": "ok", "message": "", "motion": "A"}, []
+    strobes = ["branch,place,strobe,radius_m"]
     for name, period, places in (("1", 1, np.linspace(-0.3, 0.3, 14)), ("2", 2, np.linspace(0.02, 0.2, 8))):
         for number, s in enumerate(places):
-            kA = FOLD + s**2 if period == 1 else FLIP + s**2
+            kA = (FOLD, FLIP)[period - 1] + s**2
             mu = 1.0 - 2.0 * s / np.sqrt(FLIP - FOLD) if period == 1 else 0.5
-            where = {"branch": name, "place": number, "steepness": kA, "period": period, "unstable": int(abs(mu) > 1.0)}
-            first = {"multiplier_1_real": mu, "multiplier_1_imag": 0.0, "multiplier_1_error": 0.01}
-            pull = 3000.0 + 5000.0 * s
-            rows.append(
-                {**usual, **where, **first, "multiplier_modulus": abs(mu), "tension_top_max_N": pull, "gap": 1e-12}
-            )
-    write(place, rows, columns_of(rows, WORDS, SYMBOLS))
-    strobes = ["branch,place,strobe,radius_m"]
-    for row in rows:
-        strobes += [
-            f"{row['branch']},{row['place']},{k},{21.0 + 0.1 * k + row['steepness']}" for k in range(row["period"])
-        ]
+            rows.append(usual | {
+                "branch": name, "place": number, "steepness": kA, "period": period, "unstable": int(abs(mu) > 1.0),
+                "multiplier_1_real": mu, "multiplier_1_imag": 0.0, "multiplier_1_error": 0.01, "gap": 1e-12,
+                "multiplier_modulus": abs(mu), "tension_top_max_N": 3000.0 + 5000.0 * s,
+            })  # fmt: skip
+            strobes += [f"{name},{number},{k},{21.0 + 0.1 * k + kA}" for k in range(period)]
     (place / "strobes.csv").write_text("\n".join(strobes))
-    event = {**usual, "branch": "1", "angle_rad": 0.0, "finer": FOLD, "error": 1e-4, "leads_to": ""}
-    events = [
-        {**event, "kind": "fold", "steepness": FOLD, "tension_top_max_N": 3000.0},
-        {**event, "kind": "flip", "steepness": FLIP, "tension_top_max_N": 3000.0 + 5000.0 * np.sqrt(FLIP - FOLD),
-         "error": 9e-4, "finer": "", "leads_to": "2", "angle_rad": np.pi},
-    ]  # fmt: skip
-    write(place / "events", events, columns_of(events, WORDS, SYMBOLS))
-    end = {**usual, "begins": "reaches the end of the range, 0.15", "ends": "meets the orbit of period 1"}
-    failed = "at 0.15 no step above 0.001 succeeds: a loop is released"
-    ends = [{**end, "branch": "1"}, {**end, "branch": "2", "motion": "", "ends": failed}]
-    write(place / "branches", ends, columns_of(ends, WORDS, SYMBOLS))
-    chosen = [{**row, "found_by": "Newton"} for row in rows if (row["branch"], row["place"]) in {("1", 2), ("1", 11)}]
-    write(place / "orbits", chosen, columns_of(chosen, WORDS, SYMBOLS))
+    fold = usual | {
+        "branch": "1", "kind": "fold", "steepness": FOLD, "tension_top_max_N": 3000.0, "angle_rad": 0.0,
+        "error": 1e-4, "finer": FOLD, "leads_to": "",
+    }  # fmt: skip
+    flip = fold | {
+        "kind": "flip", "steepness": FLIP, "tension_top_max_N": 3000.0 + 5000.0 * np.sqrt(FLIP - FOLD),
+        "angle_rad": np.pi, "error": 9e-4, "finer": "", "leads_to": "2",
+    }  # fmt: skip
+    complete = usual | {
+        "branch": "1",
+        "begins": "reaches the end of the range, 0.15",
+        "ends": "meets the orbit of period 1",
+    }
+    failed = complete | {
+        "branch": "2",
+        "motion": "",
+        "ends": "at 0.15 no step above 0.001 succeeds: a loop is released",
+    }
+    chosen = [rows[2], rows[11]]
+    for part, table in (("", rows), ("events", [fold, flip]), ("branches", [complete, failed]), ("orbits", chosen)):
+        write(place / part, table, columns_of(table, WORDS, SYMBOLS))
     for row in chosen:
         history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"
         (place / "orbits" / f"1_{row['place']}.csv").write_text(history)
@@ -70,14 +77,14 @@ def orbits(folder, tmp_path):
 
 
 def test_a_line_is_solid_between_the_events_where_it_is_stable(orbits):
-    one, two = read_branches(read_folder(orbits), "steepness", [])
-    assert one.colour == two.colour, "it begins at an event of the first"
-    saddle, node, flipped = one.lines("strobes")
+    first, two = read_branches(read_folder(orbits), "steepness", [])
+    assert first.colour == two.colour, "it begins at an event of the first"
+    saddle, node, flipped = first.lines("strobes")
     assert [curve.line == "-" for curve in (saddle, node, flipped)] == [False, True, False]
     assert node.x[0] == saddle.x[-2] == FOLD and node.x[-2] == flipped.x[0] == FLIP
     known = np.isfinite(node.x)
     assert np.allclose(node.y[known][1:-1] - node.x[known][1:-1], 21.0)
-    moduli = np.concatenate([curve.y for curve in one.lines("modulus")])
+    moduli = np.concatenate([curve.y for curve in first.lines("modulus")])
     assert (moduli == 1.0).sum() == 4, "both ends of the node, and the ends of its neighbours"
     (solid,) = two.lines("strobes")
     assert np.isnan(solid.x).sum() == 2 and solid.line == "-", "two strobes"
@@ -89,8 +96,8 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     cells = {row[1]: row[2] for row in table.rows}
     assert cells == {"fold": "0.06000\u00a0±\u00a00.0001", "flip": "0.11000\u00a0±\u00a00.0009‡†"}
     (notice,) = (item for item in items if isinstance(item, Notice))
-    said = " ".join(notice.lines)
-    assert "Branch 2 was not followed to its end: at 0.15" in said and "flip of branch 1 at 0.1100" in said
+    caveats = " ".join(notice.lines)
+    assert "Branch 2 was not followed to its end: at 0.15" in caveats and "flip of branch 1 at 0.1100" in caveats
     multipliers = next(item for item in items if isinstance(item, Table) and item.columns[2].title == "μ1")
     known = [float(row["multiplier_1_real"]) for row in rows_in(orbits / "orbits")]
     assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]

@@ -19,8 +19,8 @@ from reports.paper.index import entries, markdown, named_in
 from reports.paper.report import report, short_answer
 from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
-from reports.parts.judged import read_statements
-from tables import FAILS, HOLDS_IF, dictionary, names
+from reports.parts.judged import read_statements, statements_table
+from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS, dictionary, names
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
 
@@ -35,7 +35,7 @@ def write(path, columns, rows):
 
 
 @pytest.fixture(scope="module")
-def found(tmp_path_factory):
+def content(tmp_path_factory):
     """Of a folder as the campaign leaves it where the dependence study was done, and of another part the page alone."""
     folder = tmp_path_factory.mktemp("paper")
     (folder / "trajectories").mkdir()
@@ -56,24 +56,24 @@ def found(tmp_path_factory):
     return report(folder)
 
 
-def items_of(found, kind):
-    return [item for item in found.items if isinstance(item, kind)]
+def items_of(content, kind):
+    return [item for item in content.items if isinstance(item, kind)]
 
 
-def test_parts_that_are_missing_are_told_and_the_rest_is_there(found):
-    told = [line for notice in items_of(found, Notice) for line in notice.lines]
-    assert any("`sweep`" in line for line in told) and not any("`dependence`" in line for line in told)
-    assert any(row[0] == "eq. (6), C₃₁" for table in items_of(found, Table) for row in table.rows)
-    assert any("took 1.5 minutes" in item.text for item in items_of(found, Text))
+def test_parts_that_are_missing_are_told_and_the_rest_is_there(content):
+    lines = [line for notice in items_of(content, Notice) for line in notice.lines]
+    assert any("`sweep`" in line for line in lines) and not any("`dependence`" in line for line in lines)
+    assert any(row[0] == "eq. (6), C₃₁" for table in items_of(content, Table) for row in table.rows)
+    assert any("took 1.5 minutes" in item.text for item in items_of(content, Text))
 
 
-def test_links_lead_to_the_reports_that_exist(found):
-    assert [path for links in items_of(found, Links) for _, path in links.files] == ["buoy/report.html"]
-    assert b'href="buoy/report.html"' in render_html(found)
+def test_links_lead_to_the_reports_that_exist(content):
+    assert [path for links in items_of(content, Links) for _, path in links.files] == ["buoy/report.html"]
+    assert b'href="buoy/report.html"' in render_html(content)
 
 
-def test_the_dependence_is_told_by_depth_and_treatment(found):
-    regimes = next(table for table in items_of(found, Table) if "at kA = 0.13" in table.caption)
+def test_the_dependence_is_told_by_depth_and_treatment(content):
+    regimes = next(table for table in items_of(content, Table) if "at kA = 0.13" in table.caption)
     assert [row[0] for row in regimes.rows] == ["21", "22.5", "25"]
     assert regimes.rows[0][1].startswith("chaotic, 0.200") and regimes.rows[2][1:] == ("newton-failed", "–")
 
@@ -82,9 +82,15 @@ def test_the_short_answer_tells_each_statement_that_does_not_simply_hold_once(tm
     """Conclusions too, where they say what section 4 does not."""
     write_statements(tmp_path, claims(), world(so=False))
     judged = read_statements(tmp_path)
-    told = [line.partition("“")[2].partition("”")[0] for line in short_answer(judged)[1:]]
+    quoted = [line.partition("“")[2].partition("”")[0] for line in short_answer(judged)[1:]]
     lacking = {row["statement"].rstrip(".") for row in judged if row["verdict"] in (FAILS, HOLDS_IF)}
-    assert sorted(told) == sorted(lacking) and len(told) > 60
+    assert sorted(quoted) == sorted(lacking) and len(quoted) > 60
+
+
+def test_a_verdict_stands_with_its_condition_its_rule_and_its_evidence():
+    statement = ("7", "4.2", "It jumps.", HOLDS_IF, "H = 21 m; not H = 25 m", "Two.", "at least 1", "doubled grid")
+    (cells,) = statements_table([dict(zip(STATEMENT_COLUMNS, statement, strict=True))], "").rows
+    assert cells == (*statement[:3], "holds if: H = 21 m; not H = 25 m", "Two.", "at least 1. doubled grid")
 
 
 def test_tensions_of_fast_and_slow_breaks_have_identical_scales():
