@@ -122,12 +122,16 @@ def _close_bar() -> None:
 
 def _counting() -> Stage:
     """The innermost stage that counts something; without one the innermost of all."""
-    return next((entered for entered in reversed(_open) if entered.total), _open[-1])
+    for entered in reversed(_open):
+        if entered.total:
+            return entered
+    return _open[-1]
 
 
 def _text() -> str:
     counting = _counting()
-    titles = [entered.words() if entered is counting else entered.title for entered in _open]
+    titles = [entered.title for entered in _open]
+    titles[_open.index(counting)] = counting.words()
     return ": ".join(titles)
 
 
@@ -173,10 +177,12 @@ def reports(folder: Path) -> dict[str, list[float]]:
     for path in folder.iterdir():
         if not path.suffix:  # else it is being written
             with contextlib.suppress(OSError, ValueError):
-                numbers[path.name] = [float(word) for word in path.read_text(encoding="ascii").split()]
+                numbers[path.name] = list(map(float, path.read_text(encoding="ascii").split()))
     return numbers
 
 
 def with_progress(simulate: Callable, report: Callable[[float], None]) -> dict[str, Callable]:
     """{"progress": report} for a function that takes it, as engine.simulate does."""
-    return {"progress": report} if "progress" in inspect.signature(simulate).parameters else {}
+    if "progress" in inspect.signature(simulate).parameters:
+        return {"progress": report}
+    return {}
