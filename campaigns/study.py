@@ -50,7 +50,7 @@ class Lengths:
     share: int = 3
     budget: int = 0
 
-    def add_to(self, group) -> None:
+    def add_to(self, group: Any) -> None:
         """Add --budget, --periods and --transient to a parser."""
         lasting = cli.whole(1, cli.MOST_PERIODS)
         transient = f"(default: {self.transient}, at most 1/{self.share} of --periods)"
@@ -130,6 +130,18 @@ class Order:
         return Job(labels, scene, self.periods)
 
 
+def _no_parameters(order: Order) -> dict[str, object]:
+    return {}
+
+
+def _every_run(order: Order) -> Callable:
+    return run
+
+
+def _nothing_beside(order: Order) -> tuple:
+    return ()
+
+
 @dataclass(frozen=True)
 class Study:
     """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
@@ -140,7 +152,7 @@ class Study:
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
-    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
+    parameters: Callable[[Order], Mapping[str, object]] = _no_parameters  # in its provenance, beside those of scenes
     answer: Callable[[Order, list[dict]], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
@@ -153,10 +165,10 @@ class Study:
     lengths: Lengths | None = None  # None: its cases have lengths of their own
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    runs: Callable[[Order], Callable] = lambda order: run  # what does the runs
+    runs: Callable[[Order], Callable] = _every_run  # what does the runs
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = _nothing_beside
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""

@@ -94,7 +94,6 @@ def as_completed(
             except PoolBroken as broken:
                 for suspect in broken.suspects:
                     waiting = _without(suspect, waiting)
-                for suspect in broken.suspects:
                     if len(suspect) == 1:
                         yield _by_itself(execute, call, unfinished.pop(suspect[0].key), lost)
 
