@@ -80,10 +80,14 @@ def judged_scene(order, changes: dict, least: int = LEAST_JUDGED):
     scene = order.scene(changes)
     if scene is None or order.looks or not carries_tangents(scene) or order.periods - order.transient < least:
         return scene
-    extra = {} if TANGENTS in order.changes else {TANGENTS: 1}
+    extra = {}
+    if TANGENTS not in order.changes:
+        extra[TANGENTS] = 1
     if LATERAL not in order.changes and (extra or scene.output.tangent_vectors):
         extra[LATERAL] = True
-    return order.scene({**changes, **extra}) if extra else scene
+    if extra:
+        return order.scene({**changes, **extra})
+    return scene
 
 
 def judged_job(order, labels: dict, scene, start=None, most: int | None = None):

@@ -84,7 +84,7 @@ class Order:
     """What a command line asks of a study: its values, what was found wrong with them, and the cases that follow."""
 
     how: cli.Running
-    options: Any = None  # the study's own (`Study.options`)
+    options: object = None  # the study's own (`Study.options`)
     name: str = ""  # of the scene
     changes: dict[str, object] = field(default_factory=dict)  # of the scene, by --set
     periods: int | None = None  # of a run, None without `Study.lengths`; at most, where `looks`
@@ -124,7 +124,9 @@ class Order:
     def case(self, labels: Mapping[str, object], changes: Mapping[str, object]) -> Job | None:
         """A case of the usual length; None where its scene cannot be."""
         scene = self.scene(changes)
-        return None if scene is None else Job(labels, scene, self.periods)
+        if scene is None:
+            return None
+        return Job(labels, scene, self.periods)
 
 
 def no_parameters(order: Order) -> Mapping[str, object]:
@@ -226,7 +228,9 @@ class Study:
         from campaigns.machinery.plausible import without_waves
 
         base = order.base() if self.in_waves else None
-        refused = [] if base is None else list(without_waves(order.name, base))
+        refused = []
+        if base is not None:
+            refused = list(without_waves(order.name, base))
         order.tell(refused)
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
@@ -240,10 +244,15 @@ class Study:
         """
         if self.perform is not None:
             return self.perform(order)
-        together = engine.simulate_each if self.together and order.simulate is None else None
-        order.simulate = order.simulate or engine.simulate
+        together = None
+        if order.simulate is None:
+            order.simulate = engine.simulate
+            if self.together:
+                together = engine.simulate_each
         measures = self.measures(order)
-        maker = made_by(dict(measures.settings), *measures.sources) if measures.sources else ""
+        maker = ""
+        if measures.sources:
+            maker = made_by(dict(measures.settings), *measures.sources)
         plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
         write_scene(order.how.out, self.name, order.cases)
         further_steps = list(self.beside(order))

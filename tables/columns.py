@@ -54,11 +54,13 @@ class Column:
         """
         if self.digits is None:
             entry = row.get(self.name)
-            missing = entry is None or entry != entry  # nan differs from itself
-            return EMPTY if missing else str(entry) or EMPTY
+            if entry is None or entry != entry:  # nan differs from itself
+                return EMPTY
+            return str(entry) or EMPTY
         value = number_of(row, self.name)
-        hidden = value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits
-        return number(value, 2) if hidden else decimals(value, self.digits)
+        if value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits:
+            return number(value, 2)
+        return decimals(value, self.digits)
 
 
 def on(page: str, *columns: Column) -> tuple[Column, ...]:
@@ -69,7 +71,9 @@ def on(page: str, *columns: Column) -> tuple[Column, ...]:
 def number_of(row: Mapping[str, object], name: str) -> float:
     """A number of a row, of a file or not; nan where it is empty, or where the row has no such column."""
     entry = row.get(name)
-    return math.nan if entry is None or entry == "" else float(entry)
+    if entry is None or entry == "":
+        return math.nan
+    return float(entry)
 
 
 def of_kicks(row: Mapping[str, object]) -> str:
@@ -145,4 +149,6 @@ def counted(trajectory, columns: Iterable[Column] = STATISTICS) -> dict[str, obj
 
 def finite(entry: object) -> object:
     """The number itself; None for one that is unknown or not finite."""
-    return None if entry is None or not math.isfinite(entry) else entry
+    if entry is None or not math.isfinite(entry):
+        return None
+    return entry

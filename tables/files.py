@@ -19,7 +19,9 @@ _NEEDED = ("name", "unit", "symbol", "meaning", "digits")  # of a dictionary; an
 
 def dictionary_path(table: Path) -> Path:
     """Where the columns of a table are explained: columns.csv for table.csv, X_columns.csv for any other X.csv."""
-    return table.with_name("columns.csv" if table.name == "table.csv" else f"{table.stem}_columns.csv")
+    if table.name == "table.csv":
+        return table.with_name("columns.csv")
+    return table.with_name(f"{table.stem}_columns.csv")
 
 
 def dictionary(columns: Iterable[Column]) -> bytes:
@@ -52,7 +54,9 @@ def _written(entry: object) -> str:
         entry = entry.item()
     if entry is None or entry != entry:  # nan differs from itself
         return ""
-    return repr(entry) if isinstance(entry, float) else " ".join(str(entry).split())
+    if isinstance(entry, float):
+        return repr(entry)
+    return " ".join(str(entry).split())
 
 
 def read_rows(path: Path, needed: Iterable[str] = ()) -> list[dict[str, str]]:
@@ -68,8 +72,9 @@ def read_rows(path: Path, needed: Iterable[str] = ()) -> list[dict[str, str]]:
             raise ValueError(str(error)) from None
     if not set(needed) <= set(reader.fieldnames or ()):
         raise ValueError(f"its first line is not {','.join(needed)}")
-    if any(None in row or None in row.values() for row in rows):
-        raise ValueError("a row has not as many entries as the first line")
+    for row in rows:
+        if None in row or None in row.values():
+            raise ValueError("a row has not as many entries as the first line")
     return rows
 
 
@@ -86,8 +91,10 @@ def read_columns(path: Path) -> dict[str, Column]:
     columns = {}
     for row in read_rows(path, _NEEDED):
         known = {field.name: row[field.name] for field in fields(Column) if field.name in row}
-        digits = int(row["digits"]) if row["digits"] else None
-        columns[row["name"]] = Column(**{**known, "digits": digits})
+        known["digits"] = None
+        if row["digits"]:
+            known["digits"] = int(row["digits"])
+        columns[row["name"]] = Column(**known)
     return columns
 
 
@@ -110,7 +117,10 @@ def by_columns(rows: Sequence[Mapping[str, str]], columns: Mapping[str, Column])
     for row in rows:
         entries: Row = dict(row)
         for name, text in row.items():
-            if columns[name].digits is not None:
-                entries[name] = int(text) if text.isdecimal() else float(text or math.nan)
+            if columns[name].digits is None:
+                continue
+            entries[name] = float(text or math.nan)
+            if text.isdecimal():
+                entries[name] = int(text)
         table.append(entries)
     return tuple(table)

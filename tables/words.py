@@ -57,7 +57,9 @@ def decimals(value: float | None, places: int) -> str:
     if value is None or not math.isfinite(value):
         return EMPTY
     text = f"{value:.{places}f}"
-    return text.removeprefix("-") if float(text) == 0 else _minus(text)
+    if float(text) == 0:
+        return text.removeprefix("-")
+    return _minus(text)
 
 
 def percent(share: float) -> str:
@@ -67,7 +69,9 @@ def percent(share: float) -> str:
 
 def _minus(text: str) -> str:
     """The sign as print wants it: a hyphen at the end of a line would leave its number behind."""
-    return "−" + text[1:] if text.startswith("-") else text
+    if text.startswith("-"):
+        return "−" + text[1:]
+    return text
 
 
 def printed(sentence: str) -> str:

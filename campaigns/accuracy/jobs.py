@@ -60,7 +60,9 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     yield jobs
     timed_peers = []
     for peer, work, settings in wanted:
-        for setting in settings if version(peer) else settings[:1]:
+        if not version(peer):
+            settings = settings[:1]
+        for setting in settings:
             timed_peers.append(peer_job(peer, work, TIMED, setting, known))
     yield side_by_side([engine_job(point, known) for point in timed], timed_peers, effort.rounds)
 
@@ -89,7 +91,9 @@ def job_of(
 
 def engine_job(point: Point, known: Samples) -> Job:
     """The job of one of the engine's points."""
-    reference = known.get((point.work, "grid" if point.kind == "tolerance" else "reference"))
+    reference = known.get((point.work, "reference"))
+    if point.kind == "tolerance":
+        reference = known.get((point.work, "grid"))
     scene, made = BY_NAME[point.work].made(point.changes()), f"{point.kind}-{point.round}"
     return job_of(point, scene, made, reference)
 
@@ -120,7 +124,9 @@ def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, li
     """(code, work, its settings) of all that is asked of other codes."""
     parts = []
     for peer in PEERS:
-        settings = peer.quick if quick else peer.settings
+        settings = peer.settings
+        if quick:
+            settings = peer.quick
         for work in works:
             if settings.get(work):
                 parts.append((peer, work, settings[work]))
@@ -131,8 +137,10 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
     """A run of another code, held against its own reference and against ours."""
     (nodes, value), installed = setting, version(peer)
     reference = known.get((work, "reference"))
-    reference_of_peer = None if kind == REFERENCE else known.get((work, peer.name), reference)
-    sources = made_by({}, *(f"campaigns/accuracy/peers/{name}.py" for name in (peer.module, "record")))
+    reference_of_peer = None
+    if kind != REFERENCE:
+        reference_of_peer = known.get((work, peer.name), reference)
+    sources = made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
     recipe = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources}"
     scene, point = scene_of(peer, work, nodes), Point(work, kind, peer.name, nodes, peer.control, value)
     simulate, ours = partial(other_code, peer=peer, settings=setting), known.get((work, OURS + peer.name), reference)

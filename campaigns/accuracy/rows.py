@@ -167,7 +167,9 @@ def _over_tolerances(method: str, series: list[dict]) -> Iterator[dict]:
 def _of_differences(out: Path, work: Work, kind: str, method: str, series: list[dict], early: int) -> Iterator[dict]:
     """The order of a series in time or in space; where the rope goes slack also that of the `early` samples before."""
     samples = [kept_samples(work, out, row["run_key"]) for row in series]
-    theory = ORDERS[method] if kind == "time" else 2
+    theory = 2
+    if kind == "time":
+        theory = ORDERS[method]
     yield _judged(kind, theory, series, _differences(samples))
     if early:
         row = _judged(kind, theory, series, _differences(samples, early))
@@ -203,6 +205,9 @@ def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -
     if len(finite):
         order = float(finite[-1])
         within = int(abs(order - theory) <= WITHIN and np.all(np.abs(finite - theory) <= STEADY))
+    control = "nodes"
+    if kind in ("time", "tolerance"):
+        control = "setting"
     failed = [row["status"] for row in series if row["status"] != "ok"]
     if failed:
         note = f"{len(failed)} of {len(series)} runs ended early: {', '.join(dict.fromkeys(failed))}"
@@ -215,7 +220,7 @@ def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -
         "slopes": " ".join(f"{slope:.3f}" for slope in slopes),
         "errors": " ".join(f"{error:.4g}" for error in errors),
         "unit": UNITS[work.measure],
-        "settings": " ".join(f"{row['setting' if kind in ('time', 'tolerance') else 'nodes']:g}" for row in series),
+        "settings": " ".join(f"{row[control]:g}" for row in series),
         "within": within,
         "rough": work.rough,
         "note": note,

@@ -48,8 +48,10 @@ def number(allowed: str, is_sound: Callable[[float], bool]) -> Kind:
 
 def whole(least: int, most: float = math.inf) -> Kind:
     """Whole numbers from `least` to `most`."""
-    above = f"{least} or above" + (f" and at most {most}" if most < math.inf else "")
-    return Kind(lambda text: _checked(lambda count: least <= count <= most, int(text)), f"a whole number, {above}")
+    allowed = f"a whole number, {least} or above"
+    if most < math.inf:
+        allowed += f" and at most {most}"
+    return Kind(lambda text: _checked(lambda count: least <= count <= most, int(text)), allowed)
 
 
 def one_of(words: tuple[str, ...]) -> Kind:
@@ -95,15 +97,19 @@ class Option:
 
     def add_to(self, group, name: str) -> None:
         """Add it to a group of a parser; given twice, the words add up (so `--set A --set B` is `--set A B`)."""
-        shown = self.help if self.usual is None or self.many else f"{self.help} (default: {self.usual})"
-        action = group.add_argument(name, metavar=self.metavar, nargs="*", action="extend", help=shown)
+        text = self.help
+        if self.usual is not None and not self.many:
+            text += f" (default: {self.usual})"
+        action = group.add_argument(name, metavar=self.metavar, nargs="*", action="extend", help=text)
         action.option = self
 
     def value(self, name: str, words: list[str] | None, faults: list[str]) -> object:
         """Its value in these words; None: it was not given."""
         if self.kind is not None:
             return value(words, name, self.usual, self.kind, faults, self.many)
-        return self.usual.split() if words is None and self.usual is not None else words
+        if words is None and self.usual is not None:
+            return self.usual.split()
+        return words
 
 
 def option(*declared: object, **more: object) -> Any:
@@ -217,7 +223,8 @@ def running(values: argparse.Namespace, places: tuple[str, ...], campaign: str, 
 
         if find_spec("distributed") is None:
             faults.append("--backend: given 'dask', which is not installed; allowed: loky, threading")
-    if fault := fault_of(how.out, campaign):
+    fault = fault_of(how.out, campaign)
+    if fault is not None:
         faults.append(fault)
     return how
 
@@ -239,7 +246,10 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             continue  # the value of an unknown option, which has been named
         name = word.partition("=")[0]
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
-        faults.append(f"{name}: no such option" + (f"; did you mean {close[0]}?" if close else ""))
+        fault = f"{name}: no such option"
+        if close:
+            fault += f"; did you mean {close[0]}?"
+        faults.append(fault)
     for action in parser._actions:
         if hasattr(action, "option"):
             words = getattr(values, action.dest)
@@ -252,7 +262,9 @@ def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[
     if words is None:
         return usual
     if not words or (len(words) > 1 and not many):
-        count = "one value or more, each" if many else "one value,"
+        count = "one value,"
+        if many:
+            count = "one value or more, each"
         faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {count} {kind.allowed}")
         return usual
     values = []
@@ -263,7 +275,9 @@ def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[
             faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}{_parted(word, kind)}")
     if len(values) < len(words):
         return usual
-    return list(dict.fromkeys(values)) if many else values[0]
+    if many:
+        return list(dict.fromkeys(values))
+    return values[0]
 
 
 def _parted(word: str, kind: Kind) -> str:
@@ -275,8 +289,9 @@ def _parted(word: str, kind: Kind) -> str:
         return ""
     if len(values) < 2:
         return ""
-    decimal = len(parts) == 2 and all(map(str.isdigit, parts))
-    return f"; with a dot: {'.'.join(parts)}" if decimal else f"; separated by spaces: {' '.join(parts)}"
+    if len(parts) == 2 and all(map(str.isdigit, parts)):
+        return f"; with a dot: {'.'.join(parts)}"
+    return f"; separated by spaces: {' '.join(parts)}"
 
 
 def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
@@ -329,7 +344,9 @@ def fault_of(out: Path, campaign: str) -> str | None:
     if not os.access(parent, os.W_OK):
         return f"{given}, but {parent} cannot be written to; allowed: a folder that can"
     held = _held(out)
-    return f"{given}, which holds {held}; {A_FOLDER}" if held not in ("", campaign) else None
+    if held in ("", campaign):
+        return None
+    return f"{given}, which holds {held}; {A_FOLDER}"
 
 
 def _held(out: Path) -> str:
@@ -337,9 +354,13 @@ def _held(out: Path) -> str:
     try:
         return str(json.loads((out / "provenance.json").read_text(encoding="utf-8"))["campaign"])
     except FileNotFoundError:
+        names = ["table.csv"]
         # A campaign that ended before it could write its provenance has left its lock.
-        mine = ("scene.toml", "report.html", "report.pdf", "trajectories") if not (out / ".lock").exists() else ()
-        foreign = next((name for name in ("table.csv", *mine) if (out / name).exists()), None)
-        return "" if foreign is None else f"a {foreign} that no campaign wrote"
+        if not (out / ".lock").exists():
+            names += ["scene.toml", "report.html", "report.pdf", "trajectories"]
+        for name in names:
+            if (out / name).exists():
+                return f"a {name} that no campaign wrote"
+        return ""
     except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return "a provenance.json that no campaign wrote"

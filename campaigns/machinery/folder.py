@@ -128,9 +128,11 @@ def stored_run(folder: Path, key: str) -> "engine.Trajectory":
 def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
     """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
     try:
-        return stored_run(folder, row["run_key"]) if row["status"] == "ok" else None
+        if row["status"] == "ok":
+            return stored_run(folder, row["run_key"])
     except ValueError:  # TrajectoryError
-        return None
+        pass
+    return None
 
 
 def read_json(path: Path) -> object:
@@ -191,10 +193,13 @@ def made_by(settings: dict, *sources: str) -> str:
     files: dict[str, Path] = {}
     for source in sources:
         path = root / source
-        found = sorted(path.rglob("*.py")) if path.is_dir() else [path]
-        if not found:
+        members = [path]
+        if path.is_dir():
+            members = list(path.rglob("*.py"))
+        if not members:
             raise FileNotFoundError(f"no source in {path}")
-        files |= {file.relative_to(root).as_posix(): file for file in found}
+        for file in sorted(members):
+            files[file.relative_to(root).as_posix()] = file
     return hashlib.sha256((json.dumps(settings, sort_keys=True) + kept_hash(files)).encode()).hexdigest()
 
 

@@ -72,7 +72,9 @@ class LongRun:
 
 def once(scene, trajectory, row, checks, periods: float, start) -> Part | None:
     """One part from a state."""
-    return Part(scene, periods, start) if row is None else None
+    if row is None:
+        return Part(scene, periods, start)
+    return None
 
 
 def until_settled(scene, trajectory, row, checks, start, ends: Sequence[float]) -> Part | None:
@@ -103,9 +105,12 @@ def until_judged(
     """
     from analysis.looks import looks as looks_until
 
-    ends = list(looks_until(budget)) if looks else []
+    ends = []
+    if looks:
+        ends = list(looks_until(budget))
     if row is None:
-        return Part(scene, ends[0] if ends else budget, start)
+        first_end, *_ = *ends, budget
+        return Part(scene, first_end, start)
     periods = row.get("periods")
     if row["status"] != "ok" or row.get("regime") is None or periods is None:
         return None
@@ -121,7 +126,8 @@ def until_judged(
     if row["regime"] not in OPEN or not may_go_on:
         return None
     wanted = _unclear(row) or (trajectory is not None and carried(trajectory))
-    scene = carrying(scene) if wanted and carries_tangents(scene) else scene
+    if wanted and carries_tangents(scene):
+        scene = carrying(scene)
     return Part(scene, next_end - periods, trajectory)
 
 

@@ -43,14 +43,17 @@ class Job:
     @property
     def length_s(self) -> float:
         """Its length in seconds."""
-        return self.periods * self.scene.waves.period_s if self.duration_s is None else self.duration_s
+        if self.duration_s is not None:
+            return self.duration_s
+        return self.periods * self.scene.waves.period_s
 
     @cached_property
     def key(self) -> str:
         """The content key: sha256 over the scene's key, the run length, the engine's source hash, and `made`."""
         length = {"periods": self.periods, "duration_s": self.duration_s}
         content = {"scene": self.scene.key(), **length, "engine": self.engine}
-        content |= {"made": self.made} if self.made else {}
+        if self.made:
+            content["made"] = self.made
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 

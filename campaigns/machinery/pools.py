@@ -77,9 +77,11 @@ def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone:
         # A loky pool of one would run in this process, and a run that kills its process would kill the campaign:
         # two processes, of which only one is given work, keep that away.
         options |= {"n_jobs": max(2, jobs), "initializer": _prepare_worker, "initargs": (os.getpid(),)}
-    as_they_come = {"return_as": "generator_unordered", "batch_size": 1, "max_nbytes": None}
+    as_they_come = {"return_as": "generator_unordered", "batch_size": 1, "max_nbytes": None, "pre_dispatch": "n_jobs"}
+    if alone or jobs == 1:
+        as_they_come["pre_dispatch"] = 1
     with parallel_config(**options):
-        pool = Parallel(**as_they_come, pre_dispatch=1 if alone or jobs == 1 else "n_jobs")
+        pool = Parallel(**as_they_come)
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message=".*tasks.*", category=UserWarning, module="joblib")
         with contextlib.closing(pool(hand_out())) as results:
@@ -155,8 +157,9 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
             raise CampaignStopped(f"the scheduler at {address} has no worker after {JOIN_S:g} s; {start}") from None
         except ImportError as error:
             raise CampaignStopped(_REFUSED.format(f"the scheduler: {first_line(error)}")) from error
-        if faults := "; ".join(_differences(client)):
-            raise CampaignStopped(_REFUSED.format(faults))
+        differences = list(_differences(client))
+        if differences:
+            raise CampaignStopped(_REFUSED.format("; ".join(differences)))
         yield client
 
 
@@ -183,7 +186,10 @@ def _differences(client) -> Iterator[str]:
     for worker, answer in list(answers.items()):
         if isinstance(answer, OSError):
             continue  # it has just gone; whoever comes in its place is asked with its first run
-        difference = first_line(answer) if isinstance(answer, Exception) else _difference(answer, facts())
+        if isinstance(answer, Exception):
+            yield f"{worker}: {first_line(answer)}"
+            continue
+        difference = _difference(answer, facts())
         if difference:
             yield f"{worker}: {difference}"
 
@@ -244,7 +250,9 @@ def _finished(client, futures: set) -> set:
     while without_worker_s <= GONE_S:
         with contextlib.suppress(TimeoutError):
             return wait(futures, timeout=LOOK_S, return_when="FIRST_COMPLETED").done
-        without_worker_s = 0.0 if client.nthreads() else without_worker_s + LOOK_S
+        without_worker_s += LOOK_S
+        if client.nthreads():
+            without_worker_s = 0.0
         if without_worker_s > 0.1 * GONE_S and not warned:
             print(f"\nthe dask cluster has no worker; waiting {GONE_S:g} s for one to join", file=sys.stderr)
             warned = True

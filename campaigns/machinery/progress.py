@@ -129,10 +129,10 @@ def _counting() -> Stage:
 
 
 def _text() -> str:
-    counting, parts = _counting(), []
-    for entered in _open:
-        parts.append(entered.words() if entered is counting else entered.title)
-    return ": ".join(parts)
+    counting = _counting()
+    titles = [entered.title for entered in _open]
+    titles[_open.index(counting)] = counting.words()
+    return ": ".join(titles)
 
 
 def _terminal() -> bool:
@@ -177,10 +177,12 @@ def reports(folder: Path) -> dict[str, list[float]]:
     for path in folder.iterdir():
         if not path.suffix:  # a file with a suffix is still being written
             with contextlib.suppress(OSError, ValueError):
-                numbers[path.name] = [float(word) for word in path.read_text(encoding="ascii").split()]
+                numbers[path.name] = list(map(float, path.read_text(encoding="ascii").split()))
     return numbers
 
 
 def with_progress(simulate: Callable, report: Callable[[float], None]) -> dict[str, Callable]:
     """{"progress": report} if the function `simulate` has an argument progress, as engine.simulate has; else {}."""
-    return {"progress": report} if "progress" in inspect.signature(simulate).parameters else {}
+    if "progress" in inspect.signature(simulate).parameters:
+        return {"progress": report}
+    return {}

@@ -11,6 +11,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 
 import engine
@@ -67,16 +68,20 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
         if engine.goes_in_lanes(job.scene):
             alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
     groups = []
+    most = MOST
+    if plan.sends:
+        most = MOST_SENT
     for members in alike.values():
         workers = min(plan.how.jobs, len(members) // FEWEST)
-        count = workers * math.ceil(len(members) / (max(1, workers) * (MOST_SENT if plan.sends else MOST)))
-        # dealt like cards: neighbours cost alike, and so the groups do
-        groups += [tuple(_mixed(members[first::count])) for first in range(count)]
+        count = workers * math.ceil(len(members) / (max(1, workers) * most))
+        for first in range(count):
+            # dealt like cards: neighbours cost alike, and so the groups do
+            groups.append(tuple(_mixed(members[first::count])))
     return groups
 
 
 def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
-    return {job.key for group in groups for job in group}
+    return {job.key for job in chain.from_iterable(groups)}
 
 
 def _mixed(jobs: list[Job]) -> list[Job]:
@@ -126,7 +131,15 @@ def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
 
     Workers that send their results need not see the campaign's folder: theirs is a temporary one.
     """
-    return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=None if plan.sends else plan.how.out.absolute())
+    return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=_folder_of_workers(plan))
+
+
+def _folder_of_workers(plan: Plan) -> Path | None:
+    """The folder of the campaign as its workers see it; None where they send their results."""
+    if plan.sends:
+        return None
+    # a worker kept from an earlier campaign of this process may stand in another folder
+    return plan.how.out.absolute()
 
 
 def _compiled(pieces: dict) -> None:
@@ -142,15 +155,16 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     """
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
-    finished: dict[str, Outcome] = {}
+    finished: set[str] = set()
+    analysis_s = 0.0
     with stage("looking for finished runs"):
         for key, job in by_key.items():
             outcome = reuse(plan, job, print_line)
             if outcome is not None and _ended(job, outcome):
-                finished[key] = outcome
+                finished.add(key)
+                analysis_s += outcome.analysis_s
                 table.rows[key] = _row(job, outcome)
     table.write()
-    analysis_s = sum(outcome.analysis_s for outcome in finished.values())
     missing = [job for key, job in by_key.items() if key not in finished]
     try:
         for key, outcome in _computed(plan, missing, len(finished)):
@@ -168,8 +182,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
             table.write()
         raise
     table.write()
-    computed = frozenset(job.key for job in missing)
-    return Summary(table.in_order(), len(finished), len(missing), analysis_s, made=computed)
+    return Summary(table.in_order(), len(finished), len(missing), analysis_s, made=frozenset(_keys([missing])))
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
@@ -187,29 +200,29 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     """
     if not jobs:
         return
-    # A worker kept from an earlier campaign of this process may stand in another folder.
-    how = replace(plan.how, out=None if plan.sends else plan.how.out.absolute())
+    how = replace(plan.how, out=_folder_of_workers(plan))
     groups = groups_of(plan, jobs)
     total = reused + len(jobs)
-    unfinished = {job.key for job in jobs}
-    singles = {job.key: (job,) for job in jobs}
+    unfinished = _keys([jobs])
     together = _keys(groups)
-    for key, single in singles.items():
-        if key not in together:
-            groups.append(single)
+    by_name = {name_of(group): group for group in groups}
+    for job in jobs:
+        by_name[name_of([job])] = (job,)
+        if job.key not in together:
+            groups.append((job,))
 
     def count() -> float:
         """Runs that have ended; of groups under way those that their workers report."""
         ended = total - len(unfinished)
         for name, (runs, *_) in reports(Path(place)).items():
-            if all(job.key in unfinished for job in by_name[name]):
+            if _keys([by_name[name]]) <= unfinished:
                 ended += runs
         return ended
 
     def simulated() -> str:
-        return f"{sum(length_s for _, length_s in reports(Path(place)).values()):,.0f} s simulated"
+        seconds = [length_s for _, length_s in reports(Path(place)).values()]
+        return f"{sum(seconds):,.0f} s simulated"
 
-    by_name = {name_of(group): group for group in [*groups, *singles.values()]}
     with _progress(plan) as place, stage(plan.title, total, "runs", count, simulated):
         call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
         for key, outcome in as_completed(plan.how, groups, call, _given_up):

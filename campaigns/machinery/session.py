@@ -12,6 +12,7 @@ import contextlib
 import json
 import os
 import platform
+import re
 import shlex
 import socket
 import subprocess
@@ -48,7 +49,9 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
 
     read_order(argv, faults) -> the order, checked, with a `cli.Running` named how; work(order, argv) -> exit code.
     """
-    argv = list(sys.argv[1:] if argv is None else argv)
+    if argv is None:
+        argv = sys.argv[1:]
+    argv = list(argv)
     faults: list[str] = []
     open_streams()
     try:
@@ -65,7 +68,7 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
     try:
         return work(order, argv)
     except KeyboardInterrupt:
-        count = sum(1 for _ in (out / "trajectories").glob("*.nc"))
+        count = len(list((out / "trajectories").glob("*.nc")))
         rest = f"to go on with the rest: {shlex.join(command_line(module, argv))}"
         return _stopped(f"\ninterrupted; {count} finished runs are in {out}\n{rest}", EXIT_INTERRUPTED)
     except CampaignStopped as reason:
@@ -79,8 +82,7 @@ def listed(faults: list[str]) -> str:
     faults = list(dict.fromkeys(faults))
     if len(faults) == 1:
         return f" {faults[0]}"
-    lines = "".join(f"\n  {fault}" for fault in faults)
-    return f" {len(faults)} faults{lines}"
+    return "\n  ".join([f" {len(faults)} faults", *faults])
 
 
 def _stopped(text: str, code: int) -> int:
@@ -101,16 +103,18 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     """
     start, how = time.perf_counter(), order.how
     fault = ""
+    answer: list[str] = []
     with claimed(how.out), stage(study.name):
         record = begun(how.out, study.name, command_line(study.called, argv), parameters)
         timing, summary = study.work(order)
+        failures = _failures(summary)
         if summary.computed or not ended(how.out):
-            failed = sum(row["status"] != "ok" for row in summary.rows)
             counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
             rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
-            record |= {"runs": counts | {"failed": failed}, "finished_utc": _now_utc(), "timing": rounded}
+            record |= {"runs": counts | {"failed": failures.total()}, "finished_utc": _now_utc(), "timing": rounded}
             write_json(how.out / PROVENANCE, record)
-        answer = write_answer(how.out, study.answer(order, summary.rows)) if study.answer is not None else []
+        if study.answer is not None:
+            answer = write_answer(how.out, study.answer(order, summary.rows))
         start_of_report = time.perf_counter()
         if how.report and not summary.whole:
             try:
@@ -125,13 +129,22 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
         now = time.perf_counter()
         timing |= {"report_s": now - start_of_report, "total_s": now - start}
     code = printed(partial(print_summary, how, summary, answer, timing, fault))
-    return EXIT_FAILED if study.strict and any(row["status"] != "ok" for row in summary.rows) else code
+    if study.strict and failures:
+        return EXIT_FAILED
+    return code
+
+
+def _failures(summary: Summary) -> collections.Counter[str]:
+    """How many rows have each status that is not ok."""
+    counts = collections.Counter(str(row["status"]) for row in summary.rows)
+    del counts["ok"]
+    return counts
 
 
 def write_answer(out: Path, sentences: Iterable[str]) -> list[str]:
     """Write the first MOST_LINES sentences to answer.txt, a line each, where they are new; returns them."""
     lines = list(sentences)[:MOST_LINES]
-    path, content = out / ANSWER, "".join(f"{line}\n" for line in lines).encode()
+    path, content = out / ANSWER, "\n".join([*lines, ""]).encode()
     if not path.exists() or path.read_bytes() != content:
         write_atomic(path, content)
     return lines
@@ -143,6 +156,9 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
     Written, unless the folder holds that of a finished campaign which differs only in when and where it ran. seed is
     null where `parameters` names none: no random numbers are drawn. Raises OSError.
     """
+    versions = {"python": platform.python_version()}
+    for package in _PACKAGES:
+        versions[package] = _version(package)
     record = {
         "campaign": name,
         "command": command,
@@ -152,7 +168,7 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
         "host": socket.gethostname(),
         "cpu_count": os.cpu_count(),
         "platform": platform.platform(),
-        "versions": {"python": platform.python_version()} | {package: _version(package) for package in _PACKAGES},
+        "versions": versions,
         "git": git_state(Path(__file__).parents[1]),
         "engine_source_hash": engine.source_hash(),
     } | parameters
@@ -187,20 +203,25 @@ def git_state(directory: Path) -> dict[str, object]:
     # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
     if (directory.parent / ".git").exists():
         with contextlib.suppress(OSError, subprocess.SubprocessError):
-            said = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout.splitlines()
-            commits = [line.split()[-1] for line in said if line.startswith("# branch.oid ")]
-            return {"commit": commits[0], "dirty": not all(line.startswith("#") for line in said)}
+            status = subprocess.run(git, capture_output=True, text=True, timeout=10, check=True).stdout
+            commit = re.search(r"^# branch\.oid (\S+)", status, re.MULTILINE)[1]
+            changes = re.search(r"^[^#]", status, re.MULTILINE)
+            return {"commit": commit, "dirty": changes is not None}
     return {"commit": None, "dirty": None}
 
 
 def machine() -> dict[str, object]:
     """The machine as a table of times has to name it: {"processor", "cores"}, cores that this process may use."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    lines: list[str] = []
+    cores = os.cpu_count()
+    if hasattr(os, "sched_getaffinity"):
+        cores = len(os.sched_getaffinity(0))
+    processor = platform.processor() or platform.machine()
     with contextlib.suppress(OSError):
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-    model = next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), "")
-    return {"processor": model or platform.processor() or platform.machine(), "cores": cores}
+        facts = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+        model = re.search(r"^model name\s*:[ \t]*(.*\S)", facts, re.MULTILINE)
+        if model:
+            processor = model[1]
+    return {"processor": processor, "cores": cores}
 
 
 def print_summary(how: Running, summary: Summary, answer: list[str], timing: dict[str, float], fault: str) -> int:
@@ -213,7 +234,7 @@ def print_summary(how: Running, summary: Summary, answer: list[str], timing: dic
         print(f"{head:<9}{line}")
     count = summary.computed + summary.found
     print(f"runs     {count}: {summary.computed} computed, {summary.found} found")
-    failed = collections.Counter(str(row["status"]) for row in summary.rows if row["status"] != "ok")
+    failed = _failures(summary)
     if failed:
         reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
         print(f"failed   {failed.total()}: {reasons}; see the columns status and message")

@@ -37,15 +37,25 @@ def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size:
     size: how many a worker is given at once, where each takes a moment only.
     Raises CampaignStopped where a task kills its worker twice; what is finished is kept.
     """
-    finished = {task.key: store.get(task.key) for task in tasks}
-    missing = {task.key: task for task in tasks if finished[task.key] is None}
-    reused = len(tasks) - len(missing)
+    finished: dict[str, Result] = {}
+    missing: dict[str, Task] = {}
+    reused = 0
+    for task in tasks:
+        result = store.get(task.key)
+        if result is None:
+            missing[task.key] = task
+        else:
+            finished[task.key] = result
+            reused += 1
     sends = how.backend == "dask"
     if missing:
-        compute = partial(_computed, Store(None if sends else store.folder.absolute(), store.suffix))
+        store_of_worker = Store(None, store.suffix)
+        if not sends:
+            store_of_worker = Store(store.folder.absolute(), store.suffix)
+        compute = partial(_computed, store_of_worker)
         tasks_left = list(missing.values())
         groups = [tasks_left[first : first + size] for first in range(0, len(tasks_left), size)]
-        with stage(title, len(tasks), "tasks", lambda: len(tasks) - [*finished.values()].count(None)):
+        with stage(title, len(tasks), "tasks", lambda: len(finished)):
             for key, result in as_completed(how, groups, compute, _stopped):
                 finished[key] = result
                 if sends:
@@ -69,21 +79,28 @@ def as_completed(
     call(group) -> key and result of those of its tasks that came to an end; the others are done one by one, when all
     groups have ended. A task whose worker dies is done again, alone. Where it dies again: lost(task, reason) -> result.
     """
-    unfinished = {task.key: task for group in groups for task in group}
+    unfinished = {}
+    for group in groups:
+        unfinished.update((task.key, task) for task in group)
     waiting = list(groups)
     with opened(how.backend, min(how.jobs, max(1, len(unfinished))), how.dask_address) as execute:
         while unfinished:
             try:
                 for group, ended in execute(call, waiting or [(task,) for task in unfinished.values()]):
-                    waiting = [next_group for next_group in waiting if next_group is not group]
+                    waiting = _without(group, waiting)
                     for key, result in ended:
                         del unfinished[key]
                         yield key, result
             except PoolBroken as broken:
-                waiting = [group for group in waiting if not any(group is suspect for suspect in broken.suspects)]
                 for suspect in broken.suspects:
+                    waiting = _without(suspect, waiting)
                     if len(suspect) == 1:
                         yield _by_itself(execute, call, unfinished.pop(suspect[0].key), lost)
+
+
+def _without(group: Sequence, waiting: list[Sequence]) -> list[Sequence]:
+    """The groups that wait, without this one; by identity, because tasks may be large to compare."""
+    return [member for member in waiting if member is not group]
 
 
 def _by_itself(execute: Callable, call: Callable, task, lost: Callable) -> tuple[str, object]:

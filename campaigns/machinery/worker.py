@@ -61,8 +61,10 @@ def _run_alone(plan: Plan, job: Job, outcomes: dict[str, Outcome], report: Calla
 
 def _run_together(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
     first = jobs[0]
-    scenes = [job.scene for job in jobs]
-    length_s = sum(job.length_s for job in jobs)
+    scenes, length_s = [], 0.0
+    for job in jobs:
+        scenes.append(job.scene)
+        length_s += job.length_s
     progress = with_progress(plan.simulate_each, lambda share: report(len(outcomes), share * length_s))
     runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s, **progress)
     for number, trajectory in runs:
@@ -110,10 +112,12 @@ def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], rep
         return part.scene, part.periods, part.start
 
     if plan.simulate_each is not None and under_way:
-        first = [run.part for run in under_way]
-        scenes, periods, starts = ([getattr(part, name) for part in first] for name in ("scene", "periods", "start"))
-        more = with_progress(plan.simulate_each, progress)
-        for _ in plan.simulate_each(scenes, periods=periods, starts=starts, then=go_on, **more):
+        first: dict[str, list] = {"scenes": [], "periods": [], "starts": []}
+        for run in under_way:
+            first["scenes"].append(run.part.scene)
+            first["periods"].append(run.part.periods)
+            first["starts"].append(run.part.start)
+        for _ in plan.simulate_each(**first, then=go_on, **with_progress(plan.simulate_each, progress)):
             pass
         return
     for number, run in enumerate(under_way):
@@ -133,8 +137,10 @@ def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
     outcome = reuse(plan, job)
     if outcome is None:
         return LongRun(job), None
-    complete = outcome.row.get("status") in ("ok", None)
-    return LongRun(job, stored_run(plan.how.out, job.key) if complete else None, outcome.row), outcome
+    trajectory = None
+    if outcome.row.get("status") in ("ok", None):
+        trajectory = stored_run(plan.how.out, job.key)
+    return LongRun(job, trajectory, outcome.row), outcome
 
 
 def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> Outcome:
@@ -147,7 +153,8 @@ def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> 
         raise _stopped(plan, error) from error
     except Exception as error:
         return failed(job, "error", f"not saved: {_reason(error)}")
-    outcome = _described(plan, job, trajectory) if outcome is None else outcome
+    if outcome is None:
+        outcome = _described(plan, job, trajectory)
     if plan.how.out is None:
         return replace(outcome, content=content)
     keep_row(plan, outcome, content)
@@ -192,7 +199,9 @@ def kept_row(plan: Plan, key: str, content: bytes) -> dict | None:
     """The row of a run whose file has this content, if the maker of today made it."""
     copy = _rows(plan).get(key) or {}
     is_current = copy.get("made_by") == plan.row_maker and copy.get("run") == sha256(content).hexdigest()
-    return copy["row"] if is_current else None
+    if is_current:
+        return copy["row"]
+    return None
 
 
 def _rows(plan: Plan) -> Store:

@@ -78,7 +78,9 @@ def section(o: SnapOscillator, options: Options) -> Result:
     longest = _scaled(20_000_000, options.effort, 2000)
     zooms, seen = strobed_states_within(o, START, boxes, _scaled(40_000, options.effort, 200), longest, transient)
     arrays = {"section": states, "boxes": boxes}
-    arrays |= {f"zoom_{i + 1}": zoom for i, zoom in enumerate(zooms) if len(zoom)}
+    for number, zoom in enumerate(zooms, 1):
+        if len(zoom):
+            arrays[f"zoom_{number}"] = zoom
     return arrays, {"points": points, "transient": transient, "periods": seen}
 
 
@@ -91,8 +93,8 @@ def zoom_boxes(states: np.ndarray) -> np.ndarray:
     candidates = tree.data[:: max(1, len(states) // 4000)]
     neighbours = tree.query_ball_point(candidates, 0.5 / ZOOMS[-1], return_length=True)
     centre = candidates[int(np.argmax(neighbours))] * extent + low
-    half = [0.5 * extent / zoom for zoom in ZOOMS]
-    return np.array([[centre[0] - h[0], centre[0] + h[0], centre[1] - h[1], centre[1] + h[1]] for h in half])
+    half = 0.5 * extent / np.array(ZOOMS)[:, None]
+    return np.stack([centre - half, centre + half], axis=2).reshape(len(ZOOMS), 4)
 
 
 def history(o: SnapOscillator, options: Options) -> Result:
@@ -132,7 +134,8 @@ def exponents(o: SnapOscillator, options: Options) -> Result:
 
 def diagram(over: str, o: SnapOscillator, options: Options) -> Result:
     """Orbit diagram over "force" or "frequency" with exponents."""
-    low, high, count = options.forces if over == "force" else options.frequencies
+    ranges = {"force": options.forces, "frequency": options.frequencies}
+    low, high, count = ranges[over]
     values = np.linspace(low, high, _scaled(count, min(options.effort, 1.0), 2))
     points = snap_diagram(o, over, values, count=4, transient_periods=500, periods=1000, points=150, seed=SEED)
     displacement = points.section[..., 0].reshape(len(values), -1)
@@ -151,7 +154,9 @@ def orbits(o: SnapOscillator, options: Options) -> Result:
         for orbit in search_periodic_orbits(o, period, np.concatenate([ends[settled == period][:1], starts])):
             table.append([period, *orbit.multipliers.view(float), orbit.gap, len(points)])
             points.extend(orbit.points)
-    arrays = {"table": np.array(table), "points": np.array(points)} if table else {}
+    arrays = {}
+    if table:
+        arrays = {"table": np.array(table), "points": np.array(points)}
     return arrays, {"points": len(table), "starts": len(starts)}
 
 
@@ -186,11 +191,17 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
     write_atomic(out / "scene.toml", (head + "\n".join(numbers) + "\n").encode())
     keys = {part: _key(part, options) for part in PARTS}
     table = Table(out / "table.csv", COLUMNS, list(keys.values()))
-    rows = {key: attribute_of(trajectory_path(out, key), "row") for key in keys.values()}
-    table.rows = {key: json.loads(row) | {"run_key": key} for key, row in rows.items() if row is not None}
-    missing = [part for part, key in keys.items() if key not in table.rows]
+    missing = []
+    for part, key in keys.items():
+        row = attribute_of(trajectory_path(out, key), "row")
+        if row is None:
+            missing.append(part)
+        else:
+            table.rows[key] = json.loads(row) | {"run_key": key}
     table.write()
-    timing = {"compile_s": _compile(oscillator) if missing else 0.0}
+    timing = {"compile_s": 0.0}
+    if missing:
+        timing["compile_s"] = _compile(oscillator)
     begun = time.perf_counter()
     try:
         with stage("parts", len(PARTS), "parts", lambda: len(table.rows)):
@@ -206,9 +217,12 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
 
 
 def _key(part: str, options: Options) -> str:
-    other = {"diagram-force": {"frequency_range"}, "diagram-frequency": {"force_range"}}
-    unused = other.get(part, {"force_range", "frequency_range"})
-    return made_by({"part": part} | {name: entry for name, entry in parameters(options).items() if name not in unused})
+    settings = {"part": part} | parameters(options)
+    if part != "diagram-force":
+        del settings["force_range"]
+    if part != "diagram-frequency":
+        del settings["frequency_range"]
+    return made_by(settings)
 
 
 def _compile(oscillator: SnapOscillator) -> float:
@@ -225,6 +239,9 @@ def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -
     except Exception as error:  # one part that fails must not take the others along
         return {"part": part, "status": "error", "message": f"{type(error).__name__}: {error}"}
     row = {"part": part, "status": "ok", **row, "wall_s": round(time.perf_counter() - begun, 3)}
-    variables = {name: ([f"{name}_{axis}" for axis in range(values.ndim)], values) for name, values in arrays.items()}
+    variables = {}
+    for name, values in arrays.items():
+        axes = [f"{name}_{axis}" for axis in range(values.ndim)]
+        variables[name] = axes, values
     store(path, xarray.Dataset(variables, attrs={"row": json.dumps(row, default=lambda number: number.item())}))
     return row

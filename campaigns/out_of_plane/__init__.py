@@ -11,9 +11,10 @@ counterparts in three dimensions. Nothing is random.
 """
 
 from argparse import SUPPRESS
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
+from itertools import product
 
 from campaigns.explore.settings import ROW_SOURCES
 from campaigns.explore.space import SEED_MPS, velocity
@@ -78,18 +79,24 @@ def variants(base: Variant) -> list[Variant]:
     fine = replace(base, nodes=max(base.nodes, PUSH_NODES))
     runs = [base, small]
     # the longest runs first, so that no worker is left with one at the end
-    runs += [replace(base, depth_m=depth, nodes=nodes) for nodes in reversed(NODES) for depth in LOOPING_DEPTHS_M]
-    runs += [replace(in_plane(case), depth_m=depth) for case in (base, small) for depth in (base.depth_m, *DEPTHS_M)]
-    runs += [replace(case, seed_mps=seed) for case in (fine, small) for seed in SEEDS_MPS]
-    runs += [replace(case, depth_m=depth) for case in (base, small) for depth in DEPTHS_M]
-    stiffnesses = [replace(base, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
-    runs += [replace(case, depth_m=depth) for case in stiffnesses for depth in (base.depth_m, *DEPTHS_M)]
-    runs += [replace(small, bending_stiffness_Nm2=stiffness) for stiffness in STIFFNESSES_NM2]
-    runs += [replace(case, seed_direction=word) for case in (base, small) for word in ("mirrored", "oblique")]
-    runs += [replace(base, seed_direction="along")]
-    runs += [replace(small, nodes=nodes) for nodes in NODES]
-    runs += [replace(fine, profiles=1)]
+    runs += varied(base, nodes=reversed(NODES), depth_m=LOOPING_DEPTHS_M)
+    all_depths_m = (base.depth_m, *DEPTHS_M)
+    runs += varied(in_plane(base), in_plane(small), depth_m=all_depths_m)
+    runs += varied(fine, small, seed_mps=SEEDS_MPS)
+    runs += varied(base, small, depth_m=DEPTHS_M)
+    runs += varied(base, bending_stiffness_Nm2=STIFFNESSES_NM2, depth_m=all_depths_m)
+    runs += varied(small, bending_stiffness_Nm2=STIFFNESSES_NM2)
+    runs += varied(base, small, seed_direction=("mirrored", "oblique"))
+    runs += varied(base, seed_direction=("along",))
+    runs += varied(small, nodes=NODES)
+    runs += varied(fine, profiles=(1,))
     return list(dict.fromkeys(runs))
+
+
+def varied(*cases: Variant, **values: Iterable) -> Iterator[Variant]:
+    """Each case with every combination of these values of its fields."""
+    for case, *combination in product(cases, *values.values()):
+        yield replace(case, **dict(zip(values, combination, strict=True)))
 
 
 def in_plane(case: Variant) -> Variant:
@@ -119,7 +126,9 @@ def cases(order: Order) -> Iterator[Job]:
     for case in variants(base):
         scene = judged_scene(order, case.changes(), least=0)
         if scene is not None:
-            periods = min(order.periods, SHAPE_PERIODS) if case.profiles else order.periods
+            periods = order.periods
+            if case.profiles:
+                periods = min(periods, SHAPE_PERIODS)
             yield Job({**asdict(case), "periods": periods}, scene, periods)
 
 
@@ -137,8 +146,11 @@ def measures(order: Order) -> Measures:
     from campaigns.out_of_plane.rows import COLUMNS, offplane_row
 
     base = base_of(order)
-    judged = frozenset(case.scene.key() for case in order.cases if compared(variant(case.labels), base))
-    row = partial(offplane_row, transient_periods=order.transient, judged=judged)
+    judged = set()
+    for case in order.cases:
+        if compared(variant(case.labels), base):
+            judged.add(case.scene.key())
+    row = partial(offplane_row, transient_periods=order.transient, judged=frozenset(judged))
     sources = (*ROW_SOURCES, "campaigns/out_of_plane/rows.py")
     return Measures(COLUMNS, row, sources, {"transient": order.transient, "judged": sorted(judged)})
 
@@ -166,9 +178,12 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int, quick: bo
     from campaigns.statements import write_statements
 
     good = {variant(row): row for row in summary.rows if row["status"] == "ok"}
-    spatial = [replace(base, depth_m=depth) for depth in sorted({case.depth_m for case in good})]
-    pairs_of_rows = [(good[in_plane(case)], good[case]) for case in spatial if case in good and in_plane(case) in good]
-    looped = [pairs.pair_row(plan.how.out, *pair, transient) for pair in pairs_of_rows if pair[0]["loop_releases"]]
+    looped = []
+    for depth_m in sorted({case.depth_m for case in good}):
+        spatial = good.get(replace(base, depth_m=depth_m))
+        planar = good.get(in_plane(replace(base, depth_m=depth_m)))
+        if spatial and planar and planar["loop_releases"]:
+            looped.append(pairs.pair_row(plan.how.out, planar, spatial, transient))
     write_table(plan.how.out / "pairs.csv", pairs.COLUMNS, looped)
     results = Results(plane=read_table(plan.how.out / "table.csv"), plane_large=base.steepness)
     write_statements(plan.how.out, [claim for claim in claims(quick) if "fig. 20" in claim.place], results)
@@ -181,10 +196,10 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     from tables import number_of
 
     for steepness in (SMALL, LARGE):
-        at = [row for row in rows if row["steepness"] == steepness and row["status"] == "ok"]
-        farthest = greatest(at, "buoy_lateral_max_m"), greatest(at, "rope_lateral_max_m")
-        if None not in farthest:
-            buoy_m, rope_m = number_of(farthest[0], "buoy_lateral_max_m"), number_of(farthest[1], "rope_lateral_max_m")
+        good = [row for row in rows if row["steepness"] == steepness and row["status"] == "ok"]
+        buoy, rope = greatest(good, "buoy_lateral_max_m"), greatest(good, "rope_lateral_max_m")
+        if buoy is not None and rope is not None:
+            buoy_m, rope_m = number_of(buoy, "buoy_lateral_max_m"), number_of(rope, "rope_lateral_max_m")
             sentence = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
             yield sentence.format(steepness, buoy_m, rope_m)
     yield from verdicts(order.how.out, quoted=4)

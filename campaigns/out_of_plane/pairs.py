@@ -37,17 +37,23 @@ def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str
     """A row of pairs.csv from two rows of table.csv, of the same scene in the plane and in three dimensions."""
     from analysis import section_distance
 
-    flat, space = (run_of(out, row) for row in (planar, spatial))
+    flat, space = run_of(out, planar), run_of(out, spatial)
     step_s, period_s = flat.scene.sample_step_s(), flat.scene.waves.period_s
-    samples = min(len(run.columns["radius_m"]) for run in (flat, space))
-    off = np.abs(flat.columns["radius_m"][:samples] - space.columns["radius_m"][:samples])
+    flat_m, space_m = flat.columns["radius_m"], space.columns["radius_m"]
+    samples = min(len(flat_m), len(space_m))
+    off_m = np.abs(flat_m[:samples] - space_m[:samples])
     first = spatial.get("rope_first_burst_period")
-    end = samples if first is None else max(int((first - 1.0) * period_s / step_s), 1)
-    parted = np.flatnonzero(off > APART_M)
+    before_m = off_m
+    if first is not None:
+        before_m = off_m[: max(int((first - 1.0) * period_s / step_s), 1)]
+    parted = np.flatnonzero(off_m > APART_M)
+    apart_period = None
+    if len(parted):
+        apart_period = float(parted[0]) * step_s / period_s
     row = {
         "depth_m": planar["depth_m"],
-        "apart_period": float(parted[0]) * step_s / period_s if len(parted) else None,
-        "before_m": float(off[:end].max()),
+        "apart_period": apart_period,
+        "before_m": float(before_m.max()),
         "planar_key": planar["run_key"],
         "spatial_key": spatial["run_key"],
     }
@@ -59,16 +65,18 @@ def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str
 
 def agreement(planar: dict, spatial: dict, across: float, within: float) -> dict[str, object]:
     """In what two rows of table.csv agree: 1, 0, or None where the records are too short to say."""
-    ends_off = [abs(planar[end] - spatial[end]) for end in ("radius_min_m", "radius_max_m")]
-    range_off = max(ends_off) / (planar["radius_max_m"] - planar["radius_min_m"])
-    exponents, errors = ([row.get(name) for row in (planar, spatial)] for name in (WOLF_EXPONENT, WOLF_ERROR))
-    measured = all(value is not None and math.isfinite(value) for value in exponents)
-    regimes = [row.get("regime") for row in (planar, spatial)]
-    agreements = {
-        "same_range": range_off <= MOST_OFF,
-        "same_section": across <= MOST_ACROSS * within if math.isfinite(across) else None,
-        "same_exponent": abs(np.subtract(*exponents)) <= 2.0 * math.hypot(*errors) if measured else None,
-        "same_regime": regimes[0] == regimes[1] if all(regimes) else None,
-    }
-    numbers = {"range_off": range_off, "across": across, "within": within}
-    return numbers | {name: None if passed is None else int(passed) for name, passed in agreements.items()}
+    low_off_m = abs(planar["radius_min_m"] - spatial["radius_min_m"])
+    high_off_m = abs(planar["radius_max_m"] - spatial["radius_max_m"])
+    range_off = max(low_off_m, high_off_m) / (planar["radius_max_m"] - planar["radius_min_m"])
+    row = {"range_off": range_off, "across": across, "within": within}
+    row |= dict.fromkeys(("same_range", "same_section", "same_exponent", "same_regime"))
+    row["same_range"] = int(range_off <= MOST_OFF)
+    if math.isfinite(across):
+        row["same_section"] = int(across <= MOST_ACROSS * within)
+    exponents = planar.get(WOLF_EXPONENT), spatial.get(WOLF_EXPONENT)
+    if None not in exponents and np.isfinite(exponents).all():
+        error = math.hypot(planar[WOLF_ERROR], spatial[WOLF_ERROR])
+        row["same_exponent"] = int(abs(np.subtract(*exponents)) <= 2.0 * error)
+    if planar.get("regime") and spatial.get("regime"):
+        row["same_regime"] = int(planar["regime"] == spatial["regime"])
+    return row

@@ -5,6 +5,8 @@ or decays exponentially, and bursts only where it does neither (`analysis.growth
 but the exponent of an infinitesimal perturbation across its plane (offplane_growth_), unless it released loops.
 """
 
+from itertools import chain
+
 import numpy as np
 
 from campaigns.explore.rows import (
@@ -116,10 +118,10 @@ def _lateral_columns(body: str) -> tuple[Column, ...]:
         ),
         ("reason", "", "reason", "why the lateral motion of the {body} is called so, in words", None, SHEET),
     )
-    return tuple(
-        Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits, page)
-        for name, unit, symbol, meaning, digits, page in measures
-    )
+    columns = []
+    for name, unit, symbol, meaning, digits, page in measures:
+        columns.append(Column(f"{body}_{name}", unit, f"{body} {symbol}", meaning.format(body=body), digits, page))
+    return tuple(columns)
 
 
 COLUMNS = (
@@ -133,7 +135,7 @@ COLUMNS = (
     Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0, SHEET),
     *on(RUNS, PERIODS_RUN),
     STATUS,
-    *(column for body in BODIES for column in _lateral_columns(body)),
+    *chain.from_iterable(map(_lateral_columns, BODIES)),
     Column("inplane_m", "m", "in-plane", "half the larger range of the buoy's x and z after the transient", 2, SHEET),
     Column(
         "bow_inplane_m", "m", "bow", "largest distance of a node from the chord of the line, in the plane", 2, SHEET
@@ -163,16 +165,20 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     in-plane extremes and of the comparison. judged: keys of the scenes that get a regime and exponents.
     """
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
-    if measured := after_transient(trajectory, columns, transient_periods):
+    measured = after_transient(trajectory, columns, transient_periods)
+    if measured:
         first = round(transient_periods * scene.waves.period_s / scene.sample_step_s())
         row |= measured
-        row["inplane_m"] = 0.5 * max(float(np.ptp(columns[name][first:])) for name in ("x_m", "z_m"))
+        row["inplane_m"] = 0.5 * max(float(np.ptp(columns["x_m"][first:])), float(np.ptp(columns["z_m"][first:])))
     if scene.motion.dimensions == 3 and len(columns["time_s"]) > 1:
         for body, name in BODIES.items():
-            row |= {f"{body}_{key}": entry for key, entry in _lateral(columns[name], scene, row).items()}
-        for body, name in BODIES.items() if row["rope_first_burst_period"] is not None else ():
-            rise = _rise(columns[name], scene, row["rope_first_burst_period"])
-            row |= {f"{body}_rise_nats": rise[0], f"{body}_rise_periods": rise[1]}
+            for measure, value in _lateral(columns[name], scene, row).items():
+                row[f"{body}_{measure}"] = value
+        first_burst = row["rope_first_burst_period"]
+        if first_burst is not None:
+            for body, name in BODIES.items():
+                rise = _rise(columns[name], scene, first_burst)
+                row[f"{body}_rise_nats"], row[f"{body}_rise_periods"] = rise
     if trajectory.profiles is not None and len(trajectory.profiles.time_s):
         row["bow_inplane_m"], row["bow_lateral_m"] = bows(trajectory.profiles)
     if scene.key() in judged and trajectory.status == "ok" and "inplane_m" in row:
@@ -190,7 +196,8 @@ def _lateral(values, scene, row) -> dict[str, object]:
     bits = growth.rate.in_bits_per_period(period_s)
     push = abs(scene.start.buoy_velocity_mps[1])
     bursts = growth.burst_size
-    return {
+    largest_m = float(size.max())
+    row_of_body = {
         "motion": growth.kind,
         "reason": growth.reason,
         "rate_bits_per_period": bits.value,
@@ -199,16 +206,25 @@ def _lateral(values, scene, row) -> dict[str, object]:
         "fit_from_period": growth.begin / period_s,
         "fit_to_period": growth.end / period_s,
         "fit_span_nats": growth.span_nats,
-        "bursts": len(bursts) if growth.kind == "bursts" else None,
-        "burst_median_m": float(np.median(bursts)) if len(bursts) else None,
-        "burst_max_m": float(bursts.max()) if len(bursts) else None,
-        "first_burst_period": growth.burst_time[0] / period_s if len(bursts) else None,
-        "first_burst_m": bursts[0] if len(bursts) else None,
-        "lateral_max_m": float(size.max()),
+        "lateral_max_m": largest_m,
         "lateral_late_m": float(size[len(size) // 2 :].max()),
-        "share_of_inplane": float(size.max()) / row["inplane_m"] if row.get("inplane_m") else None,
-        "early_gain_s": float(size[: round(EARLY_PERIODS * period_s / step_s) + 1].max()) / push if push else None,
+        "first_burst_period": None,
     }
+    if growth.kind == "bursts":
+        row_of_body["bursts"] = len(bursts)
+    if len(bursts):
+        row_of_body |= {
+            "burst_median_m": float(np.median(bursts)),
+            "burst_max_m": float(bursts.max()),
+            "first_burst_period": growth.burst_time[0] / period_s,
+            "first_burst_m": bursts[0],
+        }
+    if row.get("inplane_m"):
+        row_of_body["share_of_inplane"] = largest_m / row["inplane_m"]
+    if push:
+        early = size[: round(EARLY_PERIODS * period_s / step_s) + 1]
+        row_of_body["early_gain_s"] = float(early.max()) / push
+    return row_of_body
 
 
 def _rise(values, scene, first_burst: float) -> tuple[float, float]:

@@ -6,7 +6,7 @@ For judging, a part that is not there, or cannot be read, leaves its place empty
 import contextlib
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -71,10 +71,10 @@ class Parts:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
         from engine.trajectory import TrajectoryError
 
-        matching = [row for row in part.rows if wanted.items() <= row.items()]
-        if not matching:
+        rows = matching(part.rows, wanted)
+        if not rows:
             raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
-        row = matching[0]
+        row = rows[0]
         if row["status"] != "ok":
             raise LeftOut(f"the run of {label} ended early ({row['status']}: {row['message']})")
         path = trajectory_path(part.folder, row["run_key"])
@@ -129,8 +129,12 @@ class Results:
         if not self.dependence:
             return []
         wanted = self.usual() | treated | {"steepness": steepness, "status": "ok"}
-        rows = [row for row in self.dependence if wanted.items() <= row.items()]
-        return sorted(rows, key=lambda row: row["depth_m"])
+        return sorted(matching(self.dependence, wanted), key=lambda row: row["depth_m"])
+
+
+def matching(rows: Iterable[Row], wanted: Row) -> list[Row]:
+    """The rows that have these entries."""
+    return [row for row in rows if wanted.items() <= row.items()]
 
 
 def read_results(directory: str | Path) -> Results:
@@ -216,7 +220,7 @@ def _dependence(parts: Parts, numbers: dict) -> dict:
 
 def _plane(parts: Parts, numbers: dict) -> dict:
     part = parts.part("out_of_plane")
-    with_profiles = [row for row in part.rows if row["profiles"] and row["status"] == "ok"]
+    with_profiles = matching(part.rows, {"profiles": 1, "status": "ok"})
     trajectory, waves = None, None
     if with_profiles:
         trajectory = run_of(part.folder, with_profiles[0])
@@ -230,5 +234,6 @@ def _plane(parts: Parts, numbers: dict) -> dict:
 def _oscillator(parts: Parts, numbers: dict) -> dict:
     part = parts.part("oscillator")
     numbers |= {f"oscillator_{key}": float(entry) for key, entry in part.provenance["oscillator"].items()}
-    numbers |= {name: row[name] for row in part.rows if row["part"] == "exponents" for name in STRANGE}
+    for row in matching(part.rows, {"part": "exponents"}):
+        numbers |= {name: row[name] for name in STRANGE}
     return {}

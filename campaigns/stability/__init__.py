@@ -52,12 +52,22 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """How the cases ended; what nobody can explain by name."""
     counts = Counter(str(row["verdict"]) for row in rows)
-    yield f"{len(rows)} cases: {', '.join(f'{count} {word}' for word, count in counts.most_common())}."
-    judged = [row for row in rows if row["verdict"] == "ok" and math.isfinite(number_of(row, "measured_tension"))]
-    silent = [number_of(row, "measured_tension") for row in judged if not row.get("warning")]
+    verdicts = [f"{count} {word}" for word, count in counts.most_common()]
+    yield f"{len(rows)} cases: {', '.join(verdicts)}."
+    silent, warned = [], 0
+    for row in rows:
+        error = number_of(row, "measured_tension")
+        if row["verdict"] == "ok" and math.isfinite(error):
+            if row.get("warning"):
+                warned += 1
+            else:
+                silent.append(error)
     if silent:
-        said = f"Largest tensions are off by {100.0 * max(silent):.2g} % at most in {len(silent)} runs that say nothing"
-        yield f"{said}; {len(judged) - len(silent)} more say how far theirs hold."
+        worst = f"{100.0 * max(silent):.2g} %"
+        yield (
+            f"Largest tensions are off by {worst} at most in {len(silent)} runs that say nothing; "
+            f"{warned} more say how far theirs hold."
+        )
     strange = [str(row["case"]) for row in rows if row["verdict"] == "unexplained"]
     if strange:
         yield f"Unexplained: {'; '.join(strange)[:200]}."

@@ -88,7 +88,11 @@ def drift_case(periods: int) -> Case:
 
 def all_cases() -> list[Case]:
     """Every case, in the order of the report."""
-    return [case for group, rows in FILE["cases"].items() for row in rows for case in _cases(group, row)]
+    cases = []
+    for group, rows in FILE["cases"].items():
+        for row in rows:
+            cases += _cases(group, row)
+    return cases
 
 
 def _cases(group: str, row: dict) -> Iterator[Case]:
@@ -110,8 +114,11 @@ def _cases(group: str, row: dict) -> Iterator[Case]:
         for key, value in changes.items():
             if value == "none":
                 changes[key] = None
-        is_quick = quick if isinstance(quick, bool) else place in quick
-        seconds = length_s[place] if isinstance(length_s, list) else length_s
+        is_quick, seconds = quick, length_s
+        if isinstance(quick, list):
+            is_quick = place in quick
+        if isinstance(length_s, list):
+            seconds = length_s[place]
         yield Case(group, name.format(*values), changes, seconds, **row, quick=is_quick)
 
 
@@ -123,8 +130,8 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     way, answer, wall_s = limited(lambda: _judged(case, path), case.options.get("limit_s", LIMIT_S))
     if way != DONE:
         answer = {"verdict": UNEXPLAINED, "run_status": way, "message": answer}
-    if fault := answer.pop(_NOT_SAVED, ""):
-        raise CampaignStopped(fault)
+    if _NOT_SAVED in answer:
+        raise CampaignStopped(answer[_NOT_SAVED])
     row = {"part": "case", "group": case.group, "case": case.name, "length_s": case.length_s, "bar": case.bar}
     row |= {"about": FILE["about"].get(case.group, case.group)}
     row |= {"dimensions": case.changes.get("motion.dimensions", 2), "case_wall_s": wall_s, **answer}
@@ -143,7 +150,9 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         with np.errstate(all="ignore"):
             run = simulate(scene, duration_s=case.length_s)
     except (SceneError, ValueError) as error:
-        verdict = REFUSED if REFUSED in case.statuses else UNEXPLAINED
+        verdict = UNEXPLAINED
+        if REFUSED in case.statuses:
+            verdict = REFUSED
         return {"verdict": verdict, "run_status": REFUSED, "message": str(error), "how": "refused in words"}
     if path is not None:
         try:
@@ -161,7 +170,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
             verdict = UNEXPLAINED
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
     measured, way, *tensions = getattr(checks, case.check)(run, case)
-    tension = tensions[0] if tensions else None
+    tension, *_ = *tensions, None
     warned = run.own_message
     row |= {"verdict": OK, "how": way}
     holds = warned or tension is None or tension <= case.bar_tension
@@ -173,5 +182,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
     numbers = {"measured": measured, "measured_tension": tension}
     numbers["stiffness_N"] = getattr(scene.tether.tension, "stiffness_N", None)
     for name, number in numbers.items():
-        row[name] = number if number is not None and math.isfinite(number) else None
+        row[name] = None
+        if number is not None and math.isfinite(number):
+            row[name] = number
     return row

@@ -45,9 +45,13 @@ def outcome_of(run, length_s: float) -> str:
     if not all(np.isfinite(array).all() for array in arrays):
         return "not-finite"
     if run.status != "ok":
-        return "ended" if run.message else "silent"
+        if run.message:
+            return "ended"
+        return "silent"
     samples = int(length_s / run.scene.sample_step_s() * (1 + 1e-12) + 1e-9) + 1
-    return "ok" if len(run.columns["time_s"]) == samples else "incomplete"
+    if len(run.columns["time_s"]) == samples:
+        return "ok"
+    return "incomplete"
 
 
 def limited(call: Callable, limit_s: float) -> tuple[str, object, float]:

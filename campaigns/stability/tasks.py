@@ -25,8 +25,12 @@ SOURCES = ("engine", "campaigns/stability")
 
 def planned(order) -> list[Case]:
     """Every case of the order, the longest first."""
-    cases = [drift_case(order.options.drift_periods)] if order.options.drift_periods else []
-    return cases + [case for case in all_cases() if case.quick or not order.options.quick]
+    cases = all_cases()
+    if order.options.quick:
+        cases = [case for case in cases if case.quick]
+    if order.options.drift_periods:
+        cases.insert(0, drift_case(order.options.drift_periods))
+    return cases
 
 
 def judge_cases(order) -> tuple[dict[str, float], Summary]:

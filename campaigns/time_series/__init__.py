@@ -69,8 +69,10 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     options = cli.split(parser(), argv, faults)
 
     def value(option: str, kind: Kind) -> object:
-        text = getattr(options, option[2:])
-        return cli.value(None if text is None else [text], option, None, kind, faults)
+        words = getattr(options, option[2:])
+        if words is not None:
+            words = [words]
+        return cli.value(words, option, None, kind, faults)
 
     step = value("--step", number("a finite number above 0 [s]", lambda step: 0.0 < step < math.inf))
     period = value("--period", number(SECONDS, lambda period: 0.0 < period < math.inf))
@@ -80,8 +82,10 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         faults.append("--time and --step: given both; allowed: one of them")
     file, *further_files = options.file or [None]
     faults.extend(f"{word}: given beside {file}; allowed: one file" for word in further_files)
-    if out is not None and (fault := fault_of(out, CAMPAIGN) or _written_over(out, file)):
-        faults.append(fault)
+    if out is not None:
+        fault = fault_of(out, CAMPAIGN) or _written_over(out, file)
+        if fault:
+            faults.append(fault)
     record = None
     if file is None:
         faults.append("FILE.csv: missing; allowed: the name of a file of columns")
@@ -89,8 +93,10 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         from campaigns.time_series.record import read_record
 
         record = read_record(file, options.column, options.time, step, faults)
-    if record is not None and period is not None and (fault := _no_fit(period, record)):
-        faults.append(fault)
+    if record is not None and period is not None:
+        fault = _no_fit(period, record)
+        if fault:
+            faults.append(fault)
     return Order(record, period, tolerance, cli.Running(out, 1, "threading", None, False))
 
 
@@ -98,14 +104,17 @@ def _written_over(out: Path, file: str | None) -> str:
     """What in a folder would be lost to this command, as a fault line; "" where nothing would."""
     # A folder with answer.txt alone is that of a command which a full disk stopped: provenance.json comes last.
     mine = (out / "provenance.json").exists() or (out / WRITTEN[0]).exists()
-    held = "" if mine else next((name for name in WRITTEN if (out / name).exists()), "")
-    if held:
-        lost = f"which holds a {held} that is not known to be of this command"
-    elif file is not None and Path(file).resolve() in [(out / name).resolve() for name in WRITTEN]:
-        lost = f"where {file} would be written over"
-    else:
-        return ""
-    return f"--out: given {str(out)!r}, {lost}; allowed: another folder"
+    lost = ""
+    for name in WRITTEN:
+        path = out / name
+        if not mine and path.exists():
+            lost = f"which holds a {name} that is not known to be of this command"
+            break
+        if file is not None and Path(file).resolve() == path.resolve():
+            lost = f"where {file} would be written over"
+    if lost:
+        return f"--out: given {str(out)!r}, {lost}; allowed: another folder"
+    return ""
 
 
 def _no_fit(period: float, record: "Record") -> str:

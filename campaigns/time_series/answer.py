@@ -68,7 +68,9 @@ def page(study: Study) -> str:
     for item in study.verdict.evidence:
         numbers = f"{number(item.value)} against {number(item.threshold)}"
         evidence += _wrapped(f"  {MARK[item.passed]:<4}{item.name}: {item.sentence} [{numbers}]", 6)
-    notes = [line for note in answers["notes"] for line in _wrapped(f"note: {note}", 6)]
+    notes = []
+    for note in answers["notes"]:
+        notes += _wrapped(f"note: {note}", 6)
     title = f"{study.record.path}, column {study.record.column}"
     parts = [[title, *head], _rows(measures), _rows(verdict), evidence, notes]
     return "\n\n".join("\n".join(part) for part in parts if part)
@@ -90,7 +92,10 @@ def _wrapped(text: str, indent: int) -> list[str]:
 
 def _rows(pairs: list[tuple[str, str]]) -> list[str]:
     """Lines of names in front and texts beside them."""
-    return [line for name, text in pairs for line in _wrapped(f"{name:<{NAMES}}{text}", NAMES)]
+    lines = []
+    for name, text in pairs:
+        lines += _wrapped(f"{name:<{NAMES}}{text}", NAMES)
+    return lines
 
 
 def _measures(study: Study) -> list[tuple[str, str, str, str]]:

@@ -164,17 +164,23 @@ def _is_no_number(cell: str) -> str:
     try:
         number = float(cell)
     except ValueError:
-        return "is no number" if cell else "is empty"
+        if not cell:
+            return "is empty"
+        return "is no number"
     if "_" in cell:  # 1_0 is 10 to Python alone
         return "is no number"
-    return "" if isfinite(number) else "is not finite"
+    if not isfinite(number):
+        return "is not finite"
+    return ""
 
 
 def _cure(cell: str, name: str, rows: list[int]) -> str:
     """What to do about a cell that is no number, in `rows` of its column."""
     if _CLOCK.search(cell):
-        in_its_place = "; give --step SECONDS in its place" if name.startswith("--time") else ""
-        return f"dates and clock times are not read{in_its_place}"
+        cure = "dates and clock times are not read"
+        if name.startswith("--time"):
+            cure += "; give --step SECONDS in its place"
+        return cure
     if "," in cell:
         return "with a dot, not a comma"
     if rows == [1] and cell and not any(mark.isdigit() for mark in cell):
@@ -216,7 +222,9 @@ def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
 def close_to(name: str, names: Iterable[str]) -> str:
     """ "; did you mean ...?" where a name is close to one of these, else ""."""
     close = difflib.get_close_matches(name, list(names), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
+    if close:
+        return f"; did you mean {close[0]!r}?"
+    return ""
 
 
 def read_table(path: Path) -> Table:
@@ -240,7 +248,8 @@ def read_table(path: Path) -> Table:
 def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list[str]]:
     """The cells of each line."""
     if mark is None:
-        yield from ([cell.strip('"') for cell in line.split()] for line in lines)
+        for line in lines:
+            yield [cell.strip('"') for cell in line.split()]
         return
     try:
         for row in csv.reader(lines, delimiter=mark, skipinitialspace=True):
@@ -258,10 +267,13 @@ def _lines(path: Path) -> Iterator[str]:
         with open(path, "rb") as file:
             begin = file.read(8)
         kinds = [kind for mark, kind in BINARY.items() if begin.startswith(mark)]
+        encoding = "utf-8-sig"
+        if begin[:2] in UTF16:
+            encoding = "utf-16"
         if kinds:
             what, cure = kinds[0]
         else:
-            with open(path, encoding="utf-16" if begin[:2] in UTF16 else "utf-8-sig") as file:
+            with open(path, encoding=encoding) as file:
                 for line in file:
                     if "\0" in line:
                         break

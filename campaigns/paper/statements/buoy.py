@@ -8,7 +8,7 @@ import math
 from operator import itemgetter
 
 from campaigns.explore.motions import from_rest
-from campaigns.paper.measured import STRANGE, Results
+from campaigns.paper.measured import STRANGE, Results, matching
 from campaigns.paper.measures import EARLY, WINDOW
 from campaigns.paper.statements import judging
 from campaigns.paper.statements.judging import (
@@ -74,8 +74,9 @@ def on_estimates(results: Results) -> Measured:
     for window, coarse in ((EARLIEST, 0.0), ("the window of fig. 12", 0.5 * bin_radps)):
         for name, side, estimate in (("r", "radial", "radial"), ("θ", "angular", "pendulum")):
             estimated = results.number(f"estimate_{estimate}_radps")
-            late = estimated + results.number(f"{side}_bins") * bin_radps
-            seen = late if coarse else results.number(f"early_{side}_radps")
+            seen = results.number(f"early_{side}_radps")
+            if coarse:
+                seen = estimated + results.number(f"{side}_bins") * bin_radps
             if not math.isfinite(seen):
                 return Measured()
             checks.append((f"{name} in {window}", abs(seen / estimated - 1.0) < max(PRINTED_DIGIT, coarse / estimated)))
@@ -101,10 +102,10 @@ def doubled_buoy(results: Results) -> Measured:
     """Rms change of r over its range, on twice the elements, early and over all of the record."""
     checks = []
     for row in results.doubled:
-        whens = {"error_early_m": "the first ten periods", "error_m": f"{row['periods']:g} periods"}
         span = row["radius_max_m"] - row["radius_min_m"]
         kA = f"kA = {row['waves.steepness']:g}"
-        checks += [(f"{kA} over {when}", row[column] / span) for column, when in whens.items()]
+        checks.append((f"{kA} over the first ten periods", row["error_early_m"] / span))
+        checks.append((f"{kA} over {row['periods']:g} periods", row["error_m"] / span))
     return each(checks, ".2%")
 
 
@@ -124,11 +125,11 @@ def threshold(results: Results) -> Measured:
     if not rows:
         return Measured()
     slack = [row["steepness"] for row in rows if is_slack(row)]
+    taut = [row["steepness"] for row in rows if not is_slack(row)]
     first = min(slack, default=math.inf)
-    taut_beyond = [row for row in rows if row["steepness"] >= first and not is_slack(row)]
     checks = passed(
         ("there is a threshold", good(rows)[0]["steepness"] < first < math.inf),
-        ("slack at all larger waves", first < math.inf and not taut_beyond),
+        ("slack at all larger waves", first < math.inf and max(taut, default=0.0) < first),
     )
     return Measured(checks, f"{spans([*map(is_slack, rows)], rows)} of {spans([True] * len(rows), rows)}")
 
@@ -286,8 +287,7 @@ def pushed(results: Results) -> list[Row]:
 
 
 def _spatial(results: Results, steepness: float) -> list[Row]:
-    wanted = {"status": "ok", "steepness": steepness, "dimensions": 3}
-    return [row for row in results.plane if wanted.items() <= row.items()]
+    return matching(results.plane, {"status": "ok", "steepness": steepness, "dimensions": 3})
 
 
 def grows(row: Row) -> bool:
@@ -312,8 +312,9 @@ def small_decays(results: Results) -> Measured:
     rows = _spatial(results, small)
     if small == results.plane_large or not rows:
         return Measured([])
-    growing, decaying = sum(map(grows, rows)), sum(row["buoy_motion"] == row["rope_motion"] == "decay" for row in rows)
-    words = f"{growing} of {len(rows)} runs grow, {decaying} decay exponentially"
+    growing = sum(map(grows, rows))
+    decaying = matching(rows, {"buoy_motion": "decay", "rope_motion": "decay"})
+    words = f"{growing} of {len(rows)} runs grow, {len(decaying)} decay exponentially"
     return Measured([("all pushes, depths, stiffnesses, grids", growing)], words)
 
 
@@ -325,8 +326,8 @@ def large_grows(results: Results) -> Measured:
     checks: dict[str, bool] = {}
     for row in rows:
         checks[at(row)] = checks.get(at(row), False) or grows(row)
-    bursts = sum(row["rope_motion"] == "bursts" for row in rows)
-    words = f"{sum(map(grows, rows))} of {len(rows)} runs grow exponentially; in {bursts} the rope bursts"
+    bursting = matching(rows, {"rope_motion": "bursts"})
+    words = f"{sum(map(grows, rows))} of {len(rows)} runs grow exponentially; in {len(bursting)} the rope bursts"
     return Measured(passed(*checks.items()), words)
 
 
