@@ -19,7 +19,7 @@ from tests.pages import ROOT, blocks
 TENSION = """
 import numpy as np
 from engine.physics.tension.kernels import stored, tension
-from engine.scales import strain_at, tension_at
+from engine.physics.strains import strain_at, tension_at
 from engine.scene.reference import keys
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import line
