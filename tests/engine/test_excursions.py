@@ -56,7 +56,13 @@ def excursions(scene, columns):
 
 
 SEA = {"waves.jonswap": {"significant_height_m": 1.0, "seed": 1}}
-SEAS = [{}, {"waves.direction_rad": math.pi}, {"waves.ramp_s": 30.0}, SEA, {"motion.dimensions": 3, **SEA}]
+SEAS = [
+    {},
+    {"waves.direction_rad": math.pi},
+    {"waves.ramp_s": 30.0},
+    SEA,
+    {"motion.dimensions": 3, "waves.direction_rad": 1.0, **SEA},
+]
 
 
 @pytest.mark.parametrize("waves", SEAS, ids=["along", "against", "ramp", "sea", "space"])

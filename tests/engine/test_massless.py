@@ -111,6 +111,14 @@ def test_usual_steps_are_within_a_millimetre_for_nine_of_ten_kicks(changes):
     assert np.quantile(np.abs(usual - fine).max(1), 0.9) < 1e-3
 
 
+def test_a_stiff_line_has_as_many_steps_as_its_own_period_asks_for():
+    """40 in 2 pi sqrt(l0 (M + M_a)/EA)."""
+    scene, EA = scene_of(DEEP, {"tether.tension.stiffness_N": 1e6}), 1e6
+    ringing_s = 2 * math.pi * math.sqrt(20.0 * (1611.0 + 907.0) / EA)
+    usual, given = (massless_runs(scene, starts_of(scene), 2, n) for n in (None, math.ceil(40 * 5.0 / ringing_s)))
+    assert np.array_equal(usual.strobed, given.strobed)
+
+
 def test_order_four_through_slack_and_taut():
     scene, starts, after = compared("full", 4)
     errors = [np.abs(massless_runs(scene, starts, 10, n).strobed[:, -1] - after).sum() for n in (60, 120, 240)]

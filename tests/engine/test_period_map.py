@@ -53,6 +53,10 @@ def test_it_begins_at_the_strobe_after_a_state_and_goes_where_a_run_does(cable, 
         (found["radius_m"][0], found["radius_rate_mps"][0]), abs=1e-9
     )
     assert found["tension_top_high_N"].max() == pytest.approx(last["tension_top_high_N"].max(), rel=2e-3)
+    rare = PeriodMap(lambda value: scene_at(value, **{"output.step_s": 5.0}), settled.final_state, AT)
+    for name in ("tension_top_low_N", "tension_top_high_N"):  # one sample has the extremes of all of the period
+        extreme = np.min if "low" in name else np.max
+        assert extreme(rare.history([rare.first], AT)[name]) == pytest.approx(extreme(found[name]), rel=0.02)
 
 
 def test_an_orbit_is_what_the_run_settles_on_and_what_a_run_from_its_state_keeps(cable, settled):

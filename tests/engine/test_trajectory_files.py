@@ -51,6 +51,9 @@ def test_the_table_has_the_agreed_columns():
     assert len(table) == 3 and len(run_of(0).table()) == 0
 
 
+UNITS = {"m": "m", "s": "s", "N": "N", "rad": "rad", "mps": "m s-1", "radps": "rad s-1", "strain": "1"}
+
+
 @pytest.mark.parametrize("samples", [0, 500])
 def test_xarray_opens_it_with_units_and_names(samples, tmp_path):
     run = run_of(samples, profiles=4)
@@ -62,6 +65,8 @@ def test_xarray_opens_it_with_units_and_names(samples, tmp_path):
         assert data["time_s"].dtype == np.dtype("float64")  # a number of seconds, not a date
         for name, variable in data.variables.items():
             assert variable.attrs["units"] and variable.attrs["long_name"], name
+            ending = UNITS.get(name.rpartition("_")[2])
+            assert ending in (None, variable.attrs["units"]), name
         assert data.attrs["status"] == "ok" and data.attrs["git_commit"] == "abc" and "✓" in data.attrs["title"]
         assert json.loads(data.attrs["statistics"])["steps"] == run.statistics["steps"]
         assert data.attrs["scene"] == run.scene.to_toml()

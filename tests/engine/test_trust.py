@@ -1,5 +1,7 @@
 """Law: what a run says of its tensions is so: how far they hold, when, where a motion jumps, what a grid lacks."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -99,3 +101,5 @@ def test_steps_too_long_for_the_largest_tension_are_told():
     largest = [run.columns["tension_top_high_N"].max() for run in (coarse, fine)]
     assert largest[0] < 0.95 * largest[1]
     assert said in coarse.message and said not in fine.message
+    off = float(re.search(r"holds to (\S+) N, because", coarse.message)[1])
+    assert off == pytest.approx(largest[1] - largest[0], rel=0.6)  # by the method's own order, 1

@@ -114,6 +114,8 @@ def test_progress_is_told_and_every_sample_is_there():
     found = run_boxed(small(**{"output.profiles": True, "solver.step_s": 0.0125}), 2.0, told.append)
     assert len(found.columns["time_s"]) == 41 and found.profiles.strain.shape == (41, 7)
     assert told == sorted(told) and 0 < told[-1] <= 1
+    tight = run_boxed(small(**{"solver.newton_tolerance": 1e-12, "solver.step_s": 0.0125}), 2.0)
+    assert tight.statistics["newton_iterations"] > found.statistics["newton_iterations"]
 
 
 @pytest.mark.slow

@@ -12,7 +12,6 @@ from scipy.interpolate import PchipInterpolator
 
 from engine import simulate
 from engine.physics.ends import end_velocity
-from engine.record import RECORD, SPATIAL
 from tests.engine.kernels import parameters_of, upper_end_of
 from tests.engine.lines import DRY, SPACE, STILL, equilibrium, free, held, line, positions
 
@@ -161,11 +160,3 @@ def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():
     for name in ("below", "above"):
         found = [p[f"{name}_{axis}"] for axis in "xyz"]
         assert found == pytest.approx([3 / 13, 4 / 13, 12 / 13], rel=1e-15)
-
-
-def test_kernels_are_compiled_apart_for_a_plane_and_for_space():
-    """Numba takes a record that begins with all fields of another for that other: it would run the wrong kernels."""
-    from numba import from_dtype
-
-    planar, spatial = from_dtype(RECORD), from_dtype(SPATIAL)
-    assert spatial.can_convert_to(None, planar) is None and planar.can_convert_to(None, spatial) is None

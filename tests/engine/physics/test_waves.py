@@ -132,6 +132,7 @@ def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave(name):
     assert half == pytest.approx(0.5 * whole, abs=1e-13)
     for t in (8.0, 9.7):
         assert waves_at(ramped, t, X) == pytest.approx(waves_at(full, t, X), abs=1e-13)
+    assert elevation_m(ramped, 4.0, X[:, 0]) == pytest.approx(0.5 * elevation_m(full, 4.0, X[:, 0]), abs=1e-13)
 
 
 def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():
@@ -140,6 +141,13 @@ def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():
     X = np.insert(LINES["leaning"], 1, 3.0, axis=1)
     for angle, other in ((0.0, [1, 4]), (np.pi, [1, 4]), (np.pi / 2, [0, 3])):
         assert not waves_at(scene(SPACE, direction_rad=angle), 3.1, X)[:, other].any()
+
+
+def test_under_another_gravity_a_wave_in_space_is_that_of_the_plane():
+    moon, X = {"gravity_mps2": 1.62, "buoy.mass_kg": 1700.0}, LINES["leaning"]
+    plane, space = waves_at(scene(moon), 3.1, X), waves_at(scene(moon, SPACE), 3.1, np.insert(X, 1, 3.0, axis=1))
+    assert space[:, [0, 2, 3, 5]] == pytest.approx(plane, abs=1e-12)
+    assert np.abs(plane - waves_at(scene(), 3.1, X)).max() > 0.1
 
 
 def jonswap(**keys):

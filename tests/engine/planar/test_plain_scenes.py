@@ -26,19 +26,3 @@ def test_a_plain_scene_runs_the_same_by_the_kernels_of_all_scenes(changes, monke
         np.testing.assert_array_equal(values, general.columns[name])
     np.testing.assert_array_equal(plain.tangent.growth_nats, general.tangent.growth_nats)
     np.testing.assert_array_equal(plain.tangent.lateral_nats, general.tangent.lateral_nats)
-
-
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"buoy.submergence": "spherical-cap"},
-        {"current": {"law": "profile", "height_m": [0, 21], "velocity_mps": [[0, 0, 0], [1, 0, 0]]}},
-        {
-            "tether.tension": {"law": "tabulated", "strain": [-0.1, 0.0, 0.3], "tension_N": [-1.0, 0.0, 10000.0]},
-            "water.depth_m": 25.0,
-        },
-    ],
-    ids=["cap", "profile", "tabulated"],
-)
-def test_what_has_other_forms_is_not_plain(changes):
-    assert parameters.record_of(load_scene("tethered_buoy", changes), []).dtype == RECORD

@@ -7,6 +7,7 @@ import pytest
 
 from engine import Trajectory, __main__, load_scene, simulate, simulate_each
 from engine.planar import columns as col
+from engine.record import RELEASES
 from engine.run.going_on import between
 from engine.run.start import taken_over
 from engine.spatial import lift
@@ -73,6 +74,15 @@ def test_a_state_with_its_clock_at_zero_goes_the_same_way(first):
     assert there.columns["time_s"] == pytest.approx(here.columns["time_s"] - 20.0, abs=1e-12)
     assert there.columns["radius_m"] == pytest.approx(here.columns["radius_m"], abs=2e-4)
     assert state.at_zero().digest() == state.digest()
+    assert replace(state, scene=scene_of({**SMALL, "tether.drag_normal": 2.0})).digest() != state.digest()
+
+
+def test_with_its_clock_at_zero_loops_are_counted_anew(first):
+    loops = np.zeros_like(first.final_state.samples)
+    loops[:, RELEASES] = 3.0
+    looped = first.final_state.with_numbers(releases=4)
+    begun = replace(looped, samples=looped.samples + loops).at_zero()
+    assert begun.state()["releases"] == 1 and not begun.samples[:, RELEASES].any()
 
 
 def test_the_grid_may_change_in_slack():
@@ -121,6 +131,11 @@ HELD = {"end": {"kind": "held", "position_m": [0.0, 0.0, 20.5]}, "buoy": None}
 FAULTY = {
     "the paper's scheme": (lambda state: state, {"solver.scheme": "paper-box"}, "only start from rest"),
     "another end": (lambda state: state, HELD, "end.kind = 'buoy' for a scene with 'held'"),
+    "an end elsewhere": (
+        lambda state: simulate(scene_of({**SMALL, **HELD}), duration_s=1),
+        {**HELD, "end.position_m": [0.0, 0.0, 20.4]},
+        "end.position_m",
+    ),
     "nan": (lambda state: replace(state, C=state.C * np.nan), {}, "not a finite number, among its C"),
     "another engine": (lambda state: replace(state, numbers=state.numbers[1:]), {}, "another version of the engine"),
     "half a file": (lambda state: replace(state, K=NONE), {}, "K of shape"),
