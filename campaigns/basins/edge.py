@@ -88,7 +88,7 @@ class Edge:
         Each is (share of the way, side, state, row of its run). Of several borders that nearest to the middle; None:
         none is there.
         """
-        from engine.going_on import between
+        from engine.run.going_on import between
 
         shares = [(1.0 + 2.0 * beyond) * (k + 1) / (SHARES + 1) - beyond for k in range(SHARES)]
         states = [between(*self.states, share) for share in shares]

@@ -98,7 +98,7 @@ def orbit_under(trajectory: Trajectory, period: int, orbits: Store, iterations: 
     """
     import numpy as np
 
-    from engine.final_state import state_of_file
+    from engine.trajectory.final_state import state_of_file
 
     scene = trajectory.scene
     key = key_of(trajectory.final_state, scene.key(), period, iterations, engine.source_hash(), _maker())

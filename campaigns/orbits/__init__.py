@@ -62,7 +62,7 @@ def read(options, faults: list[str]) -> None:
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
-    from engine.period_map import why_no_map
+    from engine.run.period_map import why_no_map
 
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.own.grid.keys:
