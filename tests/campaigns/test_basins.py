@@ -2,12 +2,14 @@
 
 import csv
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis import joins, settled
-from campaigns.basins import main, read_order
+from campaigns.basins import edge, main, read_order
+from campaigns.basins.answer import _shock
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.smallest import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
@@ -54,6 +56,36 @@ def test_the_smallest_start_is_the_nearest_point_of_a_disc(centre):
     assert found.below >= (1.0 - SHARP) * found.size
     assert nearest <= found.size <= (1.0 + 2.5 * SHARP) * nearest
     assert len(asked) < 400
+
+
+@pytest.mark.parametrize(
+    ("across", "shock", "way"),
+    [
+        ("vx phase", {"kick_x_mps": -2.0, "phase_rad": 0.5 * math.pi}, "against the waves, 0.25 T before a crest,"),
+        ("vz phase", {"kick_z_mps": 2.0, "phase_rad": math.pi}, "upwards, 0.50 T before a crest,"),
+        ("vx vz", {"kick_x_mps": -1.0, "kick_z_mps": -1.0}, "against the waves, 45 degrees downwards"),
+        ("x z", {"displacement_x_m": 0.01, "displacement_z_m": 1.0}, "upwards"),
+    ],
+)
+def test_the_smallest_start_is_told_with_its_way(across, shock, way):
+    row = shock | {"status": "ok", "size": 2.0, "motion": "B", "nodes": 81}
+    unit = "m" if "x" in across.split() else "m/s"
+    said = _shock([row, row | {"size": 2.1}], across.split())
+    assert said == f"2 {unit} {way} is the smallest that leads to B; on 81 nodes 2.1 {unit} {way}."
+
+
+def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(tmp_path, monkeypatch):
+    """They go on until they are APART, and the edge is followed over MOST waves by many such stretches."""
+    distances = edge.NEAR * 2.0 ** np.arange(12.0)
+    together = np.count_nonzero(distances <= edge.APART) - 1
+    columns = {"radius_m": np.ones(8), edge.TOP: np.ones(8)}
+    fake = SimpleNamespace(narrow=lambda: distances, go_on=lambda periods: (SimpleNamespace(columns=columns), "key"))
+    monkeypatch.setattr(edge, "Edge", lambda *_: SimpleNamespace(**vars(fake), scale=np.ones(4)))
+    monkeypatch.setattr(edge, "section_of", lambda run: (np.zeros((together + 1, 4)),))
+    motions = [SimpleNamespace(branch=SimpleNamespace(letter=letter)) for letter in "AB"]
+    row = edge.edge_state(SimpleNamespace(plan=SimpleNamespace(how=SimpleNamespace(out=tmp_path))), *motions)
+    assert row["growth_bits_per_period"] == pytest.approx(1.0) and row["strobed_period"] == 1
+    assert (row["status"], row["periods"]) == ("ok", together * math.ceil(edge.MOST / together))
 
 
 def test_a_motion_started_at_another_phase_is_the_same():

@@ -3,7 +3,7 @@
 import pytest
 
 from campaigns.answers import regimes
-from campaigns.explore.answer import sentences, use_of
+from campaigns.explore.answer import coexisting, sentences, use_of
 from engine import load_scene
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
@@ -56,6 +56,14 @@ def test_other_motions_were_looked_for_where_a_share_is_known():
     kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
     assert "other motions" in alone[-1].partition("not checked")[2]
     assert "other motions" not in kicked[-1].partition("not checked")[2]
+
+
+@pytest.mark.parametrize(("peak_N", "words"), [(500.0, ""), (2000.0, "motion B pulls 2 kN, the one from rest 1 kN")])
+def test_a_motion_that_pulls_more_than_the_one_from_rest_is_named_with_both_pulls(peak_N, words):
+    rows = [PULLS | {"motion": motion, "found_by": found_by} for motion, found_by in (("A", "rest"), ("B", "kick"))]
+    rows[1]["tension_top_max_N"] = peak_N
+    (sentence,) = coexisting(rows, "steepness", "kA")
+    assert sentence == f"One wave has several motions at kA = 0.1{words and '; at kA = 0.1 '}{words}."
 
 
 def test_a_random_sea_says_how_long_it_was():

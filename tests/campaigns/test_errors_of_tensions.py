@@ -1,8 +1,12 @@
 """How far a sweep's largest tension holds (`campaigns.explore.errors`): the rule, and where rows say so."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from campaigns.explore import errors
 from campaigns.explore.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
 from campaigns.explore.starts import settled_of
 from campaigns.machinery.store import Store
@@ -66,6 +70,19 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
     row = companion_row(sines(scene, REPEATING, radius=(20.0, swing_m)), period=1, motion=motion)
     assert row["outcome"] == outcome
     assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py
+
+
+@pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])
+def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(regime, periods, monkeypatch):
+    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1}), 90)
+    state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
+    monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
+    row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 90.0}
+    job = errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row).job
+    assert job.scene.tether.nodes - 1 == 2 * (run.scene.tether.nodes - 1)
+    assert job.scene.solver.rtol == pytest.approx(run.scene.solver.rtol / 4.0)
+    assert job.scene.output.tangent_vectors == 0 and job.labels == {"of_run": "of the run"}
+    assert job.going(job.scene, None, None, {})[:3] == (job.scene, periods, state)
 
 
 @pytest.mark.slow

@@ -1,12 +1,18 @@
 """What a run does next (`campaigns.machinery.long_runs`): on to its next look, to a tighter tolerance, or nothing."""
 
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from campaigns.machinery.long_runs import LEAST_CHECK, until_judged
+from campaigns.machinery.cli import Running
+from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
+from campaigns.machinery.plan import Job, Plan
+from campaigns.machinery.runner import run_campaign
 from engine import load_scene
+from tables import PERIODS_RUN, RUN_KEY, STATUS
+from tests.campaigns.fake_engine import sines
 
 SCENE = load_scene("tethered_buoy", steepness=0.13)
 CHAOTIC = {
@@ -88,3 +94,45 @@ def test_a_check_that_does_not_show_it_goes_on_itself_and_then_the_run():
     for ended in (checked(467), checked(50, "newton-failed")):
         more = after({700: ended}, **refused)
         assert (more.periods, more.start, more.check) == (35, RUN, False)
+
+
+def test_the_parts_of_a_check_are_one_record():
+    def check(periods):
+        return SimpleNamespace(periods=periods, followed_by=lambda later: check(periods + later.periods))
+
+    run = LongRun(None, row={"periods": 700.0}, part=Part(SCENE, 90, check=True))
+    for periods in (90, 45, 70):
+        run.take(check(periods))
+    assert run.checks[700].periods == 205 and run.trajectory is None
+
+
+def in_parts(scene, trajectory, row, checks, count):
+    """So many parts of three wave periods."""
+    periods = 0.0 if row is None else row["periods"]
+    return Part(scene, 3, trajectory) if periods < 3 * count - 0.5 else None
+
+
+@pytest.mark.parametrize("counts", [(1, 1), (1, 3), (2, 3), (3, 2)])
+def test_a_run_on_disk_goes_on_by_what_is_asked_for_beyond_it(counts, tmp_path):
+    (tmp_path / "trajectories").mkdir()
+    starts = []
+
+    def simulate(scene, periods, start=None):
+        starts.append(start)
+        run = sines(scene, periods)
+        run.columns["time_s"] += 0.0 if start is None else start.columns["time_s"][-1]
+        return run
+
+    def describe(run):
+        return {"status": "ok", "periods": run.columns["time_s"][-1] / SCENE.waves.period_s}
+
+    plan = Plan(Running(tmp_path, 1, "threading"), simulate, describe, (STATUS, PERIODS_RUN, RUN_KEY))
+    finished = 0
+    for count in counts:
+        summary = run_campaign(plan, [Job({}, SCENE, 1500, going=partial(in_parts, count=count))])
+        longest = max(count, finished)
+        assert summary.rows[0]["periods"] == pytest.approx(3.0 * longest)
+        assert [start is None for start in starts] == [finished + part == 0 for part in range(longest - finished)]
+        assert summary.computed == (longest > finished)
+        starts.clear()
+        finished = longest

@@ -1,9 +1,12 @@
 """`campaigns.orbits`: the orbits under motions, along a key; where orbits say that a motion ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from campaigns.explore.tracing import Line, Scenes, line_task, work
+from campaigns.finer import finer
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.orbits import main
@@ -40,7 +43,10 @@ def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     path.write_bytes(path.read_bytes()[:-7])
     assert done(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
     assert done(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
-    assert line_task(doubles, line, (0.4,)).key != task.key
+    others = [replace(line, **{name: 0.15}) for name in ("low", "high", "size", "value", "rtol")]
+    others += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2).to_toml(), line.scenes.key, "a"))]
+    keys = {line_task(doubles, other, (0.3,)).key for other in (line, *others)}
+    assert len(keys | {line_task(doubles, line, (0.4,)).key}) == len(others) + 2, "a key has all that a result rests on"
 
 
 class Digest:

@@ -1,12 +1,16 @@
 """`campaigns.regime_map`: cells and their borders on a system of known folds; a command whose runs may fail; cuts."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
 from campaigns.explore.grid import varied
-from campaigns.regime_map import main, read_order
+from campaigns.regime_map import main, maps, read_order
+from campaigns.regime_map.answer import sentences
 from campaigns.regime_map.cells import CellGrid, Quadtree
+from engine import load_scene
 from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
@@ -100,6 +104,42 @@ def test_a_damaged_file_counts_as_computed_again(tmp_path, unscreened, capsys):
     capsys.readouterr()
     assert run(tmp_path, *VARY) == 0
     assert ": 1 computed, 5 found" in capsys.readouterr().out
+
+
+CELL = {"level": 0, "source": "computed", "motions": 2, "regime_rest": "period-1", "tension_over_static": 3.0}
+
+
+def test_the_answer_counts_cells_of_the_coarse_grid_and_names_the_largest_tension_with_its_kicks():
+    """Of four cells one is chaotic from rest, two are in some motion; parts of one of them are no further cells."""
+    cells, motions = [], []
+    for place, regimes in enumerate((("period-1",), ("chaotic",), ("period-2", "chaotic"), ("undecided",))):
+        key = {"waves.steepness": 0.1 * place}
+        cells.append(CELL | key | {"regime_rest": regimes[0], "tension_top_max_N": 1e3 * place})
+        for number, regime in enumerate(regimes):
+            pull_N = 1e3 * place * (1 - 0.5 * number)
+            motions.append(key | {"level": 0, "regime": regime, "tension_top_max_N": pull_N, "share": 0.25, "kicks": 8})
+    for part in range(4):
+        motions.append({"waves.steepness": 0.21 + 0.01 * part, "level": 1, "regime": "chaotic"})
+    keys = grid("waves.steepness 0 0.3 4").columns
+    lines = list(sentences(cells, motions, keys, lambda row: load_scene("tethered_buoy")))
+    assert "chaotic on 25 %, quasi-periodic on 0 % and periodic on 50 % of the map; 25 % is not decided" in lines[1]
+    assert lines[2] == "Some motion is chaotic on 50 % of the map."
+    assert lines[3] == "Largest tension 3 kN, 3 times that at rest, at kA = 0.3; 2 of 8 kicks there end in it."
+
+
+@pytest.mark.parametrize(
+    ("evidence", "cheap"),
+    [
+        ("close: 0.001/0.002/yes", True),
+        ("no growth: -1/0/yes", True),
+        ("close: 0.004/0.002/no; no growth: 1/0/no", False),
+    ],
+)
+def test_a_cheap_verdict_needs_a_close_return_or_perturbations_that_do_not_grow(evidence, cheap, monkeypatch):
+    row = {"regime": "undecided", "strobed_period": 3, "evidence": evidence}
+    monkeypatch.setattr(maps, "buoy_row", lambda run, judgement: dict(row))
+    cell = maps.cell_row(SimpleNamespace(columns={"radius_rate_mps": [1.0], "angle_rate_radps": [1.0]}), None)
+    assert (cell["regime"], cell["verdict"]) == (("period-3", "cheap") if cheap else ("undecided", "full"))
 
 
 @pytest.mark.slow

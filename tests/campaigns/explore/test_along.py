@@ -1,12 +1,13 @@
 """Law: along a parameter every motion is found, has one letter on its branch, and its range ends where theory says."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis.motions import share_of
-from campaigns.explore import ends, stages
+from campaigns.explore import ends, stages, tracing
 from campaigns.explore.motions import in_a_row
 from campaigns.explore.proposals import kicks
 from campaigns.explore.starts import Start
@@ -18,12 +19,21 @@ VALUES = [round(-0.6 + 0.1 * step, 1) for step in range(13)]
 KEY = Column("p", "", "p", "the parameter", 1)
 
 
+def search(monkeypatch, folder, values):
+    """The motions of a sweep whose kicks reach both sides."""
+    motions = ToyMotions(folder, [KEY], in_a_row(len(values)))
+    return explored(monkeypatch, motions, [Job({"p": p}, Scene(p)) for p in values], kicks=4)
+
+
 @pytest.fixture
 def found(monkeypatch, tmp_path):
-    """The motions of a sweep whose kicks reach both sides."""
-    monkeypatch.setattr(ends, "by_orbits", lambda *arguments: {})  # no cable here
-    motions = ToyMotions(tmp_path, [KEY], in_a_row(len(VALUES)))
-    return explored(monkeypatch, motions, [Job({"p": p}, Scene(p)) for p in VALUES], kicks=4)
+    return search(monkeypatch, tmp_path, VALUES)
+
+
+def test_of_two_motions_of_the_first_place_that_from_rest_is_a(monkeypatch, tmp_path):
+    motions = search(monkeypatch, tmp_path, [-0.1, 0.0, 0.1])
+    assert [[motion.branch.letter for motion in here] for here in motions.at] == [["A", "B"]] * 3
+    assert all(motion.found_by == "rest" for motion, _ in motions.at)
 
 
 def test_both_branches_are_found_wherever_they_are_and_keep_their_letter(found):
@@ -57,7 +67,17 @@ def test_shares_count_every_kick(found):
         assert {found.labels(one)["kicks"] for one in motions} == {4}
 
 
-def test_ranges_end_at_the_folds(found):
+@pytest.mark.parametrize(("off", "exact"), [(0.0, True), (0.3, False)])
+def test_ranges_end_at_the_folds_and_by_orbits_that_end_there(found, monkeypatch, off, exact):
+    """off: how far beyond the fold the orbit is lost that stands for those of a cable."""
+
+    def lost(plan, folder, title, tasks):
+        return [
+            ({"reason": "", "value": ahead * (FOLD + off), "error": 1e-4, "kind": "fold"}, []) for ahead in tasks
+        ], 0
+
+    monkeypatch.setattr(tracing, "work", lost)
+    monkeypatch.setattr(tracing, "line_task", lambda do, line, arguments: arguments[1])
     rows = {(row["motion"], row["end"]): row for row in ends.find_ends(found, Scene)}
     assert set(rows) == {("A", "upper"), ("B", "lower")}
     width = (VALUES[-1] - VALUES[0]) / ends.SHARPNESS
@@ -66,6 +86,24 @@ def test_ranges_end_at_the_folds(found):
         low, high = sorted((row["p_with"], row["p_without"]))
         assert low <= fold <= high and high - low <= width
         assert row["leads_to"] == {"A": "B", "B": "A"}[row["motion"]]
+        assert (row.get("p_end"), row.get("kind")) == ((fold, "fold") if exact else (None, None))
+
+
+@pytest.mark.parametrize(
+    ("shift", "words"),
+    [
+        (0.0, "at a tenth of the tolerance and on 81 nodes"),
+        (0.2, "NOT with a tenth of the tolerance, where it becomes B"),
+    ],
+)
+def test_a_branch_is_confirmed_where_its_tension_is_largest(found, monkeypatch, shift, words):
+    """shift: of p by a change of the method; A is lost beyond its fold."""
+    monkeypatch.setattr(Scene, "tether", SimpleNamespace(nodes=41), raising=False)
+    monkeypatch.setattr(ends, "finer", lambda scene, **change: Scene(scene.p + shift))
+    ends.confirm(found)
+    confirmed = {branch[0].branch.letter: branch[0].branch.confirmed for branch in found.branches()}
+    assert confirmed["A"].startswith(words) and confirmed["A"].endswith(", at 0.3")
+    assert confirmed["B"] == "at a tenth of the tolerance and on 81 nodes, at 0.6"
 
 
 def test_what_is_found_again_is_one_motion(found):

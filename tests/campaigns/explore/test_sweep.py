@@ -4,7 +4,12 @@ import csv
 
 import pytest
 
+import engine
 from campaigns import buoy_sweep
+from campaigns.explore import ends, stages
+from campaigns.explore.motions import Motions, Search
+from campaigns.machinery.cli import Running
+from campaigns.machinery.plan import Plan
 
 SMALL = [
     "--set",
@@ -42,6 +47,18 @@ def test_two_motions_of_one_wave_are_two_rows_and_found_again_from_the_files(tmp
     assert buoy_sweep.main(words) == 0
     assert "4: 0 computed, 4 found" in capsys.readouterr().out
     assert table(tmp_path) == first and table(tmp_path / "starts") == started
+
+
+def test_kicks_are_as_many_as_fast_and_of_the_seed_as_asked_for(tmp_path, monkeypatch):
+    words = ["--steepness", "0.1", "0.12", "--starts", "3", "--kick-speed", "2.5", "--seed", "7"]
+    order = buoy_sweep.read_order([*words, "--out", str(tmp_path / "new")], faults := [])
+    searches = []
+    monkeypatch.setattr(stages, "explore", lambda motions, jobs, search: searches.append(search))
+    monkeypatch.setattr(Motions, "write", lambda motions: None)
+    monkeypatch.setattr(ends, "find_ends", lambda motions, scenes: None)
+    plan = Plan(Running(tmp_path), engine.simulate, None, ())
+    buoy_sweep.runs(order)(plan, order.cases)
+    assert faults == [] and searches == [Search(order, 3, 2.5, 7)]
 
 
 @pytest.mark.parametrize(

@@ -216,8 +216,9 @@ def test_a_slack_sine_has_its_half_waves(waves):
     assert buckling_waves(SimpleNamespace(**shape, tension_N=np.ones((1, 200)))) is None
 
 
-def test_the_normalised_lift_is_the_static_stretch_over_the_diameter():
-    scene = load_scene("tethered_buoy", {"water.depth_m": 300.0})
+@pytest.mark.parametrize("gravity_mps2", [9.81, 3.7])
+def test_the_normalised_lift_is_the_static_stretch_over_the_diameter(gravity_mps2):
+    scene = load_scene("tethered_buoy", {"water.depth_m": 300.0, "gravity_mps2": gravity_mps2})
     modes = natural_frequencies(scene)
     found, twice = scales(scene, modes, 0.016, 0.13), scales(scene, modes, 0.016, 0.26)
     stretch_m = modes.static_strain * scene.tether.length_m
