@@ -21,7 +21,7 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run_campaign
 from engine import load_scene
-from tests.campaigns.conftest import ROOT, USUAL, VALUES, finished, rows_of, until
+from tests.campaigns.conftest import ROOT, USUAL, VALUES, until
 from tests.campaigns.fake_engine import FakeEngine
 
 distributed = pytest.importorskip("distributed")
@@ -107,17 +107,6 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
     for name in (f"{job.key}.nc", f"{job.key}.row.json", "an orbit.orbit.json"):
         here, there = (place / "trajectories" / name for place in places)
         assert here.read_bytes() == there.read_bytes()
-
-
-@pytest.mark.slow
-def test_the_results_are_those_of_processes(dask, tmp_path):
-    tables = []
-    for name, more in (("loky", []), ("dask", at(dask()))):
-        words = ["--steepness", *VALUES, "--periods", "12", "--transient", "2", "--no-report", *more]
-        engine = FakeEngine(breaks=(0.03,), raises=(0.05,))
-        assert buoy_sweep.main([*words, "--out", str(tmp_path / name)], simulate=engine) == 0
-        tables.append((rows_of(tmp_path / name), sorted(finished(tmp_path / name))))
-    assert tables[0] == tables[1]
 
 
 @pytest.mark.slow

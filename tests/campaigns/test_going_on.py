@@ -1,4 +1,7 @@
-"""What a run does next (`campaigns.machinery.long_runs`): on to its next look, to a tighter tolerance, or nothing."""
+"""What a run does next (`campaigns.machinery.long_runs`): on to its next look, to a tighter tolerance, or nothing.
+
+Chaos beside periodic motions that began as chaos has to outlast their transients (`campaigns.explore.transients`).
+"""
 
 from functools import partial
 from types import SimpleNamespace
@@ -6,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from campaigns.explore.transients import TIMES, outlasting
 from campaigns.machinery.cli import Running
 from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
 from campaigns.machinery.plan import Job, Plan
@@ -20,6 +24,9 @@ CHAOTIC = {
     "lyapunov_tangent_bits_per_period": 0.1, "lyapunov_tangent_error": 0.02,
 }  # fmt: skip
 RUN = SimpleNamespace(tangent=None)
+
+
+LASTING = {**CHAOTIC, "regime_tighter": "chaotic", "periods": 465.0, "transient_periods": 155}
 
 
 def after(checks=None, budget=1500, looks=True, run=RUN, **row):
@@ -136,3 +143,29 @@ def test_a_run_on_disk_goes_on_by_what_is_asked_for_beyond_it(counts, tmp_path):
         assert summary.computed == (longest > finished)
         starts.clear()
         finished = longest
+
+
+def asked(*rows):
+    going = partial(until_judged, budget=1500, looks=True)
+    jobs = [Job({}, SCENE, 1500, going=going, made=str(at), engine="") for at in range(len(rows))]
+    by_key = {job.key: row for job, row in zip(jobs, rows, strict=True) if row}
+    longer = outlasting(jobs, by_key, lambda at: (at - 1, at + 1))
+    return {int(job.made): job for job in longer}
+
+
+def settled(transient):
+    return {"status": "ok", "regime": "period-6", "periods": 735.0, "transient_periods": transient}
+
+
+def test_chaos_goes_on_where_a_neighbour_settled_late_and_only_there():
+    jobs = asked(LASTING, LASTING, settled(200), None, LASTING, settled(30), {"status": "newton-failed"})
+    assert list(jobs) == [1]
+    for periods, ends in ((465.0, False), (735.0, False), (TIMES * 200.0, True), (1440.0, True)):
+        further = jobs[1].going(SCENE, RUN, LASTING | {"periods": periods}, {})
+        assert (further is None) == ends, periods
+        assert ends or (further.scene.output.tangent_vectors, further.check) == (1, False)
+
+
+def test_what_is_no_chaos_any_more_ends():
+    (job,) = asked(LASTING, settled(900)).values()
+    assert job.going(SCENE, RUN, settled(900), {}) is None

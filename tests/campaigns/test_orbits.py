@@ -105,14 +105,23 @@ def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(t
 
 
 @pytest.mark.slow
-def test_a_sweep_tells_multipliers_and_the_fold_at_which_a_motion_ends(tmp_path):
+def test_a_sweep_has_a_row_for_each_motion_with_multipliers_and_the_fold_at_which_it_ends(tmp_path, capsys):
     """H = 25 m: the period 3 is an island that begins at a fold at kA = 0.12087 (81 nodes: the same to 2e-4)."""
     from campaigns.buoy_sweep import main as sweep
 
     words = ["--set", "water.depth_m=25", "--steepness", "0.12", "0.13", "--no-accuracy", "--no-report"]
-    assert sweep([*words, "--starts", "0", "--out", str(tmp_path)]) == 0
-    found = {(row["steepness"], row["regime"]): row for row in rows_of(tmp_path)}
-    one, three = found["0.13", "period-1"], found["0.13", "period-3"]
+    words += ["--starts", "2", "--out", str(tmp_path)]
+    assert sweep(words) == 0
+    rows, starts = rows_of(tmp_path), rows_of(tmp_path, "starts/table.csv")
+    assert [(row["steepness"], row["motion"]) for row in rows] == [("0.12", "A"), ("0.13", "A"), ("0.13", "B")]
+    assert all(float(row["share_low"]) <= float(row["share"]) <= float(row["share_high"]) for row in rows)
+    assert {row["motion"] for row in starts} == {"A", "B"} and {row["status"] for row in starts} == {"ok"}
+    assert sweep(words) == 0 and "3: 0 computed, 3 found" in capsys.readouterr().out
+    assert rows_of(tmp_path) == rows and rows_of(tmp_path, "starts/table.csv") == starts
+    _, one, three = rows
+    assert (one["regime"], three["regime"]) == ("period-1", "period-3")
+    for row, pull_N in ((one, 4205), (three, 5625)):
+        assert float(row["tension_top_max_N"]) == pytest.approx(pull_N, abs=25)
     assert float(one["multiplier_modulus"]) == pytest.approx(0.9005, abs=float(one["multiplier_error"]) + 5e-3)
     assert float(three["multiplier_angle_rad"]) == pytest.approx(np.pi)
     # 21 meshes, at seven tolerances from .003 to .0005, give .735 with a standard deviation of .03

@@ -12,7 +12,6 @@ from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
 from engine import Trajectory, load_scene
 from engine.trajectory import Profiles
-from reports import build
 from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
 from reports.parts.content import Figure, Notice
@@ -200,15 +199,9 @@ def test_the_paper_is_borne_out_where_its_large_wave_grows_to_the_size_of_the_mo
 
 
 @pytest.mark.slow
-def test_same_folder_same_report(rows, place):
-    first = [path.read_bytes() for path in build(place)]
-    assert [path.read_bytes() for path in build(place, again=True)] == first
-    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 3
-
-
-@pytest.mark.slow
-def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(tmp_path):
-    made(tmp_path, 80, raises=(0.016,), failing=(25.0,))
+@pytest.mark.parametrize("failing", [(25.0,), (21.0, 21.6, 22.0)], ids=["a depth", "the base"])
+def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(failing, tmp_path):
+    made(tmp_path, 80, raises=(0.016,), failing=failing)
     items = report(tmp_path).items
     assert any("statics-failed" in line for line in warned(items))
     assert any("a fault of the code" in line for line in warned(items))
@@ -218,13 +211,6 @@ def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(tmp_path):
     again = report(tmp_path).items
     assert sum(isinstance(item, Figure) for item in again) < sum(isinstance(item, Figure) for item in items)
     assert sum("missing" in line for line in warned(again)) > 10
-
-
-@pytest.mark.slow
-def test_a_base_that_failed_leaves_a_report(tmp_path):
-    made(tmp_path, 80, failing=(21.0, 21.6, 22.0))
-    items = report(tmp_path).items
-    assert any("statics-failed" in line for line in warned(items))
 
 
 @pytest.mark.slow

@@ -32,14 +32,6 @@ KEY, RUN = "a" * 64, b"the content of its file"
 WITH_REPORT = ["--periods", "6", "--no-accuracy"]
 
 
-def test_a_second_run_computes_nothing_and_says_the_same(sweep):
-    code, rows, begun = sweep(*THREE.split())
-    assert (code, begun) == (0, [0.02, 0.05, 0.13])
-    files = finished(sweep.out)
-    assert sweep(*THREE.split()) == (0, rows, [])
-    assert finished(sweep.out) == files
-
-
 @pytest.mark.parametrize(
     ("first", "second", "values", "begun"),
     [
@@ -206,6 +198,7 @@ def test_what_is_recorded(sweep):
     assert found["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
     assert found["versions"]["python"] == platform.python_version()
     assert found["versions"]["numpy"] == numpy.__version__
+    assert found["git"] == session.git_state(ROOT / "campaigns")
     assert found["host"] == socket.gethostname()
     assert found["engine_source_hash"] == source_hash()
     assert (found["steepness"], found["periods"], found["transient"]) == ([0.02, 0.13], 6, 2)
@@ -216,14 +209,6 @@ def test_what_is_recorded(sweep):
     assert found["started_utc"] <= found["finished_utc"]
 
 
-def test_git_state_is_that_of_the_checkout(tmp_path):
-    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
-    if head.returncode != 0:
-        pytest.skip("not a checkout")
-    record = session.begun(tmp_path, "any", [], {})
-    assert record["git"]["commit"] == session.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
-
-
 def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there_is_no_commit(tmp_path):
     git = ["git", "-C", str(tmp_path), "-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "core.hooksPath=/dev/null"]
     package = tmp_path / "campaigns"
@@ -232,7 +217,8 @@ def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there
     (package / "file").write_text("1")
     for words in (["init", "-q"], ["add", "-A"], ["commit", "-q", "-m", "one"]):
         subprocess.run([*git, *words], check=True)
-    assert session.git_state(package)["dirty"] is False
+    commit = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True).stdout.strip()
+    assert session.git_state(package) == {"commit": commit, "dirty": False}
     (package / "file").write_text("2")
     assert session.git_state(package)["dirty"] is True
 
@@ -242,9 +228,9 @@ def test_a_run_that_computes_nothing_changes_nothing_and_other_parameters_make_a
         return {path.name: path.read_bytes() for path in sweep.out.glob("[!.]*") if path.is_file()}
 
     sweep("--steepness", "0.02", "0.13")
-    before = files()
-    sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
-    assert files() == before
+    before, runs = files(), finished(sweep.out)
+    code, _, begun = sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
+    assert (code, begun, files(), finished(sweep.out)) == (0, [], before, runs)
     sweep("--steepness", "0.02")
     assert record(sweep.out)["steepness"] == [0.02]
     assert record(sweep.out)["runs"]["found"] == 1
