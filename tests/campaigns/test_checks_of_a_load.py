@@ -25,9 +25,9 @@ PULLS = {"status": "ok", "tension_top_max_N": 1000.0, "steepness": 0.1, "end_tim
 def checked(row, scene, searched=False) -> tuple[str, str]:
     """The two lists of the sentence."""
     said = use_of(row, scene, searched)
-    made, _, missing = said.partition("; not checked: ")
-    assert made.startswith("Checked: ") and missing
-    return made, missing
+    passed, _, missing = said.partition("; not checked: ")
+    assert passed.startswith("Checked: ") and missing
+    return passed, missing
 
 
 def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left():
@@ -40,21 +40,21 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_what_a_row_knows_was_checked(name):
-    made, missing = checked(PULLS | KNOWN[name], load_scene("tethered_buoy"))
-    assert name in made and name not in missing
+    passed, missing = checked(PULLS | KNOWN[name], load_scene("tethered_buoy"))
+    assert name in passed and name not in missing
 
 
 @pytest.mark.parametrize("name", IN_SCENE)
 def test_what_a_scene_has_was_checked(name):
-    made, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
-    assert name in made and name not in missing
+    passed, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
+    assert name in passed and name not in missing
 
 
 def test_other_motions_were_looked_for_where_a_share_is_known():
     scene = load_scene("tethered_buoy")
-    alone = sentences([PULLS], "steepness", "kA", scene)
+    single = sentences([PULLS], "steepness", "kA", scene)
     kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
-    assert "other motions" in alone[-1].partition("not checked")[2]
+    assert "other motions" in single[-1].partition("not checked")[2]
     assert "other motions" not in kicked[-1].partition("not checked")[2]
 
 

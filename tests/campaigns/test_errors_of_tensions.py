@@ -19,12 +19,12 @@ from tests.campaigns.fake_engine import sines
 
 def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands_above_the_usual():
     row = {"tension_top_max_N": 105.0, "unresolved_ringing_N": 0.5}
-    same = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
-    assert error_N(row, 101.0, same) == (7.5, ["the largest tension holds to 7 % only"])
-    assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, same) == (4.5, [])
-    _, (other, _) = error_N(row, 101.0, same | {"outcome": UNSETTLED})
+    companion = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
+    assert error_N(row, 101.0, companion) == (7.5, ["the largest tension holds to 7 % only"])
+    assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, companion) == (4.5, [])
+    _, (other, _) = error_N(row, 101.0, companion | {"outcome": UNSETTLED})
     assert OTHER_MOTION in other
-    unknown, (ended,) = error_N(row, 101.0, same | {"status": "newton-failed"})
+    unknown, (ended,) = error_N(row, 101.0, companion | {"status": "newton-failed"})
     assert np.isnan(unknown) and "newton-failed" in ended
 
 
@@ -43,8 +43,8 @@ def test_the_error_of_a_slack_fraction_covers_its_distance_from_the_limit(bias):
 
 
 def test_a_slack_fraction_that_the_companion_moves_is_told_and_chance_is_not():
-    same, scattered = np.full(4, 0.65), np.array([0.58, 0.72, 0.66, 0.64])
-    assert slack_error(same, {"slack_fraction": 0.71}) == (
+    companion, scattered = np.full(4, 0.65), np.array([0.58, 0.72, 0.66, 0.64])
+    assert slack_error(companion, {"slack_fraction": 0.71}) == (
         pytest.approx(0.08),
         ["the slack fraction holds to 0.08 only"],
     )

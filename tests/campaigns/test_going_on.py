@@ -145,7 +145,7 @@ def test_a_run_on_disk_goes_on_by_what_is_asked_for_beyond_it(counts, tmp_path):
         finished = longest
 
 
-def asked(*rows):
+def longer_jobs(*rows):
     going = partial(until_judged, budget=1500, looks=True)
     jobs = [Job({}, SCENE, 1500, going=going, made=str(at), engine="") for at in range(len(rows))]
     by_key = {job.key: row for job, row in zip(jobs, rows, strict=True) if row}
@@ -158,7 +158,7 @@ def settled(transient):
 
 
 def test_chaos_goes_on_where_a_neighbour_settled_late_and_only_there():
-    jobs = asked(LASTING, LASTING, settled(200), None, LASTING, settled(30), {"status": "newton-failed"})
+    jobs = longer_jobs(LASTING, LASTING, settled(200), None, LASTING, settled(30), {"status": "newton-failed"})
     assert list(jobs) == [1]
     for periods, ends in ((465.0, False), (735.0, False), (TIMES * 200.0, True), (1440.0, True)):
         further = jobs[1].going(SCENE, RUN, LASTING | {"periods": periods}, {})
@@ -167,5 +167,5 @@ def test_chaos_goes_on_where_a_neighbour_settled_late_and_only_there():
 
 
 def test_what_is_no_chaos_any_more_ends():
-    (job,) = asked(LASTING, settled(900)).values()
+    (job,) = longer_jobs(LASTING, settled(900)).values()
     assert job.going(SCENE, RUN, settled(900), {}) is None

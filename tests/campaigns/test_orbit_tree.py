@@ -71,7 +71,7 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
     rows, events = rows_of(tmp_path, "branches/table.csv"), rows_of(tmp_path, "events/table.csv")
     assert [(row["branch"], row["motion"]) for row in rows] == [("1", "A B"), ("2", ""), ("4", "")]
     for branch, kind, value, leads in (("1", "fold", FOLD, ""), ("1", "flip", FLIP, "2"), ("2", "flip", SECOND, "4")):
-        (event,) = (one for one in events if (one["branch"], one["kind"]) == (branch, kind))
+        (event,) = (candidate for candidate in events if (candidate["branch"], candidate["kind"]) == (branch, kind))
         assert abs(float(event["a"]) - value) <= float(event["error"]) < 1e-2 and event["leads_to"] == leads
     assert all(float(row["multiplier_1_error"]) < 1e-6 for row in rows_of(tmp_path)), "every multiplier has an error"
     assert {row["unstable"] for row in rows_of(tmp_path, "orbits/table.csv")} == {"0", "1"}
@@ -80,8 +80,8 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
             way = 1 if float(row["radius_max_m"]) > -(1 - B) / 2 else -1
             moduli = np.abs(np.roots([1.0, 2.0 * fixed(float(row["a"]), way)[0, 0], -B]))
             assert np.min(np.abs(moduli - 1.0)) < 1e-6 or int(row["unstable"]) == np.count_nonzero(moduli > 1.0)
-    again = grown(tmp_path)
-    assert first.computed > 0 and again.computed == 0 and again.there == first.computed + first.there
+    second = grown(tmp_path)
+    assert first.computed > 0 and second.computed == 0 and second.there == first.computed + first.there
 
 
 def test_an_event_is_known_as_well_as_steps_and_a_finer_grid_agree(tmp_path, monkeypatch):
@@ -94,9 +94,9 @@ def test_an_event_is_known_as_well_as_steps_and_a_finer_grid_agree(tmp_path, mon
         monkeypatch.setattr(f"campaigns.orbits.tree.{name}", result)
     events = [event for branch in tree.branches for event in branch.result["events"]]
     events[0]["error"] = None
-    before = [dict(event) for event in events]
+    earlier = [dict(event) for event in events]
     tree.refine()
-    for event, old in zip(events, before, strict=True):
+    for event, old in zip(events, earlier, strict=True):
         sharp = old["error"] is None or old["error"] > SHARP
         assert event["value"] == pytest.approx(old["value"] + 0.01 * sharp)
         assert event["finer"] == pytest.approx(event["value"] + 0.02)

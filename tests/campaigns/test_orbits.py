@@ -34,8 +34,8 @@ def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     task = line_task(doubles, line, (0.3,))
 
     def done(task):
-        ((pair,), found) = work(plan, tmp_path / "kept", "doubling", [task])
-        return pair, found
+        ((pair,), reused) = work(plan, tmp_path / "kept", "doubling", [task])
+        return pair, reused
 
     assert done(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 0)
     assert done(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 1)
@@ -43,10 +43,10 @@ def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     path.write_bytes(path.read_bytes()[:-7])
     assert done(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
     assert done(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
-    others = [replace(line, **{name: 0.15}) for name in ("low", "high", "size", "value", "rtol")]
-    others += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2).to_toml(), line.scenes.key, "a"))]
-    keys = {line_task(doubles, other, (0.3,)).key for other in (line, *others)}
-    assert len(keys | {line_task(doubles, line, (0.4,)).key}) == len(others) + 2, "a key has all that a result rests on"
+    lines = [replace(line, **{name: 0.15}) for name in ("low", "high", "size", "value", "rtol")]
+    lines += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2).to_toml(), line.scenes.key, "a"))]
+    keys = {line_task(doubles, other, (0.3,)).key for other in (line, *lines)}
+    assert len(keys | {line_task(doubles, line, (0.4,)).key}) == len(lines) + 2, "a key has all that a result rests on"
 
 
 class Digest:

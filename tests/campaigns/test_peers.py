@@ -23,9 +23,9 @@ def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s
     ours = simulate(scene, duration_s=duration_s)
     theirs = peer_scipy.simulate(scene, duration_s, nodes, 1e-5, "Radau")
     assert theirs.status == "ok" and theirs.statistics["newton_failures"] == 0
-    found, expected = samples_of(work, theirs), samples_of(work, ours)
+    theirs_m, expected = samples_of(work, theirs), samples_of(work, ours)
     assert np.ptp(expected, axis=0).max() > 0.05
-    assert rms_mm(found, expected) < cap_mm
+    assert rms_mm(theirs_m, expected) < cap_mm
 
 
 @pytest.mark.slow
@@ -59,8 +59,8 @@ def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum()
 def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
     monkeypatch.setattr(jobs.importlib.util, "find_spec", lambda name: None if name != "scipy" else object())
     effort = replace(FULL, works=("snap", "pendulum"))
-    *before, timed = jobs.phases(tmp_path, effort, False, True)
-    assert not any(job.labels["kind"].startswith("peer") for phase in before for job in phase)
+    *untimed, timed = jobs.phases(tmp_path, effort, False, True)
+    assert not any(job.labels["kind"].startswith("peer") for phase in untimed for job in phase)
     missing = [job for job in timed if job.labels.get("peer_version") == ""]
     assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn"}
     for job in missing:

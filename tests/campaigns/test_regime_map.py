@@ -20,7 +20,7 @@ VARY = "--vary", "waves.steepness", 0.02, 0.1, 3, "--vary", "water.depth_m", 21,
 
 
 def grid(*words):
-    return CellGrid(tuple(varied(one.split(), []) for one in words))
+    return CellGrid(tuple(varied(cell_of_table.split(), []) for cell_of_table in words))
 
 
 def square(count=SIDE):
@@ -60,10 +60,10 @@ def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cel
     tree.add(shape.coarse())
     motions = ToyMotions(tmp_path, shape.columns, tree.neighbours, match_distance=0.1)
     jobs = [Job(shape.labels(cell), Scene(*shape.labels(cell).values())) for cell in tree.cells]
-    for job, found in zip(jobs, explored(monkeypatch, motions, jobs, kicks=0).at, strict=True):
+    for job, motions_here in zip(jobs, explored(monkeypatch, motions, jobs, kicks=0).at, strict=True):
         p, q = job.labels.values()
-        assert len(found) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
-        assert len({motion.branch.letter for motion in found}) == len(found)
+        assert len(motions_here) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
+        assert len({motion.branch.letter for motion in motions_here}) == len(motions_here)
     assert {motion.branch.letter for motion in motions.all_motions()} <= {"A", "B"}
     assert motions.starts.count < 4 * SIDE**2  # where a neighbour has a like motion, nothing is run
 
@@ -76,15 +76,15 @@ def unscreened(monkeypatch):
 def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
     assert run(tmp_path, *VARY, engine=FakeEngine(raises=(0.06,))) == 0
     cells = rows_of(tmp_path, "cells/table.csv")
-    assert [(one["waves.steepness"], one["water.depth_m"]) for one in cells] == [
+    assert [(cell_of_table["waves.steepness"], cell_of_table["water.depth_m"]) for cell_of_table in cells] == [
         (kA, depth) for kA in ("0.02", "0.06", "0.1") for depth in ("21.0", "23.0")
     ]
-    for one in cells:
-        failed = one["waves.steepness"] == "0.06"
-        assert (one["source"], "a fault of the code" in one["message"]) == (
+    for cell_of_table in cells:
+        failed = cell_of_table["waves.steepness"] == "0.06"
+        assert (cell_of_table["source"], "a fault of the code" in cell_of_table["message"]) == (
             ("failed", True) if failed else ("computed", False)
         )
-        assert one["width_waves.steepness"] == "0.04"
+        assert cell_of_table["width_waves.steepness"] == "0.04"
     rows = rows_of(tmp_path)
     assert {row["status"] for row in rows} == {"ok", "error"} and len(rows) == 6
     assert {(row["regime"], row["verdict"]) for row in rows} == {("period-1", "cheap"), ("", "")}
@@ -146,8 +146,8 @@ def test_a_cheap_verdict_needs_a_close_return_or_perturbations_that_do_not_grow(
 def test_a_massless_screen_computes_no_cell(tmp_path):
     assert run(tmp_path, *VARY, "--screen") == 0
     cells = rows_of(tmp_path, "cells/table.csv")
-    assert {one["source"] for one in cells} == {"screened"} and len(cells) == 6
-    assert all(float(one["tension_over_static"]) > 1.0 for one in cells)
+    assert {cell_of_table["source"] for cell_of_table in cells} == {"screened"} and len(cells) == 6
+    assert all(float(cell_of_table["tension_over_static"]) > 1.0 for cell_of_table in cells)
     assert not (tmp_path / "table.csv").exists()
 
 
@@ -167,8 +167,8 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
     of_map = ["--vary", "waves.steepness", 0.08, 0.1, 2, "--vary", "water.depth_m", 22, 22.5, 2, "--starts", 2]
     whole = [*map(str, of_map), *small, str(tmp_path / "map")]
     assert main(whole) == 0
-    before, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
-    assert main(whole) == 0 and rows_of(tmp_path / "map") == before and finished(tmp_path / "map") == runs
+    earlier, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
+    assert main(whole) == 0 and rows_of(tmp_path / "map") == earlier and finished(tmp_path / "map") == runs
     assert main([*whole, "--cut", "water.depth_m=22"]) == 0
     swept = [
         "--steepness",
@@ -182,7 +182,9 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
     ]
     assert buoy_sweep.main(swept) == 0
     for table in ("table.csv", "starts/table.csv"):
-        own, other = (rows_of(tmp_path / folder, table) for folder in ("map/cuts/water.depth_m=22.0", "sweep"))
-        assert [{**row, "wall_s": ""} for row in own] == [{**row, "wall_s": ""} for row in other]
-    rest = {row["run_key"] for row in before if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
+        cut_rows, swept_rows = (
+            rows_of(tmp_path / folder, table) for folder in ("map/cuts/water.depth_m=22.0", "sweep")
+        )
+        assert [{**row, "wall_s": ""} for row in cut_rows] == [{**row, "wall_s": ""} for row in swept_rows]
+    rest = {row["run_key"] for row in earlier if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
     assert len(rest) == 2 and rest <= {row["run_key"] for row in rows_of(tmp_path / "sweep")}

@@ -76,10 +76,10 @@ def test_files_under_each_others_names_are_computed_again_and_that_is_said(sweep
     Trajectory.from_bytes(contents[1]).save(paths[2], {"run_key": rows[2]["run_key"]})
     capfd.readouterr()
     assert sweep(*THREE.split()) == (0, rows, [0.02, 0.05, 0.13])
-    told = [line for line in capfd.readouterr().err.splitlines() if "computed again" in line]
-    assert len(told) == 3
-    assert all(key["run_key"] in line for key, line in zip([rows[1], rows[0]], told, strict=False))
-    assert "its scene is not the one" in told[2]
+    lines = [line for line in capfd.readouterr().err.splitlines() if "computed again" in line]
+    assert len(lines) == 3
+    assert all(key["run_key"] in line for key, line in zip([rows[1], rows[0]], lines, strict=False))
+    assert "its scene is not the one" in lines[2]
     assert [path.read_bytes() for path in paths] == contents
 
 
@@ -228,9 +228,9 @@ def test_a_run_that_computes_nothing_changes_nothing_and_other_parameters_make_a
         return {path.name: path.read_bytes() for path in sweep.out.glob("[!.]*") if path.is_file()}
 
     sweep("--steepness", "0.02", "0.13")
-    before, runs = files(), finished(sweep.out)
+    earlier, runs = files(), finished(sweep.out)
     code, _, begun = sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
-    assert (code, begun, files(), finished(sweep.out)) == (0, [], before, runs)
+    assert (code, begun, files(), finished(sweep.out)) == (0, [], earlier, runs)
     sweep("--steepness", "0.02")
     assert record(sweep.out)["steepness"] == [0.02]
     assert record(sweep.out)["runs"]["found"] == 1
@@ -250,8 +250,8 @@ def test_unknown_is_empty(sweep):
     for row in rows:
         assert row["regime"] == ""
         assert all(entry == "" for name, entry in row.items() if "lyapunov" in name or "offplane" in name)
-    given = {name for name, entry in rows[1].items() if entry != ""}
-    assert given == {"steepness", "dimensions", "status", "message", "run_key"}
+    filled = {name for name, entry in rows[1].items() if entry != ""}
+    assert filled == {"steepness", "dimensions", "status", "message", "run_key"}
 
 
 @pytest.mark.parametrize("fault", [None, RuntimeError("no ink")])
@@ -265,10 +265,10 @@ def test_paths_of_the_report_are_told_and_one_that_fails_leaves_the_results(swee
 
     monkeypatch.setattr("reports.build", build, raising=False)
     code, rows, _ = sweep("--steepness", "0.02", usual=WITH_REPORT)
-    said = capsys.readouterr()
+    printed = capsys.readouterr()
     assert (code, len(rows), built) == (1 if fault else 0, 1, [sweep.out])
-    assert all(word in said.out for word in ("table.csv", "compile", "analysis"))
+    assert all(word in printed.out for word in ("table.csv", "compile", "analysis"))
     if fault:
-        assert "no ink" in said.err and f"python -m reports {sweep.out}" in said.err
+        assert "no ink" in printed.err and f"python -m reports {sweep.out}" in printed.err
     else:
-        assert "report.html" in said.out and "report.pdf" in said.out
+        assert "report.html" in printed.out and "report.pdf" in printed.out

@@ -40,7 +40,7 @@ def may(status: str) -> dict:
 
 
 @pytest.fixture
-def few(monkeypatch):
+def three_cases(monkeypatch):
     """A campaign of three cases."""
     cases = [
         Case("EI", "rest", STILL, **REST),
@@ -86,8 +86,8 @@ def test_a_run_that_cannot_be_kept_stops_the_campaign_and_says_nothing_of_its_ca
         case_row(Case("x", "rest", STILL, **REST), tmp_path / "gone" / "trajectories" / "key.nc")
 
 
-def test_a_process_that_died_is_tried_again_with_the_next_call(few, tmp_path, monkeypatch):
-    few[:] = [Case("x", "y", STILL)]
+def test_a_process_that_died_is_tried_again_with_the_next_call(three_cases, tmp_path, monkeypatch):
+    three_cases[:] = [Case("x", "y", STILL)]
     (tmp_path / "trajectories").mkdir()
     monkeypatch.setattr("campaigns.stability.tasks.load_kernels", lambda: None)
     order = SimpleNamespace(how=Running(tmp_path, 1, "threading"), quick=False, drift_periods=0)
@@ -156,7 +156,7 @@ def test_every_case_says_why_it_may_end_otherwise_and_has_a_name_of_its_own():
 
 
 @pytest.mark.slow
-def test_a_campaign_leaves_its_files_and_is_not_done_twice(few, tmp_path, capsys):
+def test_a_campaign_leaves_its_files_and_is_not_done_twice(three_cases, tmp_path, capsys):
     out = tmp_path / "out"
     words = [*WORDS, "--out", str(out)]
     assert stability.main(words) == 0
@@ -165,10 +165,10 @@ def test_a_campaign_leaves_its_files_and_is_not_done_twice(few, tmp_path, capsys
     assert (out / "report.html").exists() and (out / "report.pdf").exists()
     assert (out / "trajectories" / f"{rows[0]['run_key']}.nc").exists()
     assert "3 computed, 0 found" in capsys.readouterr().out
-    before = (out / "table.csv").read_bytes()
+    earlier = (out / "table.csv").read_bytes()
     assert stability.main(words) == 0
     assert "0 computed, 3 found" in capsys.readouterr().out
-    assert (out / "table.csv").read_bytes() == before
+    assert (out / "table.csv").read_bytes() == earlier
 
 
 @pytest.mark.parametrize(("verdict", "code"), [("ok", 0), ("unexplained", 1)])

@@ -44,9 +44,9 @@ def test_two_keys_are_every_pair_of_their_values(tmp_path):
     rows = run(tmp_path, "--vary", "water.depth_m", 21, 23, 3, "--vary", "waves.steepness", 0.02, 0.1, 2, *SHORT)
     found = [(row["water.depth_m"], row["waves.steepness"]) for row in rows]
     assert found == [(depth, kA) for depth in ("21.0", "22.0", "23.0") for kA in ("0.02", "0.1")]
-    told = json.loads((tmp_path / "provenance.json").read_text())
-    assert told["campaign"] == "sweep"
-    assert told["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
+    column_of_table = json.loads((tmp_path / "provenance.json").read_text())
+    assert column_of_table["campaign"] == "sweep"
+    assert column_of_table["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
     columns = dictionary_of(tmp_path)
     assert list(columns) == list(rows[0])
     assert (columns["water.depth_m"]["unit"], columns["water.depth_m"]["symbol"]) == ("m", "H")
@@ -72,9 +72,9 @@ def test_of_an_irregular_sea_the_ramp_is_left_out_or_what_is_asked_for(words, le
 
 def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):
     rows = run(tmp_path, "--vary", "waves.steepness", 0.02, 0.1, 3, *SHORT)
-    _, own, _ = sweep("--steepness-range", 0.02, 0.1, 3)
-    assert [row["run_key"] for row in rows] == [row["run_key"] for row in own]
-    for row, one in zip(rows, own, strict=True):
+    _, buoy_rows, _ = sweep("--steepness-range", 0.02, 0.1, 3)
+    assert [row["run_key"] for row in rows] == [row["run_key"] for row in buoy_rows]
+    for row, one in zip(rows, buoy_rows, strict=True):
         assert row.pop("waves.steepness") == one["steepness"]
         assert row.items() <= one.items()
 
@@ -140,8 +140,8 @@ def test_the_column_of_the_page_reaches_the_table_and_its_dictionary(sweep, monk
     monkeypatch.setitem(sys.modules, of_a_buoy.__name__, module)
     _, (row,), _ = sweep("--steepness", "0.05")
     assert float(row["speed_max_mps"]) == pytest.approx(2 * 3.14159 / 5.0, rel=1e-3)  # of r = 20 + sin(2 pi t/5)
-    told = dictionary_of(sweep.out)["speed_max_mps"]
-    assert (told["unit"], told["digits"]) == ("m/s", "2")
+    column_of_table = dictionary_of(sweep.out)["speed_max_mps"]
+    assert (column_of_table["unit"], column_of_table["digits"]) == ("m/s", "2")
 
 
 DEPTH, MASS = "water.depth_m", "buoy.mass_kg"
@@ -195,8 +195,8 @@ def test_the_report_of_a_sweep_of_any_key(tmp_path, keys):
     figures = [item for item in items if isinstance(item, Figure)]
     assert figures and all("σ" in figure.caption for figure in figures)
     html, pdf = build(tmp_path)
-    before = html.read_bytes(), pdf.read_bytes()
-    assert (build(tmp_path, again=True)[0].read_bytes(), pdf.read_bytes()) == before
+    earlier = html.read_bytes(), pdf.read_bytes()
+    assert (build(tmp_path, again=True)[0].read_bytes(), pdf.read_bytes()) == earlier
     assert "newton-failed" in html.read_text(encoding="utf-8")
 
 

@@ -26,18 +26,18 @@ def search(monkeypatch, folder, values):
 
 
 @pytest.fixture
-def found(monkeypatch, tmp_path):
+def swept(monkeypatch, tmp_path):
     return search(monkeypatch, tmp_path, VALUES)
 
 
 def test_of_two_motions_of_the_first_place_that_from_rest_is_a(monkeypatch, tmp_path):
     motions = search(monkeypatch, tmp_path, [-0.1, 0.0, 0.1])
-    assert [[motion.branch.letter for motion in here] for here in motions.at] == [["A", "B"]] * 3
+    assert [[motion.branch.letter for motion in of_place] for of_place in motions.at] == [["A", "B"]] * 3
     assert all(motion.found_by == "rest" for motion, _ in motions.at)
 
 
-def test_both_branches_are_found_wherever_they_are_and_keep_their_letter(found):
-    for p, motions in zip(VALUES, found.at, strict=True):
+def test_both_branches_are_found_wherever_they_are_and_keep_their_letter(swept):
+    for p, motions in zip(VALUES, swept.at, strict=True):
         states = sorted((float(one.settled.points[0, 0]), one.branch.letter) for one in motions)
         assert [letter for _, letter in states] == (["A", "B"] if abs(p) < FOLD else ["A"] if p < 0 else ["B"])
         assert all((x < 0) == (letter == "A") for x, letter in states)
@@ -57,18 +57,18 @@ def test_kicks_are_independent_and_uniform_whatever_the_place():
 
 def test_the_interval_of_a_share_holds_the_size_of_the_basin_in_95_of_100():
     counts = [sum(x > 0.27 * 12.0 - 6.0 for x, _ in kicks(8, 6.0, seed, 0)) for seed in range(400)]
-    found = [share_of(count, 8) for count in counts]
-    assert np.mean([one.low <= 0.73 <= one.high for one in found]) == pytest.approx(0.95, abs=0.04)
+    swept = [share_of(count, 8) for count in counts]
+    assert np.mean([one.low <= 0.73 <= one.high for one in swept]) == pytest.approx(0.95, abs=0.04)
 
 
-def test_shares_count_every_kick(found):
-    for motions in found.at:
-        assert sum(found.labels(one)["share"] for one in motions) == pytest.approx(1.0)
-        assert {found.labels(one)["kicks"] for one in motions} == {4}
+def test_shares_count_every_kick(swept):
+    for motions in swept.at:
+        assert sum(swept.labels(one)["share"] for one in motions) == pytest.approx(1.0)
+        assert {swept.labels(one)["kicks"] for one in motions} == {4}
 
 
 @pytest.mark.parametrize(("off", "exact"), [(0.0, True), (0.3, False)])
-def test_ranges_end_at_the_folds_and_by_orbits_that_end_there(found, monkeypatch, off, exact):
+def test_ranges_end_at_the_folds_and_by_orbits_that_end_there(swept, monkeypatch, off, exact):
     """off: how far beyond the fold the orbit is lost that stands for those of a cable."""
 
     def lost(plan, folder, title, tasks):
@@ -78,7 +78,7 @@ def test_ranges_end_at_the_folds_and_by_orbits_that_end_there(found, monkeypatch
 
     monkeypatch.setattr(tracing, "work", lost)
     monkeypatch.setattr(tracing, "line_task", lambda do, line, arguments: arguments[1])
-    rows = {(row["motion"], row["end"]): row for row in ends.find_ends(found, Scene)}
+    rows = {(row["motion"], row["end"]): row for row in ends.find_ends(swept, Scene)}
     assert set(rows) == {("A", "upper"), ("B", "lower")}
     width = (VALUES[-1] - VALUES[0]) / ends.SHARPNESS
     for (_, end), row in rows.items():
@@ -96,24 +96,24 @@ def test_ranges_end_at_the_folds_and_by_orbits_that_end_there(found, monkeypatch
         (0.2, "NOT with a tenth of the tolerance, where it becomes B"),
     ],
 )
-def test_a_branch_is_confirmed_where_its_tension_is_largest(found, monkeypatch, shift, words):
+def test_a_branch_is_confirmed_where_its_tension_is_largest(swept, monkeypatch, shift, words):
     """shift: of p by a change of the method; A is lost beyond its fold."""
     monkeypatch.setattr(Scene, "tether", SimpleNamespace(nodes=41), raising=False)
     monkeypatch.setattr(ends, "finer", lambda scene, **change: Scene(scene.p + shift))
-    ends.confirm(found)
-    confirmed = {branch[0].branch.letter: branch[0].branch.confirmed for branch in found.branches()}
+    ends.confirm(swept)
+    confirmed = {branch[0].branch.letter: branch[0].branch.confirmed for branch in swept.branches()}
     assert confirmed["A"].startswith(words) and confirmed["A"].endswith(", at 0.3")
     assert confirmed["B"] == "at a tenth of the tolerance and on 81 nodes, at 0.6"
 
 
-def test_what_is_found_again_is_one_motion(found):
+def test_what_is_found_again_is_one_motion(swept):
     """A longer run shows that two motions of a value are one: one of them stays, with the kicks of both."""
-    middle = found.at[VALUES.index(0.0)]
+    middle = swept.at[VALUES.index(0.0)]
     kicks = sum(one.kicks for one in middle)
-    stages.merge(found, {middle[1]: middle[0].settled})
-    (left,) = found.at[VALUES.index(0.0)]
-    assert left.kicks == kicks
-    assert all(one.motion is None or one.motion in found.at[one.motion.place] for one in found.starts.endings)
+    stages.merge(swept, {middle[1]: middle[0].settled})
+    (merged,) = swept.at[VALUES.index(0.0)]
+    assert merged.kicks == kicks
+    assert all(one.motion is None or one.motion in swept.at[one.motion.place] for one in swept.starts.endings)
 
 
 def test_a_start_without_a_state_begins_as_it_says():

@@ -25,8 +25,8 @@ def campaign(tmp_path, monkeypatch):
             raise ends[name]
         folder = Path(words[words.index("--out") + 1])
         leave(folder)
-        told = {"timing": {"compile_s": 1.0, "run_s": 2.0}, "runs": {"total": 1, "failed": 0}}
-        (folder / "provenance.json").write_text(json.dumps(told))
+        provenance_of_part = {"timing": {"compile_s": 1.0, "run_s": 2.0}, "runs": {"total": 1, "failed": 0}}
+        (folder / "provenance.json").write_text(json.dumps(provenance_of_part))
         (folder / "report.html").write_text("")
 
     def depends(folder, jobs, quick):
@@ -60,10 +60,10 @@ def rows(out):
 
 def test_every_part_is_run_once_and_then_found(campaign):
     assert campaign() == (0, [*paper.PARTS, "writing"])
-    before = (campaign.out / "table.csv").read_bytes()
+    earlier = (campaign.out / "table.csv").read_bytes()
     provenance = (campaign.out / "provenance.json").read_bytes()
     assert campaign() == (0, [])
-    assert (campaign.out / "table.csv").read_bytes() == before
+    assert (campaign.out / "table.csv").read_bytes() == earlier
     assert (campaign.out / "provenance.json").read_bytes() == provenance
     assert campaign("--jobs", "1") == (0, [])
 

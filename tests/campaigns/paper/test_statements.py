@@ -180,14 +180,14 @@ CONTRARY = NUMBERS | {
 
 def world(so: bool = True, **changed) -> Results:
     """All results; so: as the paper says, else the contrary of all. changed: fields of Results."""
-    again = {"periods": 100.0, "radius_min_m": 19.0, "radius_max_m": 21.0}
+    finer = {"periods": 100.0, "radius_min_m": 19.0, "radius_max_m": 21.0}
     off_m = 1e-3 if so else 0.5
     sweep = {0.05: 0.0, 0.13: 0.1, 0.14: 0.1} if so else {0.05: 0.1, 0.14: 0.0}
     usual = {
         "lines": over_case_4([line(case, kind, so) for kind in ("case", "doubled") for case in CASES]),
         "buoy": {kA: buoy(kA, so) for kA in (SMALL, LARGE)},
         "doubled": tuple(
-            again | {"waves.steepness": kA, "error_early_m": off_m, "error_m": off_m} for kA in (SMALL, LARGE)
+            finer | {"waves.steepness": kA, "error_early_m": off_m, "error_m": off_m} for kA in (SMALL, LARGE)
         ),
         "sweep": tuple(
             buoy(kA, so, slack_fraction=slack, regime="chaotic" if so else "period-1") for kA, slack in sweep.items()
@@ -232,12 +232,14 @@ def judged(results):
 
 
 def test_without_results_nothing_is_decided():
-    assert {one.verdict for one in judged(Results())} == {NOT_JUDGED}
+    assert {statement.verdict for statement in judged(Results())} == {NOT_JUDGED}
 
 
 def test_a_quick_look_judges_nothing_of_the_buoy_and_says_why():
     told = [judge(quick, world()) for quick, claim in zip(claims(True), claims(), strict=True) if quick != claim]
-    assert len(told) > 30 and all(one.verdict == NOT_JUDGED and "not judged, because" in one.found for one in told)
+    assert len(told) > 30 and all(
+        statement.verdict == NOT_JUDGED and "not judged, because" in statement.found for statement in told
+    )
 
 
 def claim_of(*checks):
@@ -262,8 +264,8 @@ def test_a_verdict_is_that_of_all_checks_and_no_number_decides_nothing(checks, v
 def test_between_both_the_places_are_named_and_grouped_around_their_numbers():
     checks = (("H = 21 m", True), ("H = 22 m", True), ("elsewhere", False))
     assert Statement(claim_of(), checks, "").condition == "H = 21 and 22 m; not elsewhere"
-    more = (*checks, ("H = 23 m, dry", True))
-    assert Statement(claim_of(), more, "").condition == "H = 21 and 22 m, and H = 23 m, dry; not elsewhere"
+    further = (*checks, ("H = 23 m, dry", True))
+    assert Statement(claim_of(), further, "").condition == "H = 21 and 22 m, and H = 23 m, dry; not elsewhere"
 
 
 def test_a_buoyancy_that_is_not_the_shipped_one_is_a_place_of_its_own():
