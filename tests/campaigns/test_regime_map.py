@@ -90,20 +90,15 @@ def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
     assert {(row["regime"], row["verdict"]) for row in rows} == {("period-1", "cheap"), ("", "")}
 
 
-def test_the_same_command_computes_nothing_again(tmp_path, unscreened):
-    log = str(tmp_path / "log")
-    for _ in range(2):
-        assert run(tmp_path / "out", *VARY, engine=FakeEngine(log=log)) == 0
-    assert len(FakeEngine(log=log).begun()) == 6
-
-
-def test_a_damaged_file_counts_as_computed_again(tmp_path, unscreened, capsys):
-    assert run(tmp_path, *VARY) == 0
-    path, *_ = (tmp_path / "trajectories").glob("*.nc")
-    path.write_bytes(b"CDF")
-    capsys.readouterr()
-    assert run(tmp_path, *VARY) == 0
-    assert ": 1 computed, 5 found" in capsys.readouterr().out
+def test_the_same_command_computes_nothing_again_but_what_is_damaged(tmp_path, unscreened, capsys):
+    engine = FakeEngine(log=str(tmp_path / "log"))
+    for count in ("6 computed, 0 found", "0 computed, 6 found", "1 computed, 5 found"):
+        assert run(tmp_path / "out", *VARY, engine=engine) == 0
+        assert f": {count}" in capsys.readouterr().out
+        path, *_ = (tmp_path / "out" / "trajectories").glob("*.nc")
+        if count.startswith("0"):
+            path.write_bytes(b"CDF")
+    assert len(engine.begun()) == 7
 
 
 CELL = {"level": 0, "source": "computed", "motions": 2, "regime_rest": "period-1", "tension_over_static": 3.0}
