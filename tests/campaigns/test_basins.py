@@ -26,9 +26,9 @@ def test_a_turn_and_a_size_are_the_start_of_that_point(pair):
     grid = StartGrid(tuple(pair.split()), (7, 12), 3.0)
     names = {column.name for column in KICKS}
     for point in grid.points():
-        told, back = grid.start(*point).labels(), grid.at(*grid.polar(*point), "").labels()
-        assert told.keys() == back.keys() and names & told.keys()
-        assert all(told[name] == pytest.approx(back[name], abs=1e-12) for name in names & told.keys())
+        from_point, back = grid.start(*point).labels(), grid.at(*grid.polar(*point), "").labels()
+        assert from_point.keys() == back.keys() and names & from_point.keys()
+        assert all(from_point[name] == pytest.approx(back[name], abs=1e-12) for name in names & from_point.keys())
 
 
 def test_the_first_starts_of_a_grid_are_spread_over_it():

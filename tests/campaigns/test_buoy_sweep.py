@@ -11,7 +11,6 @@ import pytest
 from matplotlib.colors import to_rgb
 from PIL import Image
 
-from campaigns import buoy_sweep
 from campaigns.explore import batches
 from campaigns.explore.batches import FRAMES, PERIODS, of_largest_tension
 from campaigns.explore.space import SEED_MPS
@@ -187,21 +186,6 @@ def test_a_row_in_space_is_judged_by_its_samples():
     assert row["regime"] == "period-1"
     assert row["lyapunov_tangent_bits_per_period"] is None and row["regime_tighter"] is None
     assert "regime" not in judged_row(sines(scene, 59), 20), "too short for a verdict"
-
-
-@pytest.mark.slow
-def test_a_loop_leaves_the_plane_and_the_range_of_the_buoy_stays(tmp_path):
-    """kA = 0.13: the planar run releases loops, the run in three dimensions none; the ranges of r agree to 1 %."""
-    words = ["--steepness", "0.016", "0.13", "--periods", "80", "--transient", "20", "--dimensions", "auto"]
-    assert buoy_sweep.main([*words, "--jobs", "1", "--backend", "threading", "--out", str(tmp_path)]) == 0
-    calm, steep = rows_of(tmp_path)
-    assert (calm["dimensions"], steep["dimensions"]) == ("2", "3")
-    assert int(steep["planar_loop_releases"]) > 0 and int(steep["loop_releases"]) == 0
-    assert 0.1 < float(steep["rope_lateral_max_m"]) < 1.0 and float(steep["buoy_lateral_max_m"]) < 0.02
-    spatial, planar = ([float(steep[f"{kind}radius_{end}_m"]) for end in ("min", "max")] for kind in ("", "planar_"))
-    assert planar == pytest.approx(spatial, abs=0.01 * (spatial[1] - spatial[0]))
-    page = (tmp_path / "report.html").read_text()
-    assert "Out of the plane" in page and "push_mps" in page
 
 
 def test_a_run_from_a_state_shares_no_worker_with_runs_from_rest(nine):

@@ -24,8 +24,8 @@ PULLS = {"status": "ok", "tension_top_max_N": 1000.0, "steepness": 0.1, "end_tim
 
 def checked(row, scene, searched=False) -> tuple[str, str]:
     """The two lists of the sentence."""
-    said = use_of(row, scene, searched)
-    passed, _, missing = said.partition("; not checked: ")
+    words_of_use = use_of(row, scene, searched)
+    passed, _, missing = words_of_use.partition("; not checked: ")
     assert passed.startswith("Checked: ") and missing
     return passed, missing
 

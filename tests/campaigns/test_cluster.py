@@ -105,8 +105,8 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
         monkeypatch.setattr("campaigns.machinery.tasks.opened", lambda *_: contextlib.nullcontext(elsewhere))
     assert rows[0] == rows[1]
     for name in (f"{job.key}.nc", f"{job.key}.row.json", "an orbit.orbit.json"):
-        here, there = (place / "trajectories" / name for place in places)
-        assert here.read_bytes() == there.read_bytes()
+        local, remote = (place / "trajectories" / name for place in places)
+        assert local.read_bytes() == remote.read_bytes()
 
 
 @pytest.mark.slow

@@ -22,8 +22,8 @@ def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands
     companion = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
     assert error_N(row, 101.0, companion) == (7.5, ["the largest tension holds to 7 % only"])
     assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, companion) == (4.5, [])
-    _, (other, _) = error_N(row, 101.0, companion | {"outcome": UNSETTLED})
-    assert OTHER_MOTION in other
+    _, (of_another, _) = error_N(row, 101.0, companion | {"outcome": UNSETTLED})
+    assert OTHER_MOTION in of_another
     unknown, (ended,) = error_N(row, 101.0, companion | {"status": "newton-failed"})
     assert np.isnan(unknown) and "newton-failed" in ended
 

@@ -29,7 +29,7 @@ RUN = SimpleNamespace(tangent=None)
 LASTING = {**CHAOTIC, "regime_tighter": "chaotic", "periods": 465.0, "transient_periods": 155}
 
 
-def after(checks=None, budget=1500, looks=True, run=RUN, **row):
+def next_part(checks=None, budget=1500, looks=True, run=RUN, **row):
     return until_judged(SCENE, run, {**CHAOTIC, **row}, checks or {}, budget, looks)
 
 
@@ -47,7 +47,7 @@ def test_a_run_begins_with_its_first_look_or_its_whole_length(looks, periods):
             {"regime": "undecided", "periods": 1440.0}],
 )  # fmt: skip
 def test_what_is_told_or_has_failed_or_used_its_budget_ends(row):
-    assert after(**row) is None
+    assert next_part(**row) is None
 
 
 def test_a_check_as_long_as_the_run_ends_though_its_periods_are_not_whole_to_the_last_digit():
@@ -57,8 +57,8 @@ def test_a_check_as_long_as_the_run_ends_though_its_periods_are_not_whole_to_the
         "regime": "undecided",
         "regime_tighter": "undecided",
     }
-    more = after({310: checked(207)}, **row)
-    assert (round(more.periods, 6), more.check) == (155, False)
+    following = next_part({310: checked(207)}, **row)
+    assert (round(following.periods, 6), following.check) == (155, False)
 
 
 @pytest.mark.parametrize(("most", "ends"), [(309, True), (310, False)])
@@ -71,36 +71,39 @@ def test_the_cell_of_a_map_is_not_looked_at_beyond_its_own_budget(most, ends):
     ("regime", "period", "carried"), [("undecided", None, 1), ("undecided", 2, 0), ("transient", None, 0)]
 )
 def test_the_undecided_go_on_with_perturbations_and_what_settles_or_repeats_without(regime, period, carried):
-    more = after(regime=regime, strobed_period=period, periods=205.0)
-    assert (more.periods, more.start, more.check) == (105, RUN, False)
-    assert (more.scene.output.tangent_vectors, more.scene.solver.rtol) == (carried, SCENE.solver.rtol)
-    assert after(regime=regime, periods=205.0, budget=280).periods == 75
+    following = next_part(regime=regime, strobed_period=period, periods=205.0)
+    assert (following.periods, following.start, following.check) == (105, RUN, False)
+    assert (following.scene.output.tangent_vectors, following.scene.solver.rtol) == (carried, SCENE.solver.rtol)
+    assert next_part(regime=regime, periods=205.0, budget=280).periods == 75
 
 
 def test_a_period_that_nothing_confirms_goes_on_with_perturbations_from_the_second_look_on():
     loose = {"regime": "undecided", "strobed_period": 8, "evidence": "period: 8/0.01/yes; close: 0.004/0.002/no"}
     close = loose | {"evidence": "period: 8/0.01/yes; close: 0.001/0.002/yes"}
     for row, periods, carried in ((loose, 90.0, 0), (loose, 135.0, 1), (close, 135.0, 0)):
-        assert after(**row, periods=periods).scene.output.tangent_vectors == carried
+        assert next_part(**row, periods=periods).scene.output.tangent_vectors == carried
 
 
 @pytest.mark.parametrize(("error", "periods"), [(0.001, LEAST_CHECK), (0.02, 117), (0.04, 467)])
 def test_chaos_goes_on_at_a_tenth_of_the_tolerance_as_long_as_it_takes_to_show(error, periods):
-    more = after(lyapunov_tangent_error=error)
-    assert (more.periods, more.start, more.check) == (periods, RUN, True)
-    assert more.scene.solver.rtol == pytest.approx(SCENE.solver.rtol / 10) and more.scene.output.tangent_vectors == 1
+    following = next_part(lyapunov_tangent_error=error)
+    assert (following.periods, following.start, following.check) == (periods, RUN, True)
+    assert (
+        following.scene.solver.rtol == pytest.approx(SCENE.solver.rtol / 10)
+        and following.scene.output.tangent_vectors == 1
+    )
 
 
 def test_a_check_that_does_not_show_it_goes_on_itself_and_then_the_run():
     refused = {"regime": "undecided", "regime_tighter": "undecided"}
-    more = after({700: checked(117)}, **refused)
-    assert (more.scene, more.periods, more.check) == ("tighter", 59, True) and len(
-        more.start.tangent.growth_nats
+    following = next_part({700: checked(117)}, **refused)
+    assert (following.scene, following.periods, following.check) == ("tighter", 59, True) and len(
+        following.start.tangent.growth_nats
     ) == 117
-    assert after({700: checked(420)}, **refused).periods == 47
+    assert next_part({700: checked(420)}, **refused).periods == 47
     for ended in (checked(467), checked(50, "newton-failed")):
-        more = after({700: ended}, **refused)
-        assert (more.periods, more.start, more.check) == (35, RUN, False)
+        following = next_part({700: ended}, **refused)
+        assert (following.periods, following.start, following.check) == (35, RUN, False)
 
 
 def test_the_parts_of_a_check_are_one_record():

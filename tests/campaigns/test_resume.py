@@ -86,10 +86,12 @@ def test_files_under_each_others_names_are_computed_again_and_that_is_said(sweep
 @pytest.mark.parametrize(
     "damage",
     [
-        pytest.param(lambda text, other: text.replace('"tension_top_max_N": ', '"tension_top_max_N": 9'), id="a digit"),
-        pytest.param(lambda text, other: text[: len(text) // 2], id="torn"),
-        pytest.param(lambda text, other: other, id="of another run"),
-        pytest.param(lambda text, other: "[" * 100_000, id="nested"),
+        pytest.param(
+            lambda text, neighbour: text.replace('"tension_top_max_N": ', '"tension_top_max_N": 9'), id="a digit"
+        ),
+        pytest.param(lambda text, neighbour: text[: len(text) // 2], id="torn"),
+        pytest.param(lambda text, neighbour: neighbour, id="of another run"),
+        pytest.param(lambda text, neighbour: "[" * 100_000, id="nested"),
     ],
 )
 def test_a_row_that_is_not_what_was_written_is_made_again_from_its_run(sweep, damage):
@@ -193,20 +195,20 @@ def record(out):
 
 def test_what_is_recorded(sweep):
     sweep("--steepness", "0.02", "0.13", "--set", "water.depth_m=22.5", raises=(0.13,))
-    found = record(sweep.out)
-    assert found["campaign"] == "buoy_sweep"
-    assert found["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
-    assert found["versions"]["python"] == platform.python_version()
-    assert found["versions"]["numpy"] == numpy.__version__
-    assert found["git"] == session.git_state(ROOT / "campaigns")
-    assert found["host"] == socket.gethostname()
-    assert found["engine_source_hash"] == source_hash()
-    assert (found["steepness"], found["periods"], found["transient"]) == ([0.02, 0.13], 6, 2)
-    assert found["set"] == {"water.depth_m": 22.5}
-    assert found["runs"] == {"total": 2, "found": 0, "computed": 2, "failed": 1}
-    assert set(found["timing"]) >= {"compile_s", "run_s", "analysis_s"}
-    assert all(seconds >= 0.0 for seconds in found["timing"].values())
-    assert found["started_utc"] <= found["finished_utc"]
+    provenance = record(sweep.out)
+    assert provenance["campaign"] == "buoy_sweep"
+    assert provenance["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
+    assert provenance["versions"]["python"] == platform.python_version()
+    assert provenance["versions"]["numpy"] == numpy.__version__
+    assert provenance["git"] == session.git_state(ROOT / "campaigns")
+    assert provenance["host"] == socket.gethostname()
+    assert provenance["engine_source_hash"] == source_hash()
+    assert (provenance["steepness"], provenance["periods"], provenance["transient"]) == ([0.02, 0.13], 6, 2)
+    assert provenance["set"] == {"water.depth_m": 22.5}
+    assert provenance["runs"] == {"total": 2, "found": 0, "computed": 2, "failed": 1}
+    assert set(provenance["timing"]) >= {"compile_s", "run_s", "analysis_s"}
+    assert all(seconds >= 0.0 for seconds in provenance["timing"].values())
+    assert provenance["started_utc"] <= provenance["finished_utc"]
 
 
 def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there_is_no_commit(tmp_path):

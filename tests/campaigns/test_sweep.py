@@ -42,8 +42,8 @@ def cases_of(*words):
 
 def test_two_keys_are_every_pair_of_their_values(tmp_path):
     rows = run(tmp_path, "--vary", "water.depth_m", 21, 23, 3, "--vary", "waves.steepness", 0.02, 0.1, 2, *SHORT)
-    found = [(row["water.depth_m"], row["waves.steepness"]) for row in rows]
-    assert found == [(depth, kA) for depth in ("21.0", "22.0", "23.0") for kA in ("0.02", "0.1")]
+    varied = [(row["water.depth_m"], row["waves.steepness"]) for row in rows]
+    assert varied == [(depth, kA) for depth in ("21.0", "22.0", "23.0") for kA in ("0.02", "0.1")]
     column_of_table = json.loads((tmp_path / "provenance.json").read_text())
     assert column_of_table["campaign"] == "sweep"
     assert column_of_table["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
@@ -227,10 +227,10 @@ def test_keys_take_their_values_in_lists_too_and_leave_the_rest(keys, changes):
     cases = cases_of(*words, *SHORT, *changes)
     entries = [dict(_entries(job.scene.as_dict())) for job in cases]
     assert len(cases) == 2 ** len(keys)
-    for job, found in zip(cases, entries, strict=True):
-        assert {key: found[key] for key in keys} == {key: job.labels[key] for key in keys}
-    others = [{key: entry for key, entry in found.items() if key not in keys} for found in entries]
-    assert all(other == others[0] for other in others)
+    for job, varied in zip(cases, entries, strict=True):
+        assert {key: varied[key] for key in keys} == {key: job.labels[key] for key in keys}
+    unvaried = [{key: entry for key, entry in varied.items() if key not in keys} for varied in entries]
+    assert all(rest == unvaried[0] for rest in unvaried)
 
 
 def _entries(part, name=""):

@@ -38,7 +38,7 @@ def test_of_two_motions_of_the_first_place_that_from_rest_is_a(monkeypatch, tmp_
 
 def test_both_branches_are_found_wherever_they_are_and_keep_their_letter(swept):
     for p, motions in zip(VALUES, swept.at, strict=True):
-        states = sorted((float(one.settled.points[0, 0]), one.branch.letter) for one in motions)
+        states = sorted((float(candidate.settled.points[0, 0]), candidate.branch.letter) for candidate in motions)
         assert [letter for _, letter in states] == (["A", "B"] if abs(p) < FOLD else ["A"] if p < 0 else ["B"])
         assert all((x < 0) == (letter == "A") for x, letter in states)
 
@@ -58,13 +58,13 @@ def test_kicks_are_independent_and_uniform_whatever_the_place():
 def test_the_interval_of_a_share_holds_the_size_of_the_basin_in_95_of_100():
     counts = [sum(x > 0.27 * 12.0 - 6.0 for x, _ in kicks(8, 6.0, seed, 0)) for seed in range(400)]
     swept = [share_of(count, 8) for count in counts]
-    assert np.mean([one.low <= 0.73 <= one.high for one in swept]) == pytest.approx(0.95, abs=0.04)
+    assert np.mean([candidate.low <= 0.73 <= candidate.high for candidate in swept]) == pytest.approx(0.95, abs=0.04)
 
 
 def test_shares_count_every_kick(swept):
     for motions in swept.at:
-        assert sum(swept.labels(one)["share"] for one in motions) == pytest.approx(1.0)
-        assert {swept.labels(one)["kicks"] for one in motions} == {4}
+        assert sum(swept.labels(candidate)["share"] for candidate in motions) == pytest.approx(1.0)
+        assert {swept.labels(candidate)["kicks"] for candidate in motions} == {4}
 
 
 @pytest.mark.parametrize(("off", "exact"), [(0.0, True), (0.3, False)])
@@ -109,11 +109,14 @@ def test_a_branch_is_confirmed_where_its_tension_is_largest(swept, monkeypatch, 
 def test_what_is_found_again_is_one_motion(swept):
     """A longer run shows that two motions of a value are one: one of them stays, with the kicks of both."""
     middle = swept.at[VALUES.index(0.0)]
-    kicks = sum(one.kicks for one in middle)
+    kicks = sum(candidate.kicks for candidate in middle)
     stages.merge(swept, {middle[1]: middle[0].settled})
     (merged,) = swept.at[VALUES.index(0.0)]
     assert merged.kicks == kicks
-    assert all(one.motion is None or one.motion in swept.at[one.motion.place] for one in swept.starts.endings)
+    assert all(
+        candidate.motion is None or candidate.motion in swept.at[candidate.motion.place]
+        for candidate in swept.starts.endings
+    )
 
 
 def test_a_start_without_a_state_begins_as_it_says():

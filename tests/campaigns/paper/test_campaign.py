@@ -107,14 +107,14 @@ def test_what_stops_a_part_stops_the_campaign_and_keeps_what_is_done(campaign, e
 
 
 def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
-    found, (above, drowned) = dependence.variants(False), dependence.treatments()
-    scenes = (load_scene("tethered_buoy", keys) for keys in (dependence.changes(found[0]), dependence.CARRIED))
+    all_variants, (above, drowned) = dependence.variants(False), dependence.treatments()
+    scenes = (load_scene("tethered_buoy", keys) for keys in (dependence.changes(all_variants[0]), dependence.CARRIED))
     assert len({scene.key() for scene in scenes}) == 1  # it leads
-    EI = found[0][-1]
+    EI = all_variants[0][-1]
     for kA in (0.016, 0.13):
-        usual = {values[1:4] for values in found if (values[0], values[4]) == (kA, EI)}
+        usual = {values[1:4] for values in all_variants if (values[0], values[4]) == (kA, EI)}
         assert usual == {*product(dependence.DEPTHS_M, above, drowned)}
-    assert len(set(found)) == len(found)
+    assert len(set(all_variants)) == len(all_variants)
 
 
 @pytest.mark.slow

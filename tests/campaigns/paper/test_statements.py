@@ -220,8 +220,8 @@ def test_every_motion_of_a_wave_is_judged_and_a_long_run_stands_for_the_one_from
         for kA in steepnesses
     ]
     results = world(sweep=tuple(rows))
-    found = judge(buoy_claims()["Wherever the line goes slack and snaps, the motion is chaotic."], results)
-    assert found.verdict == HOLDS_IF and found.condition == "kA = 0.13 (A) and 0.14 (C); not kA = 0.13 (B)"
+    result = judge(buoy_claims()["Wherever the line goes slack and snaps, the motion is chaotic."], results)
+    assert result.verdict == HOLDS_IF and result.condition == "kA = 0.13 (A) and 0.14 (C); not kA = 0.13 (B)"
     assert judge(buoy_claims()["threshold"], results).verdict == HOLDS
     taut = world(sweep=(*rows, buoy(0.14, found_by="kick", motion="D", slack_fraction=0.0)))
     assert judge(buoy_claims()["threshold"], taut).condition == "there is a threshold; not slack at all larger waves"
@@ -236,9 +236,11 @@ def test_without_results_nothing_is_decided():
 
 
 def test_a_quick_look_judges_nothing_of_the_buoy_and_says_why():
-    told = [judge(quick, world()) for quick, claim in zip(claims(True), claims(), strict=True) if quick != claim]
-    assert len(told) > 30 and all(
-        statement.verdict == NOT_JUDGED and "not judged, because" in statement.found for statement in told
+    judged_quickly = [
+        judge(quick, world()) for quick, claim in zip(claims(True), claims(), strict=True) if quick != claim
+    ]
+    assert len(judged_quickly) > 30 and all(
+        statement.verdict == NOT_JUDGED and "not judged, because" in statement.found for statement in judged_quickly
     )
 
 
@@ -277,16 +279,16 @@ def test_a_buoyancy_that_is_not_the_shipped_one_is_a_place_of_its_own():
 
 def test_an_exponent_that_could_be_either_decides_nothing_unless_the_regime_does():
     open_one = deep(0.13, 22.5, regime="undecided", lyapunov_tangent_bits_per_period=0.015)
-    found = judge(buoy_claims()["positive exponent"], world(dependence=(deep(0.13, 21.0), open_one)))
-    assert dict(found.checks) == {"H = 21 m": True}
+    result = judge(buoy_claims()["positive exponent"], world(dependence=(deep(0.13, 21.0), open_one)))
+    assert dict(result.checks) == {"H = 21 m": True}
 
 
 def test_at_the_shipped_depth_the_long_run_counts():
     short = (deep(0.13, 21.0, regime="undecided"), deep(0.13, 22.5, regime="period-2"))
     nothing = judge(CHAOTIC, world(dependence=short, buoy={}))
     assert dict(nothing.checks) == {"H = 22.5 m": False}
-    found = judge(CHAOTIC, world(dependence=short, buoy={LARGE: buoy(LARGE)}))
-    assert dict(found.checks) == {"H = 21 m": True, "H = 22.5 m": False}
+    result = judge(CHAOTIC, world(dependence=short, buoy={LARGE: buoy(LARGE)}))
+    assert dict(result.checks) == {"H = 21 m": True, "H = 22.5 m": False}
 
 
 def test_a_regime_that_is_open_decides_nothing():
