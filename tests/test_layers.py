@@ -103,6 +103,15 @@ def test_no_import_against_the_flow(package):
     assert found and not wrong
 
 
+def test_every_module_that_is_imported_exists():
+    """Within functions too, where an import that is out of date shows only when it is called."""
+    missing = {}
+    for name in FILES:
+        ours = {full for full in imports_of(name) if full.partition(".")[0] in BELOW}
+        missing[name] = {full for full in ours if not {full, full.rpartition(".")[0]} & FILES.keys()}
+    assert not {name: modules for name, modules in missing.items() if modules}
+
+
 def floor_of(name: str) -> int:
     """The floor of a module of the engine."""
     parts = name.split(".")[1:]

@@ -79,7 +79,7 @@ def _hear_interrupts():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-class Apart:
+class Campaign:
     """The sweep of VALUES as a process of its own, with the log of the runs begun."""
 
     def __init__(self, place: Path):
@@ -124,20 +124,20 @@ class Apart:
 
     def sound_part(self):
         """The finished runs of a campaign that was stopped in its midst; each of them can be read, as can the table."""
-        before = self.finished()
-        assert 0 < len(before) < len(VALUES)
-        for name in before:
+        earlier = self.finished()
+        assert 0 < len(earlier) < len(VALUES)
+        for name in earlier:
             Trajectory.load(self.out / "trajectories" / name)
-        assert {f"{row['run_key']}.nc" for row in rows_of(self.out)} <= before.keys()
-        return before
+        assert {f"{row['run_key']}.nc" for row in rows_of(self.out)} <= earlier.keys()
+        return earlier
 
     def complete(self, *options):
         """The same command does the rest, and only that."""
-        before = self.sound_part()
+        earlier = self.sound_part()
         self.log.unlink(missing_ok=True)
         self.done(self.start(*options))
-        assert before.items() <= self.finished().items()
-        assert self.begun() == len(VALUES) - len(before)
+        assert earlier.items() <= self.finished().items()
+        assert self.begun() == len(VALUES) - len(earlier)
         self.check_all_ok()
         assert not list(self.out.rglob(".*.tmp"))
 
@@ -148,5 +148,5 @@ def judged_row(run, transient_periods=None, full=None, orbits=None):
 
 
 @pytest.fixture
-def apart(tmp_path):
-    return Apart(tmp_path)
+def campaign(tmp_path):
+    return Campaign(tmp_path)

@@ -22,7 +22,7 @@ from engine import load_scene
 from tests.campaigns.conftest import VALUES, finished, rows_of, statuses, until
 from tests.campaigns.fake_engine import FakeEngine
 
-FEW = (0.02, 0.03, 0.05, 0.08, 0.13)
+FIVE = (0.02, 0.03, 0.05, 0.08, 0.13)
 SLOW = pytest.mark.slow
 
 
@@ -38,7 +38,7 @@ SLOW = pytest.mark.slow
                 ({"breaks": (0.05,)}, "newton-failed", "no convergence"),
             )
         ),
-        ("threading", 2, {"raises": FEW}, "error", "ZeroDivisionError"),
+        ("threading", 2, {"raises": FIVE}, "error", "ZeroDivisionError"),
         pytest.param("loky", 2, {"dies": (0.05,)}, "worker-died", "running alone", marks=SLOW),
         pytest.param("loky", 2, {"dies": (0.02, 0.08)}, "worker-died", "running alone", marks=SLOW),
         pytest.param("loky", 2, {"dies_once": (0.05,)}, "ok", "", marks=SLOW),
@@ -52,20 +52,20 @@ def test_a_run_that_fails_is_a_row_and_the_others_are_what_they_would_have_been(
     if backend == "dask":
         pytest.importorskip("distributed")
     ((how, failing),) = fake.items()
-    code, rows, begun = sweep("--steepness", *FEW, backend=backend, jobs=jobs, **fake)
+    code, rows, begun = sweep("--steepness", *FIVE, backend=backend, jobs=jobs, **fake)
     assert code == 0
-    assert statuses(rows) == dict.fromkeys(FEW, "ok") | dict.fromkeys(failing, status)
+    assert statuses(rows) == dict.fromkeys(FIVE, "ok") | dict.fromkeys(failing, status)
     assert all(word in row["message"] for row in rows if row["status"] != "ok")
     # once more alone, where it may have killed its process: no run kills more than two
     assert max(begun.count(value) for value in failing) == (2 if how.startswith("dies") else 1)
 
 
 def test_a_run_that_ended_early_keeps_its_record_and_is_not_tried_again(sweep):
-    _, rows, _ = sweep("--steepness", *FEW, breaks=(0.05,))
+    _, rows, _ = sweep("--steepness", *FIVE, breaks=(0.05,))
     assert f"{rows[2]['run_key']}.nc" in finished(sweep.out)
     assert rows[2]["steps"] == "7"
     assert rows[2]["radius_max_m"] == ""
-    assert sweep("--steepness", *FEW, breaks=(0.05,))[2] == []
+    assert sweep("--steepness", *FIVE, breaks=(0.05,))[2] == []
 
 
 def test_an_analysis_that_fails_is_a_row_and_the_record_is_kept(sweep, monkeypatch):
@@ -90,69 +90,69 @@ def test_an_engine_that_changes_under_the_campaign_stops_it(sweep, monkeypatch, 
 
 
 @pytest.mark.slow
-def test_kill_9_of_the_campaign(apart):
-    process = apart.begin(finished=3)
+def test_kill_9_of_the_campaign(campaign):
+    process = campaign.begin(finished=3)
     workers = psutil.Process(process.pid).children(recursive=True)
     process.kill()
     process.communicate()
     assert psutil.wait_procs(workers, timeout=20)[1] == []  # none computes on for nobody
-    (apart.out / "trajectories" / ".half-written.nc.tmp").write_bytes(b"CDF")  # what a kill within a write leaves
-    apart.complete()
+    (campaign.out / "trajectories" / ".half-written.nc.tmp").write_bytes(b"CDF")  # what a kill within a write leaves
+    campaign.complete()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("backend", ["loky", "threading", "dask"])
-def test_interrupt(apart, backend):
+def test_interrupt(campaign, backend):
     if backend == "dask":
         pytest.importorskip("distributed")
-    process = apart.begin("--backend", backend, finished=3, session=True)
+    process = campaign.begin("--backend", backend, finished=3, session=True)
     os.killpg(process.pid, signal.SIGINT)  # a terminal sends it to every process of the campaign
-    error = apart.done(process, code=130)
+    error = campaign.done(process, code=130)
     assert "to go on with the rest: python -m campaigns.buoy_sweep --steepness 0.01" in error
-    assert len(rows_of(apart.out)) > 0
-    begun = apart.begun()
+    assert len(rows_of(campaign.out)) > 0
+    begun = campaign.begun()
     time.sleep(0.7)
-    assert apart.begun() == begun
-    apart.complete()
+    assert campaign.begun() == begun
+    campaign.complete()
 
 
 @pytest.mark.slow
-def test_a_second_campaign_in_the_folder_is_turned_away(apart):
-    first = apart.start(values=VALUES[:4], sleep_s=1.0)
-    until((apart.out / "table.csv").exists, first)
-    assert f"in use by process {first.pid}" in apart.done(apart.start(values=["0.05"]), code=1)
-    assert "0.05" not in (apart.out / "provenance.json").read_text()
-    apart.done(first)
-    assert len(apart.finished()) == 4
+def test_a_second_campaign_in_the_folder_is_turned_away(campaign):
+    first = campaign.start(values=VALUES[:4], sleep_s=1.0)
+    until((campaign.out / "table.csv").exists, first)
+    assert f"in use by process {first.pid}" in campaign.done(campaign.start(values=["0.05"]), code=1)
+    assert "0.05" not in (campaign.out / "provenance.json").read_text()
+    campaign.done(first)
+    assert len(campaign.finished()) == 4
 
 
 @pytest.fixture
-def small_disk(apart, tmp_path):
+def small_disk(campaign, tmp_path):
     """A disk with room for some of the runs, in which the campaign has its folder."""
     place = tmp_path / "disk"
     place.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=512k", "tmpfs", str(place)]
     if not shutil.which("mount") or subprocess.run(mount, capture_output=True).returncode != 0:
         pytest.skip("mounting a small disk is not permitted here")
-    apart.out = place / "out"
+    campaign.out = place / "out"
     yield place
     subprocess.run(["umount", str(place)], check=True)
 
 
 @pytest.mark.slow
-def test_a_disk_that_fills_up(small_disk, apart):
-    assert "is full" in apart.done(apart.start(), code=1)
-    assert apart.sound_part() and not list(apart.out.rglob(".*.tmp"))
+def test_a_disk_that_fills_up(small_disk, campaign):
+    assert "is full" in campaign.done(campaign.start(), code=1)
+    assert campaign.sound_part() and not list(campaign.out.rglob(".*.tmp"))
     subprocess.run(["mount", "-o", "remount,size=8m", str(small_disk)], check=True)
-    apart.complete()
+    campaign.complete()
 
 
 @pytest.mark.slow
-def test_a_disk_that_is_full_from_the_start(small_disk, apart):
+def test_a_disk_that_is_full_from_the_start(small_disk, campaign):
     with open(small_disk / "filling", "wb", buffering=0) as file, pytest.raises(OSError):
         while True:
             file.write(bytes(4096))
-    assert "is full" in apart.done(apart.start(), code=1)
+    assert "is full" in campaign.done(campaign.start(), code=1)
 
 
 def test_no_space_within_a_run_stops_the_campaign(sweep, capfd):
@@ -171,15 +171,15 @@ def test_a_table_that_does_not_fit_leaves_the_old_one(sweep, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("campaigns.machinery.folder.write_atomic", full)
-    code, left, _ = sweep("--steepness", *VALUES)
-    assert (code, left) == (1, rows)
+    code, rows_left, _ = sweep("--steepness", *VALUES)
+    assert (code, rows_left) == (1, rows)
 
 
 EIGHT = [0.02, 0.03, 0.05, 0.08, 0.1, 0.11, 0.13, 0.14]
 
 
 @pytest.fixture
-def together(tmp_path):
+def side_by_side(tmp_path):
     """Runs that share a worker: together(jobs, **fields of the FakeEngine) -> summary, steepness of the runs begun."""
     (tmp_path / "trajectories").mkdir()
 
@@ -201,13 +201,13 @@ def jobs_of(values, changes=None):
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
-def test_every_run_that_shares_a_worker_becomes_a_row_once(together, jobs):
-    summary, begun = together(jobs=jobs)
+def test_every_run_that_shares_a_worker_becomes_a_row_once(side_by_side, jobs):
+    summary, begun = side_by_side(jobs=jobs)
     assert statuses(summary.rows) == dict.fromkeys(EIGHT, "ok")
     assert sorted(begun) == EIGHT and summary.computed == len(EIGHT)
-    again, begun = together(jobs=jobs)
-    assert begun == [] and again.found == len(EIGHT)
-    assert [row["run_key"] for row in again.rows] == [row["run_key"] for row in summary.rows]
+    second, begun = side_by_side(jobs=jobs)
+    assert begun == [] and second.found == len(EIGHT)
+    assert [row["run_key"] for row in second.rows] == [row["run_key"] for row in summary.rows]
 
 
 @pytest.mark.parametrize(
@@ -219,24 +219,24 @@ def test_every_run_that_shares_a_worker_becomes_a_row_once(together, jobs):
         pytest.param("dies", "worker-died", 3, marks=pytest.mark.slow),
     ],
 )
-def test_a_run_that_fails_costs_those_beside_it_nothing(together, how, status, times):
+def test_a_run_that_fails_costs_those_beside_it_nothing(side_by_side, how, status, times):
     """One worker, in order: 0.02 to 0.05 are on disk when it dies; 0.08 dies twice more alone, the rest runs alone.
 
     Where 0.08 breaks off with an exception it is tried once more, alone.
     """
-    summary, begun = together(jobs=1, **{how: (0.08,)})
+    summary, begun = side_by_side(jobs=1, **{how: (0.08,)})
     assert statuses(summary.rows) == dict.fromkeys(EIGHT, "ok") | {0.08: status}
     assert {value: begun.count(value) for value in EIGHT} == dict.fromkeys(EIGHT, 1) | {0.08: times}
 
 
 @pytest.mark.slow
-def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(together):
+def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(side_by_side):
     with pytest.raises(CampaignStopped, match="full"):
-        together(jobs=1, no_space=(0.1,))
-    assert len(finished(together.out)) >= 4
-    done = len(finished(together.out))
-    assert statuses(rows_of(together.out)).keys() <= set(EIGHT)
-    summary, begun = together()
+        side_by_side(jobs=1, no_space=(0.1,))
+    assert len(finished(side_by_side.out)) >= 4
+    done = len(finished(side_by_side.out))
+    assert statuses(rows_of(side_by_side.out)).keys() <= set(EIGHT)
+    summary, begun = side_by_side()
     assert summary.found == done and len(begun) == len(EIGHT) - done
 
 
@@ -245,12 +245,15 @@ def groups(tmp_path, jobs, backend="loky", **how):
 
 
 def test_groups_are_even_and_hold_every_job_once(tmp_path):
-    many, together = jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)]), {"simulate_each": FakeEngine().each}
-    found = groups(tmp_path, many, **together)
-    sizes = [len(group) for group in found]
-    assert len(found) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
-    assert sorted(job.key for group in found for job in group) == sorted(job.key for job in many)
-    assert groups(tmp_path, many[: FEWEST - 1], **together) == []
+    many, side_by_side = (
+        jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)]),
+        {"simulate_each": FakeEngine().each},
+    )
+    grouped = groups(tmp_path, many, **side_by_side)
+    sizes = [len(group) for group in grouped]
+    assert len(grouped) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
+    assert sorted(job.key for group in grouped for job in group) == sorted(job.key for job in many)
+    assert groups(tmp_path, many[: FEWEST - 1], **side_by_side) == []
     # the engine runs one by one what keeps profiles, and threads share no worker
-    assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **together) == []
-    assert groups(tmp_path, jobs_of(EIGHT), "threading", **together) == groups(tmp_path, jobs_of(EIGHT)) == []
+    assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **side_by_side) == []
+    assert groups(tmp_path, jobs_of(EIGHT), "threading", **side_by_side) == groups(tmp_path, jobs_of(EIGHT)) == []

@@ -1,13 +1,14 @@
 """`campaigns.basins`: a grid of starts, the smallest one that leads to a motion, and the same motion at every phase."""
 
-import csv
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis import joins, settled
-from campaigns.basins import main, read_order
+from campaigns.basins import edge, main, read_order
+from campaigns.basins.answer import _shock
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.smallest import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
@@ -25,9 +26,9 @@ def test_a_turn_and_a_size_are_the_start_of_that_point(pair):
     grid = StartGrid(tuple(pair.split()), (7, 12), 3.0)
     names = {column.name for column in KICKS}
     for point in grid.points():
-        told, again = grid.start(*point).labels(), grid.at(*grid.polar(*point), "").labels()
-        assert told.keys() == again.keys() and names & told.keys()
-        assert all(told[name] == pytest.approx(again[name], abs=1e-12) for name in names & told.keys())
+        from_point, back = grid.start(*point).labels(), grid.at(*grid.polar(*point), "").labels()
+        assert from_point.keys() == back.keys() and names & from_point.keys()
+        assert all(from_point[name] == pytest.approx(back[name], abs=1e-12) for name in names & from_point.keys())
 
 
 def test_the_first_starts_of_a_grid_are_spread_over_it():
@@ -41,19 +42,49 @@ def test_the_first_starts_of_a_grid_are_spread_over_it():
 @pytest.mark.parametrize("centre", [(3.0, 0.4), (-1.0, -2.5), (0.2, 4.0)])
 def test_the_smallest_start_is_the_nearest_point_of_a_disc(centre):
     """Along a ray to SHARP of its size, and between rays by as much as a last step gains."""
-    radius, asked = 0.8, []
+    radius, tried = 0.8, []
 
     def leads(starts):
-        asked.extend(starts)
+        tried.extend(starts)
         places = [(size * math.cos(turn), size * math.sin(turn)) for turn, size in starts]
         return [math.dist(place, centre) <= radius for place in places]
 
     far = Shock(math.atan2(centre[1] + 0.5, centre[0]), math.hypot(centre[0], centre[1] + 0.5), 0.0)
-    found, nearest = smallest(leads, far, 2.0 * math.pi), math.hypot(*centre) - radius
-    assert leads([(found.turn, found.size)]) == [True] and leads([(found.turn, found.below)]) == [False]
-    assert found.below >= (1.0 - SHARP) * found.size
-    assert nearest <= found.size <= (1.0 + 2.5 * SHARP) * nearest
-    assert len(asked) < 400
+    least, nearest = smallest(leads, far, 2.0 * math.pi), math.hypot(*centre) - radius
+    assert leads([(least.turn, least.size)]) == [True] and leads([(least.turn, least.below)]) == [False]
+    assert least.below >= (1.0 - SHARP) * least.size
+    assert nearest <= least.size <= (1.0 + 2.5 * SHARP) * nearest
+    assert len(tried) < 400
+
+
+@pytest.mark.parametrize(
+    ("across", "shock", "way"),
+    [
+        ("vx phase", {"kick_x_mps": -2.0, "phase_rad": 0.5 * math.pi}, "against the waves, 0.25 T before a crest,"),
+        ("vz phase", {"kick_z_mps": 2.0, "phase_rad": math.pi}, "upwards, 0.50 T before a crest,"),
+        ("vx vz", {"kick_x_mps": -1.0, "kick_z_mps": -1.0}, "against the waves, 45 degrees downwards"),
+        ("x z", {"displacement_x_m": 0.01, "displacement_z_m": 1.0}, "upwards"),
+    ],
+)
+def test_the_smallest_start_is_told_with_its_way(across, shock, way):
+    row = shock | {"status": "ok", "size": 2.0, "motion": "B", "nodes": 81}
+    unit = "m" if "x" in across.split() else "m/s"
+    sentence = _shock([row, row | {"size": 2.1}], across.split())
+    assert sentence == f"2 {unit} {way} is the smallest that leads to B; on 81 nodes 2.1 {unit} {way}."
+
+
+def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(tmp_path, monkeypatch):
+    """They go on until they are APART, and the edge is followed over MOST waves by many such stretches."""
+    distances = edge.NEAR * 2.0 ** np.arange(12.0)
+    together = np.count_nonzero(distances <= edge.APART) - 1
+    columns = {"radius_m": np.ones(8), edge.TOP: np.ones(8)}
+    fake = SimpleNamespace(narrow=lambda: distances, go_on=lambda periods: (SimpleNamespace(columns=columns), "key"))
+    monkeypatch.setattr(edge, "Edge", lambda *_: SimpleNamespace(**vars(fake), scale=np.ones(4)))
+    monkeypatch.setattr(edge, "section_of", lambda run: (np.zeros((together + 1, 4)),))
+    motions = [SimpleNamespace(branch=SimpleNamespace(letter=letter)) for letter in "AB"]
+    row = edge.edge_state(SimpleNamespace(plan=SimpleNamespace(how=SimpleNamespace(out=tmp_path))), *motions)
+    assert row["growth_bits_per_period"] == pytest.approx(1.0) and row["strobed_period"] == 1
+    assert (row["status"], row["periods"]) == ("ok", together * math.ceil(edge.MOST / together))
 
 
 def test_a_motion_started_at_another_phase_is_the_same():
@@ -70,8 +101,8 @@ def test_a_motion_started_at_another_phase_is_the_same():
         state = run.final_state.at_zero()
         often = round(run.scene.waves.period_s / run.scene.sample_step_s())  # with as many samples the clock goes on
         on = simulate(Start("", state=state, often=often).scene(base), periods=2, start=state)
-        away = np.abs((section_of(on)[0][:, None] - known.points) / scale).max(axis=2)
-        assert known.period == 2 and away.min(axis=1).max() < 0.02
+        distance = np.abs((section_of(on)[0][:, None] - known.points) / scale).max(axis=2)
+        assert known.period == 2 and distance.min(axis=1).max() < 0.02
 
 
 def test_a_scene_with_one_motion(tmp_path):
@@ -84,9 +115,9 @@ def test_a_scene_with_one_motion(tmp_path):
     assert {(row["motion"], row["status"]) for row in rows} == {("A", "ok")} and len(rows) == 9
     assert (motion["share"], motion["found_by"], motion["regime"]) == ("1.0", "rest", "period-1")
     assert not (tmp_path / "shock").exists() and not (tmp_path / "edge").exists()
-    before = finished(tmp_path / "starts") | finished(tmp_path / "motions")
+    earlier = finished(tmp_path / "starts") | finished(tmp_path / "motions")
     assert main(words) == 0
-    assert finished(tmp_path / "starts") | finished(tmp_path / "motions") == before
+    assert finished(tmp_path / "starts") | finished(tmp_path / "motions") == earlier
     items = report(tmp_path).items
     assert any(isinstance(item, Figure) for item in items) and any(isinstance(item, Table) for item in items)
 
@@ -102,15 +133,14 @@ def test_the_period_3_at_25_m(tmp_path):
     """16 of 49 kicks on [-6, 6]^2 m/s lead to it, 5623 N; period 1 from rest, 4197 N (161 nodes: 4199 and 5624 N)."""
     words = ["--set", "water.depth_m=25", "--grid", "7", "--no-report", "--out", str(tmp_path)]
     assert main(words) == 0
-    rest, other = rows_of(tmp_path, "motions/table.csv")
-    assert (rest["regime"], other["regime"]) == ("period-1", "period-3")
+    rest, island = rows_of(tmp_path, "motions/table.csv")
+    assert (rest["regime"], island["regime"]) == ("period-1", "period-3")
     assert float(rest["tension_top_max_N"]) == pytest.approx(4197.0, abs=5.0)
-    assert float(other["tension_top_max_N"]) == pytest.approx(5623.0, abs=5.0)
-    assert float(other["share_low"]) < 16 / 49 < float(other["share_high"])
+    assert float(island["tension_top_max_N"]) == pytest.approx(5623.0, abs=5.0)
+    assert float(island["share_low"]) < 16 / 49 < float(island["share_high"])
     coarse, fine = rows_of(tmp_path, "shock/table.csv")
     assert float(fine["size"]) == pytest.approx(float(coarse["size"]), rel=0.05)
     (edge,) = rows_of(tmp_path, "edge/table.csv")
     assert (edge["status"], edge["strobed_period"]) == ("ok", "3")
     assert 4197.0 < float(edge["tension_top_max_N"]) < 5623.0 and float(edge["growth_bits_per_period"]) > 0.0
-    with open(tmp_path / "answer.txt") as file:
-        assert sum(1 for _ in csv.reader(file)) <= 8
+    assert len((tmp_path / "answer.txt").read_text().splitlines()) <= 8

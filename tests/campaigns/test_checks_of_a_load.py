@@ -3,7 +3,7 @@
 import pytest
 
 from campaigns.answers import regimes
-from campaigns.explore.answer import sentences, use_of
+from campaigns.explore.answer import coexisting, sentences, use_of
 from engine import load_scene
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
@@ -24,10 +24,10 @@ PULLS = {"status": "ok", "tension_top_max_N": 1000.0, "steepness": 0.1, "end_tim
 
 def checked(row, scene, searched=False) -> tuple[str, str]:
     """The two lists of the sentence."""
-    said = use_of(row, scene, searched)
-    made, _, missing = said.partition("; not checked: ")
-    assert made.startswith("Checked: ") and missing
-    return made, missing
+    words_of_use = use_of(row, scene, searched)
+    passed, _, missing = words_of_use.partition("; not checked: ")
+    assert passed.startswith("Checked: ") and missing
+    return passed, missing
 
 
 def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left():
@@ -40,22 +40,30 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_what_a_row_knows_was_checked(name):
-    made, missing = checked(PULLS | KNOWN[name], load_scene("tethered_buoy"))
-    assert name in made and name not in missing
+    passed, missing = checked(PULLS | KNOWN[name], load_scene("tethered_buoy"))
+    assert name in passed and name not in missing
 
 
 @pytest.mark.parametrize("name", IN_SCENE)
 def test_what_a_scene_has_was_checked(name):
-    made, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
-    assert name in made and name not in missing
+    passed, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
+    assert name in passed and name not in missing
 
 
 def test_other_motions_were_looked_for_where_a_share_is_known():
     scene = load_scene("tethered_buoy")
-    alone = sentences([PULLS], "steepness", "kA", scene)
+    single = sentences([PULLS], "steepness", "kA", scene)
     kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
-    assert "other motions" in alone[-1].partition("not checked")[2]
+    assert "other motions" in single[-1].partition("not checked")[2]
     assert "other motions" not in kicked[-1].partition("not checked")[2]
+
+
+@pytest.mark.parametrize(("peak_N", "words"), [(500.0, ""), (2000.0, "motion B pulls 2 kN, the one from rest 1 kN")])
+def test_a_motion_that_pulls_more_than_the_one_from_rest_is_named_with_both_pulls(peak_N, words):
+    rows = [PULLS | {"motion": motion, "found_by": found_by} for motion, found_by in (("A", "rest"), ("B", "kick"))]
+    rows[1]["tension_top_max_N"] = peak_N
+    (sentence,) = coexisting(rows, "steepness", "kA")
+    assert sentence == f"One wave has several motions at kA = 0.1{words and '; at kA = 0.1 '}{words}."
 
 
 def test_a_random_sea_says_how_long_it_was():

@@ -21,7 +21,7 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run_campaign
 from engine import load_scene
-from tests.campaigns.conftest import ROOT, USUAL, VALUES, finished, rows_of, until
+from tests.campaigns.conftest import ROOT, USUAL, VALUES, until
 from tests.campaigns.fake_engine import FakeEngine
 
 distributed = pytest.importorskip("distributed")
@@ -59,23 +59,23 @@ class Dask:
 @pytest.fixture
 def dask(tmp_path):
     """dask(workers, scheduler's sources) -> a running cluster; all its processes end with the test."""
-    found = []
+    cluster = []
 
     def start(workers: int = 2, sources: Path = ROOT) -> Dask:
-        found.append(Dask(tmp_path / "cluster", sources))
-        found[0].workers = [found[0].add_worker() for _ in range(workers)]
-        found[0].wait_for_workers(workers)
-        return found[0]
+        cluster.append(Dask(tmp_path / "cluster", sources))
+        cluster[0].workers = [cluster[0].add_worker() for _ in range(workers)]
+        cluster[0].wait_for_workers(workers)
+        return cluster[0]
 
     yield start
-    for process in found[0].processes if found else ():
+    for process in cluster[0].processes if cluster else ():
         with contextlib.suppress(ProcessLookupError):
             process.kill()
         process.wait()
 
 
-def at(found):
-    return ["--backend", "dask", "--dask-address", found.address]
+def at(cluster):
+    return ["--backend", "dask", "--dask-address", cluster.address]
 
 
 def judge(run, checks, orbits):
@@ -105,54 +105,43 @@ def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_w
         monkeypatch.setattr("campaigns.machinery.tasks.opened", lambda *_: contextlib.nullcontext(elsewhere))
     assert rows[0] == rows[1]
     for name in (f"{job.key}.nc", f"{job.key}.row.json", "an orbit.orbit.json"):
-        here, there = (place / "trajectories" / name for place in places)
-        assert here.read_bytes() == there.read_bytes()
+        local, remote = (place / "trajectories" / name for place in places)
+        assert local.read_bytes() == remote.read_bytes()
 
 
 @pytest.mark.slow
-def test_the_results_are_those_of_processes(dask, tmp_path):
-    tables = []
-    for name, more in (("loky", []), ("dask", at(dask()))):
-        words = ["--steepness", *VALUES, "--periods", "12", "--transient", "2", "--no-report", *more]
-        engine = FakeEngine(breaks=(0.03,), raises=(0.05,))
-        assert buoy_sweep.main([*words, "--out", str(tmp_path / name)], simulate=engine) == 0
-        tables.append((rows_of(tmp_path / name), sorted(finished(tmp_path / name))))
-    assert tables[0] == tables[1]
-
-
-@pytest.mark.slow
-def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(dask, apart, monkeypatch, capfd):
+def test_a_run_that_kills_every_worker_stops_the_campaign_and_new_workers_finish_it(dask, campaign, monkeypatch, capfd):
     monkeypatch.setattr(pools, "GONE_S", 1.0)
     monkeypatch.setattr(pools, "LOOK_S", 0.2)
-    found = dask()
-    words = ["--steepness", *VALUES, *USUAL, *at(found), "--out", str(apart.out)]
+    cluster = dask()
+    words = ["--steepness", *VALUES, *USUAL, *at(cluster), "--out", str(campaign.out)]
     deadly = FakeEngine(dies=(0.04,), sleep_s=0.3)  # time for the runs before it to be handed over
     assert buoy_sweep.main(words, simulate=deadly) == 1
     error = capfd.readouterr().err
     assert "has had no worker for 1 s" in error and "run the same command again" in error
-    apart.sound_part()
-    found.add_worker()
-    found.wait_for_workers(1)
-    apart.complete(*at(found))
+    campaign.sound_part()
+    cluster.add_worker()
+    cluster.wait_for_workers(1)
+    campaign.complete(*at(cluster))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lost", ["worker", "scheduler", "campaign"])
-def test_whoever_is_killed_costs_what_was_running(dask, apart, lost):
-    found = dask()
-    process = apart.begin(*at(found))
-    {"worker": found.workers[0], "scheduler": found.scheduler, "campaign": process}[lost].kill()
+def test_whoever_is_killed_costs_what_was_running(dask, campaign, lost):
+    cluster = dask()
+    process = campaign.begin(*at(cluster))
+    {"worker": cluster.workers[0], "scheduler": cluster.scheduler, "campaign": process}[lost].kill()
     if lost == "campaign":
         process.communicate()
-        apart.complete(*at(found))
+        campaign.complete(*at(cluster))
     elif lost == "scheduler":
-        error = apart.done(process, code=1)
+        error = campaign.done(process, code=1)
         assert "the dask scheduler has ended" in error and "finished runs are kept" in error
-        apart.complete()
+        campaign.complete()
     else:
-        apart.done(process)
-        apart.check_all_ok()
-        assert apart.begun() - len(VALUES) <= 2  # what it was running, and at most one ended and not handed over yet
+        campaign.done(process)
+        campaign.check_all_ok()
+        assert campaign.begun() - len(VALUES) <= 2  # what it was running, and at most one ended and not handed over yet
 
 
 def changed(folder):
@@ -181,25 +170,25 @@ def absent(folder):
         (None, absent, "the scheduler: No module named"),
     ],
 )
-def test_another_version_is_refused_by_name(dask, apart, tmp_path, worker, scheduler, word):
-    found = dask(1, scheduler(tmp_path / "other") if scheduler else ROOT)
+def test_another_version_is_refused_by_name(dask, campaign, tmp_path, worker, scheduler, word):
+    cluster = dask(1, scheduler(tmp_path / "other") if scheduler else ROOT)
     if worker:
-        found.add_worker(worker(tmp_path / "other"))
-        found.wait_for_workers(2)
-    error = apart.done(apart.start(*at(found), sleep_s=1.0), code=1)
+        cluster.add_worker(worker(tmp_path / "other"))
+        cluster.wait_for_workers(2)
+    error = campaign.done(campaign.start(*at(cluster), sleep_s=1.0), code=1)
     assert "refused" in error and word in error and "numba" not in error
     assert worker is not changed or "sources of engine" in error
 
 
 @pytest.mark.slow
-def test_a_stopped_worker_keeps_nobody_from_starting(dask, apart):
-    found = dask()
-    found.workers[0].send_signal(signal.SIGSTOP)
-    process = apart.start(*at(found))
+def test_a_stopped_worker_keeps_nobody_from_starting(dask, campaign):
+    cluster = dask()
+    cluster.workers[0].send_signal(signal.SIGSTOP)
+    process = campaign.start(*at(cluster))
     try:
-        until(lambda: len(apart.finished()) >= 2, process)
+        until(lambda: len(campaign.finished()) >= 2, process)
         time.sleep(0.2)
     finally:
-        found.workers[0].send_signal(signal.SIGCONT)
-    apart.done(process)
-    apart.check_all_ok()
+        cluster.workers[0].send_signal(signal.SIGCONT)
+    campaign.done(process)
+    campaign.check_all_ok()

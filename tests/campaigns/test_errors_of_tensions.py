@@ -1,8 +1,12 @@
 """How far a sweep's largest tension holds (`campaigns.explore.errors`): the rule, and where rows say so."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from campaigns.explore import errors
 from campaigns.explore.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
 from campaigns.explore.starts import settled_of
 from campaigns.machinery.store import Store
@@ -15,12 +19,12 @@ from tests.campaigns.fake_engine import sines
 
 def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands_above_the_usual():
     row = {"tension_top_max_N": 105.0, "unresolved_ringing_N": 0.5}
-    same = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
-    assert error_N(row, 101.0, same) == (7.5, ["the largest tension holds to 7 % only"])
-    assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, same) == (4.5, [])
-    _, (other, _) = error_N(row, 101.0, same | {"outcome": UNSETTLED})
-    assert OTHER_MOTION in other
-    unknown, (ended,) = error_N(row, 101.0, same | {"status": "newton-failed"})
+    companion = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
+    assert error_N(row, 101.0, companion) == (7.5, ["the largest tension holds to 7 % only"])
+    assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, companion) == (4.5, [])
+    _, (of_another, _) = error_N(row, 101.0, companion | {"outcome": UNSETTLED})
+    assert OTHER_MOTION in of_another
+    unknown, (ended,) = error_N(row, 101.0, companion | {"status": "newton-failed"})
     assert np.isnan(unknown) and "newton-failed" in ended
 
 
@@ -39,8 +43,8 @@ def test_the_error_of_a_slack_fraction_covers_its_distance_from_the_limit(bias):
 
 
 def test_a_slack_fraction_that_the_companion_moves_is_told_and_chance_is_not():
-    same, scattered = np.full(4, 0.65), np.array([0.58, 0.72, 0.66, 0.64])
-    assert slack_error(same, {"slack_fraction": 0.71}) == (
+    companion, scattered = np.full(4, 0.65), np.array([0.58, 0.72, 0.66, 0.64])
+    assert slack_error(companion, {"slack_fraction": 0.71}) == (
         pytest.approx(0.08),
         ["the slack fraction holds to 0.08 only"],
     )
@@ -66,6 +70,19 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
     row = companion_row(sines(scene, REPEATING, radius=(20.0, swing_m)), period=1, motion=motion)
     assert row["outcome"] == outcome
     assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py
+
+
+@pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])
+def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(regime, periods, monkeypatch):
+    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1}), 90)
+    state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
+    monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
+    row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 90.0}
+    job = errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row).job
+    assert job.scene.tether.nodes - 1 == 2 * (run.scene.tether.nodes - 1)
+    assert job.scene.solver.rtol == pytest.approx(run.scene.solver.rtol / 4.0)
+    assert job.scene.output.tangent_vectors == 0 and job.labels == {"of_run": "of the run"}
+    assert job.going(job.scene, None, None, {})[:3] == (job.scene, periods, state)
 
 
 @pytest.mark.slow

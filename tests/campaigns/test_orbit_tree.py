@@ -9,7 +9,7 @@ import pytest
 from analysis.orbits import NoImage, OrbitMap
 from campaigns.orbits import cases, read_order
 from campaigns.orbits.tables import tables
-from campaigns.orbits.tree import Tree
+from campaigns.orbits.tree import SHARP, Tree
 from tables import Column
 from tests.campaigns.conftest import rows_of
 
@@ -40,6 +40,7 @@ class HenonLine:
     low: float = -0.15
     high: float = 0.95
     size: float = 1.0
+    rtol: float = 1e-3
     step: object = henon
 
     @property
@@ -47,7 +48,7 @@ class HenonLine:
         return Seen(), OrbitMap(self.step, parameter_size=self.size)
 
     def digest(self):
-        return "henon"
+        return f"henon {self.rtol}"
 
 
 def fixed(a, way):
@@ -70,12 +71,36 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
     rows, events = rows_of(tmp_path, "branches/table.csv"), rows_of(tmp_path, "events/table.csv")
     assert [(row["branch"], row["motion"]) for row in rows] == [("1", "A B"), ("2", ""), ("4", "")]
     for branch, kind, value, leads in (("1", "fold", FOLD, ""), ("1", "flip", FLIP, "2"), ("2", "flip", SECOND, "4")):
-        (event,) = (one for one in events if (one["branch"], one["kind"]) == (branch, kind))
+        (event,) = (candidate for candidate in events if (candidate["branch"], candidate["kind"]) == (branch, kind))
         assert abs(float(event["a"]) - value) <= float(event["error"]) < 1e-2 and event["leads_to"] == leads
     assert all(float(row["multiplier_1_error"]) < 1e-6 for row in rows_of(tmp_path)), "every multiplier has an error"
     assert {row["unstable"] for row in rows_of(tmp_path, "orbits/table.csv")} == {"0", "1"}
-    again = grown(tmp_path)
-    assert first.computed > 0 and again.computed == 0 and again.there == first.computed + first.there
+    for row in rows_of(tmp_path):
+        if row["branch"] == "1":  # multipliers of a fixed point: mu^2 + 2 x mu - b = 0
+            way = 1 if float(row["radius_max_m"]) > -(1 - B) / 2 else -1
+            moduli = np.abs(np.roots([1.0, 2.0 * fixed(float(row["a"]), way)[0, 0], -B]))
+            assert np.min(np.abs(moduli - 1.0)) < 1e-6 or int(row["unstable"]) == np.count_nonzero(moduli > 1.0)
+    second = grown(tmp_path)
+    assert first.computed > 0 and second.computed == 0 and second.there == first.computed + first.there
+
+
+def test_an_event_is_known_as_well_as_steps_and_a_finer_grid_agree(tmp_path, monkeypatch):
+    """The finer grid moves every event by 0.02, the tighter tolerance by 0.01, to an error of 1e-5."""
+    tree = grown(tmp_path)
+    moves = {"finer": 0.02, "sharper": 0.01}
+    for name, by in moves.items():
+        result = lambda line, kind, at, *orbit, by=by: ({"reason": "", "value": at + by, "error": 1e-5}, [])  # noqa: E731
+        result.__name__ = name
+        monkeypatch.setattr(f"campaigns.orbits.tree.{name}", result)
+    events = [event for branch in tree.branches for event in branch.result["events"]]
+    events[0]["error"] = None
+    earlier = [dict(event) for event in events]
+    tree.refine()
+    for event, old in zip(events, earlier, strict=True):
+        sharp = old["error"] is None or old["error"] > SHARP
+        assert event["value"] == pytest.approx(old["value"] + 0.01 * sharp)
+        assert event["finer"] == pytest.approx(event["value"] + 0.02)
+        assert event["error"] == pytest.approx(max(0.02, old["error"] or 0.0))
 
 
 def test_what_is_not_followed_or_not_found_is_a_row_with_its_reason(tmp_path):

@@ -1,9 +1,12 @@
 """`campaigns.orbits`: the orbits under motions, along a key; where orbits say that a motion ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from campaigns.explore.tracing import Line, Scenes, line_task, work
+from campaigns.finer import finer
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.orbits import main
@@ -30,17 +33,20 @@ def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     plan = Plan(Running(tmp_path, 1, "threading"), None, None, ())
     task = line_task(doubles, line, (0.3,))
 
-    def done(task):
-        ((pair,), found) = work(plan, tmp_path / "kept", "doubling", [task])
-        return pair, found
+    def result_of(task):
+        ((pair,), reused) = work(plan, tmp_path / "kept", "doubling", [task])
+        return pair, reused
 
-    assert done(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 0)
-    assert done(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 1)
+    assert result_of(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 0)
+    assert result_of(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 1)
     path = tmp_path / "kept" / f"{task.key}.json"
     path.write_bytes(path.read_bytes()[:-7])
-    assert done(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
-    assert done(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
-    assert line_task(doubles, line, (0.4,)).key != task.key
+    assert result_of(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
+    assert result_of(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
+    lines = [replace(line, **{name: 0.15}) for name in ("low", "high", "size", "value", "rtol")]
+    lines += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2).to_toml(), line.scenes.key, "a"))]
+    keys = {line_task(doubles, other, (0.3,)).key for other in (line, *lines)}
+    assert len(keys | {line_task(doubles, line, (0.4,)).key}) == len(lines) + 2, "a key has all that a result rests on"
 
 
 class Digest:
@@ -78,36 +84,47 @@ def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(t
     values = [float(row["waves.steepness"]) for row in rows]
     assert min(values) == 0.1 and max(values) == 0.12 and sorted(values) in (values, values[::-1])
     modulus = [float(row["multiplier_modulus"]) for row in rows]
-    assert all(0.88 < one < 0.95 for one in modulus) and all(row["unstable"] == "0" for row in rows)
+    assert all(0.88 < value_of < 0.95 for value_of in modulus) and all(row["unstable"] == "0" for row in rows)
     assert max(float(row["gap"]) for row in rows) < 1e-8
     (orbit,) = rows_of(tmp_path, "orbits/table.csv")
     assert 0.0 < float(orbit["multiplier_1_error"]) < 0.02 and (tmp_path / "orbits" / "1_0.csv").exists()
     assert {row["status"] for row in rows_of(tmp_path, "motions/table.csv")} == {"ok"}
-    kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")}
+    files = {path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")}
     (tmp_path / "table.csv").unlink()
     capsys.readouterr()
-    assert main(words) == 0 and kept == {
+    assert main(words) == 0 and files == {
         path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")
     }
     assert rows_of(tmp_path) == rows and "0 computed" in capsys.readouterr().out
     items = report(tmp_path).items
     assert any(isinstance(item, Figure) for item in items) and any(isinstance(item, Table) for item in items)
     run = next((tmp_path / "motions" / "trajectories").glob("*.nc"))
-    one = ["--vary", "waves.steepness", "0.1", "0.12", "--start-from", str(run), "--orbits", "1"]
-    assert main([*one, "--no-accuracy", "--no-report", "--out", str(tmp_path / "one")]) == 0
+    value_of = ["--vary", "waves.steepness", "0.1", "0.12", "--start-from", str(run), "--orbits", "1"]
+    assert main([*value_of, "--no-accuracy", "--no-report", "--out", str(tmp_path / "one")]) == 0
     assert len(rows_of(tmp_path / "one")) <= 3
 
 
 @pytest.mark.slow
-def test_a_sweep_tells_multipliers_and_the_fold_at_which_a_motion_ends(tmp_path):
+def test_a_sweep_has_a_row_for_each_motion_with_multipliers_and_the_fold_at_which_it_ends(tmp_path, capsys):
     """H = 25 m: the period 3 is an island that begins at a fold at kA = 0.12087 (81 nodes: the same to 2e-4)."""
     from campaigns.buoy_sweep import main as sweep
 
     words = ["--set", "water.depth_m=25", "--steepness", "0.12", "0.13", "--no-accuracy", "--no-report"]
-    assert sweep([*words, "--starts", "0", "--out", str(tmp_path)]) == 0
-    found = {(row["steepness"], row["regime"]): row for row in rows_of(tmp_path)}
-    one, three = found["0.13", "period-1"], found["0.13", "period-3"]
-    assert float(one["multiplier_modulus"]) == pytest.approx(0.9005, abs=float(one["multiplier_error"]) + 5e-3)
+    words += ["--starts", "2", "--out", str(tmp_path)]
+    assert sweep(words) == 0
+    rows, starts = rows_of(tmp_path), rows_of(tmp_path, "starts/table.csv")
+    assert [(row["steepness"], row["motion"]) for row in rows] == [("0.12", "A"), ("0.13", "A"), ("0.13", "B")]
+    assert all(float(row["share_low"]) <= float(row["share"]) <= float(row["share_high"]) for row in rows)
+    assert {row["motion"] for row in starts} == {"A", "B"} and {row["status"] for row in starts} == {"ok"}
+    assert sweep(words) == 0 and "3: 0 computed, 3 found" in capsys.readouterr().out
+    assert rows_of(tmp_path) == rows and rows_of(tmp_path, "starts/table.csv") == starts
+    _, value_of, three = rows
+    assert (value_of["regime"], three["regime"]) == ("period-1", "period-3")
+    for row, pull_N in ((value_of, 4205), (three, 5625)):
+        assert float(row["tension_top_max_N"]) == pytest.approx(pull_N, abs=25)
+    assert float(value_of["multiplier_modulus"]) == pytest.approx(
+        0.9005, abs=float(value_of["multiplier_error"]) + 5e-3
+    )
     assert float(three["multiplier_angle_rad"]) == pytest.approx(np.pi)
     # 21 meshes, at seven tolerances from .003 to .0005, give .735 with a standard deviation of .03
     assert float(three["multiplier_modulus"]) == pytest.approx(0.735, abs=float(three["multiplier_error"]) + 0.03)

@@ -29,10 +29,10 @@ def test_every_part_is_a_row_with_its_file(out):
 
 
 def test_what_is_there_is_found_and_a_damaged_part_is_computed_again_with_the_same_numbers(out, capsys):
-    row, before = rows(out)["orbits"], (out / "table.csv").read_bytes()
+    row, earlier = rows(out)["orbits"], (out / "table.csv").read_bytes()
     assert oscillator.main([*QUICK, "--out", str(out)]) == 0
     assert "6: 0 computed, 6 found" in capsys.readouterr().out
-    assert (out / "table.csv").read_bytes() == before
+    assert (out / "table.csv").read_bytes() == earlier
     path = out / "trajectories" / f"{row['run_key']}.nc"
     content = path.read_bytes()
     path.write_bytes(content[: len(content) // 2])

@@ -1,5 +1,6 @@
 """Other codes: scipy on the engine's own equations agrees with the engine, and what is not installed is said."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from campaigns.accuracy import jobs
 from campaigns.accuracy.peers import scipy as peer_scipy
 from campaigns.accuracy.peers.record import as_trajectory
 from campaigns.accuracy.plan import BY_NAME, FULL, PEERS
-from campaigns.accuracy.rows import rms_mm, samples_of
+from campaigns.accuracy.rows import _judged, rms_mm, samples_of
 from engine import load_scene, simulate
 
 
@@ -23,9 +24,9 @@ def test_the_resolvent_gives_the_equations_of_the_engine(name, nodes, duration_s
     ours = simulate(scene, duration_s=duration_s)
     theirs = peer_scipy.simulate(scene, duration_s, nodes, 1e-5, "Radau")
     assert theirs.status == "ok" and theirs.statistics["newton_failures"] == 0
-    found, expected = samples_of(work, theirs), samples_of(work, ours)
+    theirs_m, expected = samples_of(work, theirs), samples_of(work, ours)
     assert np.ptp(expected, axis=0).max() > 0.05
-    assert rms_mm(found, expected) < cap_mm
+    assert rms_mm(theirs_m, expected) < cap_mm
 
 
 @pytest.mark.slow
@@ -59,8 +60,8 @@ def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum()
 def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
     monkeypatch.setattr(jobs.importlib.util, "find_spec", lambda name: None if name != "scipy" else object())
     effort = replace(FULL, works=("snap", "pendulum"))
-    *before, timed = jobs.phases(tmp_path, effort, False, True)
-    assert not any(job.labels["kind"].startswith("peer") for phase in before for job in phase)
+    *untimed, timed = jobs.phases(tmp_path, effort, False, True)
+    assert not any(job.labels["kind"].startswith("peer") for phase in untimed for job in phase)
     missing = [job for job in timed if job.labels.get("peer_version") == ""]
     assert {job.labels["method"] for job in missing} == {"MoorDyn", "CableDyn"}
     for job in missing:
@@ -79,3 +80,15 @@ def test_a_foreign_record_invents_nothing():
     run = as_trajectory(load_scene("tethered_buoy"), "ok", "", np.array([0.0, 0.05]), places, {"wall_s": 1.0})
     assert run.columns["radius_m"] == pytest.approx([5.0, 5.0])
     assert np.isnan(run.columns["tension_top_N"]).all()
+
+
+@pytest.mark.parametrize(
+    ("slopes", "within"),
+    [((2.1, 1.9, 2.0), 1), ((3.5, 0.2, 2.0), 0), ((2.0, 2.0, 1.7), 0), ((2.0, 2.0, math.inf), 1), ((), "")],
+)
+def test_an_order_is_that_of_theory_where_no_slope_of_its_series_jumps_about(slopes, within):
+    errors_mm = [1.0, *np.cumprod(0.5 ** np.array(slopes))]
+    row = {"work": "regular", "method": "trbdf2", "setting": 0.01, "nodes": 41, "status": "ok"}
+    judged = _judged("time", 2, [row] * len(errors_mm), errors_mm)
+    assert judged["within"] == within
+    assert judged["order"] == (pytest.approx([slope for slope in slopes if slope < math.inf][-1]) if slopes else "")

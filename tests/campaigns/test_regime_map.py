@@ -1,12 +1,16 @@
 """`campaigns.regime_map`: cells and their borders on a system of known folds; a command whose runs may fail; cuts."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
 from campaigns.explore.grid import varied
-from campaigns.regime_map import main, read_order
+from campaigns.regime_map import main, maps, read_order
+from campaigns.regime_map.answer import sentences
 from campaigns.regime_map.cells import CellGrid, Quadtree
+from engine import load_scene
 from tests.campaigns.conftest import finished, rows_of
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
@@ -16,7 +20,7 @@ VARY = "--vary", "waves.steepness", 0.02, 0.1, 3, "--vary", "water.depth_m", 21,
 
 
 def grid(*words):
-    return CellGrid(tuple(varied(one.split(), []) for one in words))
+    return CellGrid(tuple(varied(cell_of_table.split(), []) for cell_of_table in words))
 
 
 def square(count=SIDE):
@@ -56,10 +60,10 @@ def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cel
     tree.add(shape.coarse())
     motions = ToyMotions(tmp_path, shape.columns, tree.neighbours, match_distance=0.1)
     jobs = [Job(shape.labels(cell), Scene(*shape.labels(cell).values())) for cell in tree.cells]
-    for job, found in zip(jobs, explored(monkeypatch, motions, jobs, kicks=0).at, strict=True):
+    for job, motions_here in zip(jobs, explored(monkeypatch, motions, jobs, kicks=0).at, strict=True):
         p, q = job.labels.values()
-        assert len(found) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
-        assert len({motion.branch.letter for motion in found}) == len(found)
+        assert len(motions_here) == (2 if q > 0 and p**2 < 4.0 * q**3 / 27.0 else 1)
+        assert len({motion.branch.letter for motion in motions_here}) == len(motions_here)
     assert {motion.branch.letter for motion in motions.all_motions()} <= {"A", "B"}
     assert motions.starts.count < 4 * SIDE**2  # where a neighbour has a like motion, nothing is run
 
@@ -72,42 +76,73 @@ def unscreened(monkeypatch):
 def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
     assert run(tmp_path, *VARY, engine=FakeEngine(raises=(0.06,))) == 0
     cells = rows_of(tmp_path, "cells/table.csv")
-    assert [(one["waves.steepness"], one["water.depth_m"]) for one in cells] == [
+    assert [(cell_of_table["waves.steepness"], cell_of_table["water.depth_m"]) for cell_of_table in cells] == [
         (kA, depth) for kA in ("0.02", "0.06", "0.1") for depth in ("21.0", "23.0")
     ]
-    for one in cells:
-        failed = one["waves.steepness"] == "0.06"
-        assert (one["source"], "a fault of the code" in one["message"]) == (
+    for cell_of_table in cells:
+        failed = cell_of_table["waves.steepness"] == "0.06"
+        assert (cell_of_table["source"], "a fault of the code" in cell_of_table["message"]) == (
             ("failed", True) if failed else ("computed", False)
         )
-        assert one["width_waves.steepness"] == "0.04"
+        assert cell_of_table["width_waves.steepness"] == "0.04"
     rows = rows_of(tmp_path)
     assert {row["status"] for row in rows} == {"ok", "error"} and len(rows) == 6
     assert {(row["regime"], row["verdict"]) for row in rows} == {("period-1", "cheap"), ("", "")}
 
 
-def test_the_same_command_computes_nothing_again(tmp_path, unscreened):
-    log = str(tmp_path / "log")
-    for _ in range(2):
-        assert run(tmp_path / "out", *VARY, engine=FakeEngine(log=log)) == 0
-    assert len(FakeEngine(log=log).begun()) == 6
+def test_the_same_command_computes_nothing_again_but_what_is_damaged(tmp_path, unscreened, capsys):
+    engine = FakeEngine(log=str(tmp_path / "log"))
+    for count in ("6 computed, 0 found", "0 computed, 6 found", "1 computed, 5 found"):
+        assert run(tmp_path / "out", *VARY, engine=engine) == 0
+        assert f": {count}" in capsys.readouterr().out
+        path, *_ = (tmp_path / "out" / "trajectories").glob("*.nc")
+        if count.startswith("0"):
+            path.write_bytes(b"CDF")
+    assert len(engine.begun()) == 7
 
 
-def test_a_damaged_file_counts_as_computed_again(tmp_path, unscreened, capsys):
-    assert run(tmp_path, *VARY) == 0
-    path, *_ = (tmp_path / "trajectories").glob("*.nc")
-    path.write_bytes(b"CDF")
-    capsys.readouterr()
-    assert run(tmp_path, *VARY) == 0
-    assert ": 1 computed, 5 found" in capsys.readouterr().out
+CELL = {"level": 0, "source": "computed", "motions": 2, "regime_rest": "period-1", "tension_over_static": 3.0}
+
+
+def test_the_answer_counts_cells_of_the_coarse_grid_and_names_the_largest_tension_with_its_kicks():
+    """Of four cells one is chaotic from rest, two are in some motion; parts of one of them are no further cells."""
+    cells, motions = [], []
+    for place, regimes in enumerate((("period-1",), ("chaotic",), ("period-2", "chaotic"), ("undecided",))):
+        key = {"waves.steepness": 0.1 * place}
+        cells.append(CELL | key | {"regime_rest": regimes[0], "tension_top_max_N": 1e3 * place})
+        for number, regime in enumerate(regimes):
+            pull_N = 1e3 * place * (1 - 0.5 * number)
+            motions.append(key | {"level": 0, "regime": regime, "tension_top_max_N": pull_N, "share": 0.25, "kicks": 8})
+    for part in range(4):
+        motions.append({"waves.steepness": 0.21 + 0.01 * part, "level": 1, "regime": "chaotic"})
+    keys = grid("waves.steepness 0 0.3 4").columns
+    lines = list(sentences(cells, motions, keys, lambda row: load_scene("tethered_buoy")))
+    assert "chaotic on 25 %, quasi-periodic on 0 % and periodic on 50 % of the map; 25 % is not decided" in lines[1]
+    assert lines[2] == "Some motion is chaotic on 50 % of the map."
+    assert lines[3] == "Largest tension 3 kN, 3 times that at rest, at kA = 0.3; 2 of 8 kicks there end in it."
+
+
+@pytest.mark.parametrize(
+    ("evidence", "cheap"),
+    [
+        ("close: 0.001/0.002/yes", True),
+        ("no growth: -1/0/yes", True),
+        ("close: 0.004/0.002/no; no growth: 1/0/no", False),
+    ],
+)
+def test_a_cheap_verdict_needs_a_close_return_or_perturbations_that_do_not_grow(evidence, cheap, monkeypatch):
+    row = {"regime": "undecided", "strobed_period": 3, "evidence": evidence}
+    monkeypatch.setattr(maps, "buoy_row", lambda run, judgement: dict(row))
+    cell = maps.cell_row(SimpleNamespace(columns={"radius_rate_mps": [1.0], "angle_rate_radps": [1.0]}), None)
+    assert (cell["regime"], cell["verdict"]) == (("period-3", "cheap") if cheap else ("undecided", "full"))
 
 
 @pytest.mark.slow
 def test_a_massless_screen_computes_no_cell(tmp_path):
     assert run(tmp_path, *VARY, "--screen") == 0
     cells = rows_of(tmp_path, "cells/table.csv")
-    assert {one["source"] for one in cells} == {"screened"} and len(cells) == 6
-    assert all(float(one["tension_over_static"]) > 1.0 for one in cells)
+    assert {cell_of_table["source"] for cell_of_table in cells} == {"screened"} and len(cells) == 6
+    assert all(float(cell_of_table["tension_over_static"]) > 1.0 for cell_of_table in cells)
     assert not (tmp_path / "table.csv").exists()
 
 
@@ -127,8 +162,8 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
     of_map = ["--vary", "waves.steepness", 0.08, 0.1, 2, "--vary", "water.depth_m", 22, 22.5, 2, "--starts", 2]
     whole = [*map(str, of_map), *small, str(tmp_path / "map")]
     assert main(whole) == 0
-    before, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
-    assert main(whole) == 0 and rows_of(tmp_path / "map") == before and finished(tmp_path / "map") == runs
+    earlier, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
+    assert main(whole) == 0 and rows_of(tmp_path / "map") == earlier and finished(tmp_path / "map") == runs
     assert main([*whole, "--cut", "water.depth_m=22"]) == 0
     swept = [
         "--steepness",
@@ -142,7 +177,9 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
     ]
     assert buoy_sweep.main(swept) == 0
     for table in ("table.csv", "starts/table.csv"):
-        own, other = (rows_of(tmp_path / folder, table) for folder in ("map/cuts/water.depth_m=22.0", "sweep"))
-        assert [{**row, "wall_s": ""} for row in own] == [{**row, "wall_s": ""} for row in other]
-    rest = {row["run_key"] for row in before if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
+        cut_rows, swept_rows = (
+            rows_of(tmp_path / folder, table) for folder in ("map/cuts/water.depth_m=22.0", "sweep")
+        )
+        assert [{**row, "wall_s": ""} for row in cut_rows] == [{**row, "wall_s": ""} for row in swept_rows]
+    rest = {row["run_key"] for row in earlier if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
     assert len(rest) == 2 and rest <= {row["run_key"] for row in rows_of(tmp_path / "sweep")}

@@ -32,14 +32,6 @@ KEY, RUN = "a" * 64, b"the content of its file"
 WITH_REPORT = ["--periods", "6", "--no-accuracy"]
 
 
-def test_a_second_run_computes_nothing_and_says_the_same(sweep):
-    code, rows, begun = sweep(*THREE.split())
-    assert (code, begun) == (0, [0.02, 0.05, 0.13])
-    files = finished(sweep.out)
-    assert sweep(*THREE.split()) == (0, rows, [])
-    assert finished(sweep.out) == files
-
-
 @pytest.mark.parametrize(
     ("first", "second", "values", "begun"),
     [
@@ -84,20 +76,22 @@ def test_files_under_each_others_names_are_computed_again_and_that_is_said(sweep
     Trajectory.from_bytes(contents[1]).save(paths[2], {"run_key": rows[2]["run_key"]})
     capfd.readouterr()
     assert sweep(*THREE.split()) == (0, rows, [0.02, 0.05, 0.13])
-    told = [line for line in capfd.readouterr().err.splitlines() if "computed again" in line]
-    assert len(told) == 3
-    assert all(key["run_key"] in line for key, line in zip([rows[1], rows[0]], told, strict=False))
-    assert "its scene is not the one" in told[2]
+    lines = [line for line in capfd.readouterr().err.splitlines() if "computed again" in line]
+    assert len(lines) == 3
+    assert all(key["run_key"] in line for key, line in zip([rows[1], rows[0]], lines, strict=False))
+    assert "its scene is not the one" in lines[2]
     assert [path.read_bytes() for path in paths] == contents
 
 
 @pytest.mark.parametrize(
     "damage",
     [
-        pytest.param(lambda text, other: text.replace('"tension_top_max_N": ', '"tension_top_max_N": 9'), id="a digit"),
-        pytest.param(lambda text, other: text[: len(text) // 2], id="torn"),
-        pytest.param(lambda text, other: other, id="of another run"),
-        pytest.param(lambda text, other: "[" * 100_000, id="nested"),
+        pytest.param(
+            lambda text, neighbour: text.replace('"tension_top_max_N": ', '"tension_top_max_N": 9'), id="a digit"
+        ),
+        pytest.param(lambda text, neighbour: text[: len(text) // 2], id="torn"),
+        pytest.param(lambda text, neighbour: neighbour, id="of another run"),
+        pytest.param(lambda text, neighbour: "[" * 100_000, id="nested"),
     ],
 )
 def test_a_row_that_is_not_what_was_written_is_made_again_from_its_run(sweep, damage):
@@ -201,27 +195,20 @@ def record(out):
 
 def test_what_is_recorded(sweep):
     sweep("--steepness", "0.02", "0.13", "--set", "water.depth_m=22.5", raises=(0.13,))
-    found = record(sweep.out)
-    assert found["campaign"] == "buoy_sweep"
-    assert found["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
-    assert found["versions"]["python"] == platform.python_version()
-    assert found["versions"]["numpy"] == numpy.__version__
-    assert found["host"] == socket.gethostname()
-    assert found["engine_source_hash"] == source_hash()
-    assert (found["steepness"], found["periods"], found["transient"]) == ([0.02, 0.13], 6, 2)
-    assert found["set"] == {"water.depth_m": 22.5}
-    assert found["runs"] == {"total": 2, "found": 0, "computed": 2, "failed": 1}
-    assert set(found["timing"]) >= {"compile_s", "run_s", "analysis_s"}
-    assert all(seconds >= 0.0 for seconds in found["timing"].values())
-    assert found["started_utc"] <= found["finished_utc"]
-
-
-def test_git_state_is_that_of_the_checkout(tmp_path):
-    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True)
-    if head.returncode != 0:
-        pytest.skip("not a checkout")
-    record = session.begun(tmp_path, "any", [], {})
-    assert record["git"]["commit"] == session.git_state(ROOT / "campaigns")["commit"] == head.stdout.strip()
+    provenance = record(sweep.out)
+    assert provenance["campaign"] == "buoy_sweep"
+    assert provenance["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
+    assert provenance["versions"]["python"] == platform.python_version()
+    assert provenance["versions"]["numpy"] == numpy.__version__
+    assert provenance["git"] == session.git_state(ROOT / "campaigns")
+    assert provenance["host"] == socket.gethostname()
+    assert provenance["engine_source_hash"] == source_hash()
+    assert (provenance["steepness"], provenance["periods"], provenance["transient"]) == ([0.02, 0.13], 6, 2)
+    assert provenance["set"] == {"water.depth_m": 22.5}
+    assert provenance["runs"] == {"total": 2, "found": 0, "computed": 2, "failed": 1}
+    assert set(provenance["timing"]) >= {"compile_s", "run_s", "analysis_s"}
+    assert all(seconds >= 0.0 for seconds in provenance["timing"].values())
+    assert provenance["started_utc"] <= provenance["finished_utc"]
 
 
 def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there_is_no_commit(tmp_path):
@@ -232,7 +219,8 @@ def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there
     (package / "file").write_text("1")
     for words in (["init", "-q"], ["add", "-A"], ["commit", "-q", "-m", "one"]):
         subprocess.run([*git, *words], check=True)
-    assert session.git_state(package)["dirty"] is False
+    commit = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True).stdout.strip()
+    assert session.git_state(package) == {"commit": commit, "dirty": False}
     (package / "file").write_text("2")
     assert session.git_state(package)["dirty"] is True
 
@@ -242,9 +230,9 @@ def test_a_run_that_computes_nothing_changes_nothing_and_other_parameters_make_a
         return {path.name: path.read_bytes() for path in sweep.out.glob("[!.]*") if path.is_file()}
 
     sweep("--steepness", "0.02", "0.13")
-    before = files()
-    sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
-    assert files() == before
+    earlier, runs = files(), finished(sweep.out)
+    code, _, begun = sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
+    assert (code, begun, files(), finished(sweep.out)) == (0, [], earlier, runs)
     sweep("--steepness", "0.02")
     assert record(sweep.out)["steepness"] == [0.02]
     assert record(sweep.out)["runs"]["found"] == 1
@@ -264,8 +252,8 @@ def test_unknown_is_empty(sweep):
     for row in rows:
         assert row["regime"] == ""
         assert all(entry == "" for name, entry in row.items() if "lyapunov" in name or "offplane" in name)
-    given = {name for name, entry in rows[1].items() if entry != ""}
-    assert given == {"steepness", "dimensions", "status", "message", "run_key"}
+    filled = {name for name, entry in rows[1].items() if entry != ""}
+    assert filled == {"steepness", "dimensions", "status", "message", "run_key"}
 
 
 @pytest.mark.parametrize("fault", [None, RuntimeError("no ink")])
@@ -279,10 +267,10 @@ def test_paths_of_the_report_are_told_and_one_that_fails_leaves_the_results(swee
 
     monkeypatch.setattr("reports.build", build, raising=False)
     code, rows, _ = sweep("--steepness", "0.02", usual=WITH_REPORT)
-    said = capsys.readouterr()
+    printed = capsys.readouterr()
     assert (code, len(rows), built) == (1 if fault else 0, 1, [sweep.out])
-    assert all(word in said.out for word in ("table.csv", "compile", "analysis"))
+    assert all(word in printed.out for word in ("table.csv", "compile", "analysis"))
     if fault:
-        assert "no ink" in said.err and f"python -m reports {sweep.out}" in said.err
+        assert "no ink" in printed.err and f"python -m reports {sweep.out}" in printed.err
     else:
-        assert "report.html" in said.out and "report.pdf" in said.out
+        assert "report.html" in printed.out and "report.pdf" in printed.out

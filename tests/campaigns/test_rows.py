@@ -112,8 +112,8 @@ def test_growth_across_the_plane_is_told_where_no_loop_was_released(scene, relea
     run = replace(sines(scene, PERIODS), tangent=TangentGrowth(5.0, np.empty((PERIODS, 0)), events, nats))
     row = judged_row(run, TRANSIENT)
     assert "regime" not in row, "nothing was carried in the plane"
-    found = row["offplane_growth_bits_per_period"], row["offplane_growth_error"]
-    assert found == ((None, None) if empty else pytest.approx((-0.5, 0.0), abs=1e-12))
+    growth = row["offplane_growth_bits_per_period"], row["offplane_growth_error"]
+    assert growth == ((None, None) if empty else pytest.approx((-0.5, 0.0), abs=1e-12))
 
 
 def test_every_entry_has_a_column_and_the_public_ones_are_there(scene):

@@ -11,21 +11,20 @@ from itertools import product
 import pytest
 
 from campaigns.explore import rows as of_a_buoy
-from campaigns.machinery.folder import Table as Rows
 from campaigns.machinery.folder import write_json
 from campaigns.sweep import main, read_order
 from engine import load_scene
 from reports import build
 from reports.parts.content import Figure, Table, plain
-from reports.parts.folder import read_folder
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
-from tables import Column
+from tables import Column, write_table
 from tests.campaigns.conftest import ROOT, rows_of
 from tests.campaigns.fake_engine import FakeEngine
 from tests.pages import blocks
 
 PAGE = "developing"
+SHORT = ["--periods", "6", "--transient", "2"]
 HELD = ["--scene", "hanging_line", "--duration", "2"]
 
 
@@ -42,13 +41,12 @@ def cases_of(*words):
 
 
 def test_two_keys_are_every_pair_of_their_values(tmp_path):
-    short = ["--periods", "6", "--transient", "2"]
-    rows = run(tmp_path, "--vary", "water.depth_m", 21, 23, 3, "--vary", "waves.steepness", 0.02, 0.1, 2, *short)
-    found = [(row["water.depth_m"], row["waves.steepness"]) for row in rows]
-    assert found == [(depth, kA) for depth in ("21.0", "22.0", "23.0") for kA in ("0.02", "0.1")]
-    told = json.loads((tmp_path / "provenance.json").read_text())
-    assert told["campaign"] == "sweep"
-    assert told["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
+    rows = run(tmp_path, "--vary", "water.depth_m", 21, 23, 3, "--vary", "waves.steepness", 0.02, 0.1, 2, *SHORT)
+    varied = [(row["water.depth_m"], row["waves.steepness"]) for row in rows]
+    assert varied == [(depth, kA) for depth in ("21.0", "22.0", "23.0") for kA in ("0.02", "0.1")]
+    column_of_table = json.loads((tmp_path / "provenance.json").read_text())
+    assert column_of_table["campaign"] == "sweep"
+    assert column_of_table["vary"] == {"water.depth_m": [21.0, 22.0, 23.0], "waves.steepness": [0.02, 0.1]}
     columns = dictionary_of(tmp_path)
     assert list(columns) == list(rows[0])
     assert (columns["water.depth_m"]["unit"], columns["water.depth_m"]["symbol"]) == ("m", "H")
@@ -57,7 +55,7 @@ def test_two_keys_are_every_pair_of_their_values(tmp_path):
 
 def test_mass_times_two_kicks_is_one_command_that_ends_with_a_report(tmp_path):
     keys = ["--vary", "buoy.mass_kg", "1500", "1700", "3", "--vary", "start.buoy_velocity_mps[0]", "0", "4", "2"]
-    words = [*keys, "--periods", "6", "--transient", "2", "--backend", "threading", "--out", str(tmp_path)]
+    words = [*keys, *SHORT, "--backend", "threading", "--out", str(tmp_path)]
     assert main(words, simulate=FakeEngine()) == 0, "without a report the exit code is 1"
     places = {(row["buoy.mass_kg"], row["start.buoy_velocity_mps[0]"]) for row in rows_of(tmp_path)}
     assert places == {(mass, kick) for mass in ("1500.0", "1600.0", "1700.0") for kick in ("0.0", "4.0")}
@@ -73,10 +71,10 @@ def test_of_an_irregular_sea_the_ramp_is_left_out_or_what_is_asked_for(words, le
 
 
 def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):
-    rows = run(tmp_path, "--vary", "waves.steepness", 0.02, 0.1, 3, "--periods", 6, "--transient", 2)
-    _, own, _ = sweep("--steepness-range", 0.02, 0.1, 3)
-    assert [row["run_key"] for row in rows] == [row["run_key"] for row in own]
-    for row, one in zip(rows, own, strict=True):
+    rows = run(tmp_path, "--vary", "waves.steepness", 0.02, 0.1, 3, *SHORT)
+    _, buoy_rows, _ = sweep("--steepness-range", 0.02, 0.1, 3)
+    assert [row["run_key"] for row in rows] == [row["run_key"] for row in buoy_rows]
+    for row, one in zip(rows, buoy_rows, strict=True):
         assert row.pop("waves.steepness") == one["steepness"]
         assert row.items() <= one.items()
 
@@ -122,7 +120,7 @@ def dictionary_of(out) -> dict[str, dict[str, str]]:
 def test_the_campaign_of_the_page_is_complete(tmp_path):
     page = {"__name__": PAGE}
     exec(compile(next(text for kind, text in blocks(PAGE) if kind == "python"), PAGE, "exec"), page)
-    words = ["--periods", "6", "--transient", "2", "--no-report", "--backend", "threading", "--out", str(tmp_path)]
+    words = [*SHORT, "--no-report", "--backend", "threading", "--out", str(tmp_path)]
     assert page["STUDY"].main(words, simulate=FakeEngine()) == 0
     table = rows_of(tmp_path)
     assert [float(row["buoy.mass_kg"]) for row in table] == list(page["MASSES_KG"])
@@ -142,8 +140,8 @@ def test_the_column_of_the_page_reaches_the_table_and_its_dictionary(sweep, monk
     monkeypatch.setitem(sys.modules, of_a_buoy.__name__, module)
     _, (row,), _ = sweep("--steepness", "0.05")
     assert float(row["speed_max_mps"]) == pytest.approx(2 * 3.14159 / 5.0, rel=1e-3)  # of r = 20 + sin(2 pi t/5)
-    told = dictionary_of(sweep.out)["speed_max_mps"]
-    assert (told["unit"], told["digits"]) == ("m/s", "2")
+    column_of_table = dictionary_of(sweep.out)["speed_max_mps"]
+    assert (column_of_table["unit"], column_of_table["digits"]) == ("m/s", "2")
 
 
 DEPTH, MASS = "water.depth_m", "buoy.mass_kg"
@@ -164,19 +162,19 @@ COLUMNS = (
 )
 
 
-def folder(place, keys):
+def table_of(keys):
     """Three values of each key; pulls that grow with them, the same steps in all runs, and one run that failed."""
-    table = Rows(place / "table.csv", (*(KEYS[key] for key in keys), *COLUMNS), [])
+    rows = []
     for number, values in enumerate(product((1.0, 2.0, 3.0), repeat=len(keys))):
-        row = dict(zip(keys, values, strict=True)) | {"status": "ok", "regime": "period-1", "steps": 7, "run_key": "k"}
-        row |= {"pull_min_N": 100 * sum(values), "pull_max_N": 200 * sum(values)}
-        row |= {"growth_bits": 0.1 * number, "growth_error": 0.01}
-        if number == 3 ** len(keys) - 1:
-            row = {key: row[key] for key in keys}
-            row |= {"status": "newton-failed", "message": "at t = 3 s", "run_key": "x"}
-        table.keys.append(str(number))
-        table.rows[str(number)] = row
-    table.write()
+        place, pull_N = dict(zip(keys, values, strict=True)), 100 * sum(values)
+        pulls = {"pull_min_N": pull_N, "pull_max_N": 2 * pull_N, "growth_bits": 0.1 * number, "growth_error": 0.01}
+        rows.append({**place, **pulls, "status": "ok", "regime": "period-1", "steps": 7, "run_key": "k"})
+    rows[-1] = {**place, "status": "newton-failed", "message": "at t = 3 s", "run_key": "x"}
+    return rows
+
+
+def folder(place, keys):
+    write_table(place / "table.csv", (*(KEYS[key] for key in keys), *COLUMNS), table_of(keys))
     (place / "trajectories").mkdir()
     (place / "scene.toml").write_text(load_scene("tethered_buoy").to_toml(), encoding="utf-8")
     vary = {key: [1.0, 2.0, 3.0] for key in keys}
@@ -197,15 +195,14 @@ def test_the_report_of_a_sweep_of_any_key(tmp_path, keys):
     figures = [item for item in items if isinstance(item, Figure)]
     assert figures and all("σ" in figure.caption for figure in figures)
     html, pdf = build(tmp_path)
-    before = html.read_bytes(), pdf.read_bytes()
-    assert (build(tmp_path, again=True)[0].read_bytes(), pdf.read_bytes()) == before
+    earlier = html.read_bytes(), pdf.read_bytes()
+    assert (build(tmp_path, again=True)[0].read_bytes(), pdf.read_bytes()) == earlier
     assert "newton-failed" in html.read_text(encoding="utf-8")
 
 
-def test_errors_belong_to_their_quantity_and_ends_of_a_range_share_a_panel(tmp_path):
-    read = read_folder(folder(tmp_path, [DEPTH]))
-    shown = measured(read.columns, read.table, [DEPTH])
-    names = [[(one.name, error and error.name) for one, error in panel] for panel in shown]
+def test_errors_belong_to_their_quantity_and_ends_of_a_range_share_a_panel():
+    panels = measured({column.name: column for column in COLUMNS}, table_of([DEPTH]), [DEPTH])
+    names = [[(column.name, error and error.name) for column, error in panel] for panel in panels]
     assert names == [[("pull_min_N", None), ("pull_max_N", None)], [("growth_bits", "growth_error")]]
 
 
@@ -227,13 +224,13 @@ PUSH, SEA = (
 def test_keys_take_their_values_in_lists_too_and_leave_the_rest(keys, changes):
     ranges = {key: (1500, 1700) if key == "buoy.mass_kg" else (0.1, 0.4) for key in keys}
     words = [word for key, ends in ranges.items() for word in ("--vary", key, *ends, 2)]
-    cases = cases_of(*words, "--periods", 6, "--transient", 2, *changes)
+    cases = cases_of(*words, *SHORT, *changes)
     entries = [dict(_entries(job.scene.as_dict())) for job in cases]
     assert len(cases) == 2 ** len(keys)
-    for job, found in zip(cases, entries, strict=True):
-        assert {key: found[key] for key in keys} == {key: job.labels[key] for key in keys}
-    others = [{key: entry for key, entry in found.items() if key not in keys} for found in entries]
-    assert all(other == others[0] for other in others)
+    for job, varied in zip(cases, entries, strict=True):
+        assert {key: varied[key] for key in keys} == {key: job.labels[key] for key in keys}
+    unvaried = [{key: entry for key, entry in varied.items() if key not in keys} for varied in entries]
+    assert all(rest == unvaried[0] for rest in unvaried)
 
 
 def _entries(part, name=""):

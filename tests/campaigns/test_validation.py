@@ -102,7 +102,7 @@ def test_every_case_has_a_source_a_bar_and_runs_and_measured_maxima_have_their_c
     assert {"lindahl-1.25", "lindahl-3.5", "moordyn"}.isdisjoint(QUICK)
 
 
-def made(folder, *words):
+def judged_rows(folder, *words):
     """The rows of cases.csv of a small campaign."""
     assert validation.main([*words, "--backend", "threading", "--jobs", "1", "--out", str(folder)]) == 0
     return {(row["case"], row["quantity"]): row for row in rows_of(folder, "cases.csv")}
@@ -111,7 +111,7 @@ def made(folder, *words):
 def test_a_small_campaign_judges_its_cases_and_is_not_done_twice(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("campaigns.accuracy.jobs.version", lambda peer: "")
     words = ["--only", "catenary-slack", "whoi-mine", "whoi-waves", "moordyn"]
-    rows = made(tmp_path / "out", *words)
+    rows = judged_rows(tmp_path / "out", *words)
     assert set(next(iter(rows.values()))) == {column.name for column in JUDGED}
     assert {name for name, row in rows.items() if row["verdict"] == NOT_RUN} == {
         ("whoi-waves", "tension"),
@@ -119,10 +119,10 @@ def test_a_small_campaign_judges_its_cases_and_is_not_done_twice(tmp_path, capsy
     }
     judged = [row for row in rows.values() if row["verdict"] != NOT_RUN]
     assert len(judged) == 4 and all(row["verdict"] == HOLDS for row in judged)
-    said = capsys.readouterr().out
-    assert "2 of 4 cases hold" in said and "moordyn" in said
+    printed = capsys.readouterr().out
+    assert "2 of 4 cases hold" in printed and "moordyn" in printed
     assert set(read_study(tmp_path / "out").points) == {"catenary-slack", "whoi-mine"}
-    assert rows == made(tmp_path / "out", *words)
+    assert rows == judged_rows(tmp_path / "out", *words)
     assert ": 0 computed, 2 found" in capsys.readouterr().out
 
 

@@ -32,6 +32,8 @@ def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(
     row = judged_row(run, orbits=orbits)
     assert row["regime"] == "period-1" and row["strobed_period"] == 1 and "in the limit" in row["regime_reason"]
     assert row["multiplier_modulus"] == pytest.approx(modulus, abs=5e-4)
+    judged = periods - periods // 3
+    assert row["transient_periods"] == periods - judged // 3, "the last third of what is judged"
     later = simulate(run.scene, periods=truth - periods, start=run)
     exact_N = largest_N(later, 5)
     assert row["tension_top_max_N"] == pytest.approx(exact_N, rel=1e-3 if steepness == 0.037 else 1e-4)
@@ -41,9 +43,9 @@ def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(
     assert judged_row(run, orbits=orbits) == row and "damaged" in capsys.readouterr().err
     run.save(tmp_path / "run.nc")
     monkeypatch.setattr("campaigns.explore.multipliers._computed", lambda *_: pytest.fail("computed again"))
-    again = Trajectory.load(tmp_path / "run.nc")
-    assert judged_row(again, orbits=orbits) == row
-    motion = settled_of(again, orbits)
+    loaded = Trajectory.load(tmp_path / "run.nc")
+    assert judged_row(loaded, orbits=orbits) == row
+    motion = settled_of(loaded, orbits)
     assert motion.period == 1 and motion.measures[:, 2].max() == pytest.approx(row["tension_top_max_N"], abs=1e-6)
 
 
@@ -51,8 +53,8 @@ def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(
 def test_a_run_that_spirals_to_a_torus_beyond_its_birth_is_not_told_by_the_orbit_within():
     """At kA = 0.039 the multiplier is 1.007."""
     run = simulate(at(0.039), periods=465)
-    found = orbit_ahead(run, Store(None))
-    assert found is None or not found[1].passed
+    ahead = orbit_ahead(run, Store(None))
+    assert ahead is None or not ahead[1].passed
     assert judged_row(run)["regime"] != "period-1"
 
 

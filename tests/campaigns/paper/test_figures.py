@@ -60,22 +60,24 @@ def test_each_figure_is_there_or_has_a_reason(copy):
 
 def test_unchanged_sources_leave_the_files_alone_and_lost_ones_come_back_the_same(copy):
     write_figure_data(copy)
-    before = {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in place_of(copy).iterdir()}
+    earlier = {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in place_of(copy).iterdir()}
     write_figure_data(copy)
-    assert {path: path.stat().st_mtime_ns for path in before} == {path: time for path, (time, _) in before.items()}
+    assert {path: path.stat().st_mtime_ns for path in earlier} == {path: time for path, (time, _) in earlier.items()}
     files_of(copy, 9)[0].unlink()
     files_of(copy, 10)[0].write_bytes(b"damaged")
     changed = files_of(copy, 11)[0]
     changed.write_bytes(changed.read_bytes()[:-1] + b"\x01")  # a number, in a sound file
     write_figure_data(copy)
-    assert {path: path.read_bytes() for path in before} == {path: content for path, (_, content) in before.items()}
+    assert {path: path.read_bytes() for path in earlier} == {path: content for path, (_, content) in earlier.items()}
 
 
 def test_statements_are_judged_by_the_runs_that_the_figures_show(root):
-    found = read_results(root)
-    assert found.number("unexplained") >= 0.0
-    assert 1.0 <= found.number("excursion_m") / (12 * 0.016) <= 2.0  # amplitudes of the synthetic motion off its start
-    assert 0.0 < found.buoy[0.13]["radial_line"] <= 1.0
+    numbers = read_results(root)
+    assert numbers.number("unexplained") >= 0.0
+    assert (
+        1.0 <= numbers.number("excursion_m") / (12 * 0.016) <= 2.0
+    )  # amplitudes of the synthetic motion off its start
+    assert 0.0 < numbers.buoy[0.13]["radial_line"] <= 1.0
 
 
 def test_a_run_that_is_lost_takes_its_figures_along(copy):
@@ -101,9 +103,11 @@ def test_every_array_has_a_unit_and_every_file_says_what_it_is_from(root):
     for number in OF_BUOY:
         data = data_of(root, number)
         assert all(array.attrs["units"] and array.attrs["long_name"] for array in data.variables.values())
-        (one,) = sources_of(data)
-        assert (root / one.file).exists() and one.key in one.file and 'name = "tethered_buoy"' in one.settings
-        assert data.attrs["run_seconds"] == one.run_s > 0.0
+        (source,) = sources_of(data)
+        assert (
+            (root / source.file).exists() and source.key in source.file and 'name = "tethered_buoy"' in source.settings
+        )
+        assert data.attrs["run_seconds"] == source.run_s > 0.0
 
 
 def test_a_figure_without_sound_data_is_not_drawn_and_said(tmp_path):
@@ -158,18 +162,18 @@ def whole(tmp_path_factory):
 def test_all_figures_are_drawn_alike_by_another_process_from_their_files_alone(whole, tmp_path):
     heads = {number: figure.caption.partition(" of the paper")[0] for number, figure in figures_of(whole).items()}
     assert heads == {number: f"Fig. {number}" for number in FIGURES} and left_out(whole) == {}
-    alone = tmp_path / "elsewhere"
-    shutil.copytree(place_of(whole), place_of(alone))
+    elsewhere = tmp_path / "elsewhere"
+    shutil.copytree(place_of(whole), place_of(elsewhere))
     code = (
         "import sys\nfrom reports.paper.figures import pictures\n"
         "for path, content in pictures(sys.argv[1]).items():\n    path.write_bytes(content)\n"
     )
     environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
-    subprocess.run([sys.executable, "-c", code, str(alone)], cwd=ROOT, env=environment, check=True)
-    kept = pictures(whole)
-    assert len(kept) == 2 * len(FIGURES)
-    for path, content in kept.items():
-        assert (place_of(alone) / path.name).read_bytes() == content
+    subprocess.run([sys.executable, "-c", code, str(elsewhere)], cwd=ROOT, env=environment, check=True)
+    drawn = pictures(whole)
+    assert len(drawn) == 2 * len(FIGURES)
+    for path, content in drawn.items():
+        assert (place_of(elsewhere) / path.name).read_bytes() == content
         assert len(content) < 500_000
 
 
@@ -191,21 +195,21 @@ def bounces(pull):
 
 
 def test_a_mass_that_bounces_on_a_spring_is_turned_by_peaks_of_two_thirds_of_their_length():
-    found = bounces(lambda stretch, rate: 0.0 * stretch)
-    assert found["near_zero"] == pytest.approx(0.5 + math.asin(0.05 / PEAK) / math.pi, abs=0.01)
-    assert found["turned"] == found["begun_inwards"] == 1.0 and found["compressed"] == 0.0
-    assert math.isnan(found["compressed_inwards"])
-    assert found["peak_periods"] == pytest.approx(2.0 / 3.0, abs=0.02)
-    assert found["apart_periods"] == pytest.approx(2.0, abs=0.1)
-    assert (found["radial_at"], found["angular_at"]) == (0.5, 1.0)
-    assert found["radial_line"] == pytest.approx(1.0) and found["angular_line"] == pytest.approx(1.0)
+    numbers = bounces(lambda stretch, rate: 0.0 * stretch)
+    assert numbers["near_zero"] == pytest.approx(0.5 + math.asin(0.05 / PEAK) / math.pi, abs=0.01)
+    assert numbers["turned"] == numbers["begun_inwards"] == 1.0 and numbers["compressed"] == 0.0
+    assert math.isnan(numbers["compressed_inwards"])
+    assert numbers["peak_periods"] == pytest.approx(2.0 / 3.0, abs=0.02)
+    assert numbers["apart_periods"] == pytest.approx(2.0, abs=0.1)
+    assert (numbers["radial_at"], numbers["angular_at"]) == (0.5, 1.0)
+    assert numbers["radial_line"] == pytest.approx(1.0) and numbers["angular_line"] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(("sign", "inwards"), [(-1.0, 1.0), (1.0, 0.0)])
 def test_compression_is_told_with_the_way_of_the_buoy(sign, inwards):
-    found = bounces(lambda stretch, rate: np.where(sign * rate > 0.0, -0.1, 0.0))
-    assert found["compressed"] == pytest.approx(0.25, abs=0.01)
-    assert found["compressed_inwards"] == pytest.approx(inwards, abs=0.01)
+    numbers = bounces(lambda stretch, rate: np.where(sign * rate > 0.0, -0.1, 0.0))
+    assert numbers["compressed"] == pytest.approx(0.25, abs=0.01)
+    assert numbers["compressed_inwards"] == pytest.approx(inwards, abs=0.01)
 
 
 @pytest.mark.parametrize("waves", [1, 4])
@@ -216,14 +220,15 @@ def test_a_slack_sine_has_its_half_waves(waves):
     assert buckling_waves(SimpleNamespace(**shape, tension_N=np.ones((1, 200)))) is None
 
 
-def test_the_normalised_lift_is_the_static_stretch_over_the_diameter():
-    scene = load_scene("tethered_buoy", {"water.depth_m": 300.0})
+@pytest.mark.parametrize("gravity_mps2", [9.81, 3.7])
+def test_the_normalised_lift_is_the_static_stretch_over_the_diameter(gravity_mps2):
+    scene = load_scene("tethered_buoy", {"water.depth_m": 300.0, "gravity_mps2": gravity_mps2})
     modes = natural_frequencies(scene)
-    found, twice = scales(scene, modes, 0.016, 0.13), scales(scene, modes, 0.016, 0.26)
+    numbers, twice = scales(scene, modes, 0.016, 0.13), scales(scene, modes, 0.016, 0.26)
     stretch_m = modes.static_strain * scene.tether.length_m
-    assert found["lift"] == pytest.approx(stretch_m / scene.buoy.diameter_m, rel=1e-4)
-    assert twice["force"] == pytest.approx(2.0 * found["force"])
+    assert numbers["lift"] == pytest.approx(stretch_m / scene.buoy.diameter_m, rel=1e-4)
+    assert twice["force"] == pytest.approx(2.0 * numbers["force"])
     deep = scene.gravity_mps2 / modes.wave_radps**2  # 1/k of deep water
-    assert found["small_amplitude_m"] == pytest.approx(0.016 * deep)
-    assert found["diameter_over_wave"] == pytest.approx(scene.buoy.diameter_m / (2.0 * math.pi * deep))
-    assert found["force"] < 1e-3  # waves do not reach down there
+    assert numbers["small_amplitude_m"] == pytest.approx(0.016 * deep)
+    assert numbers["diameter_over_wave"] == pytest.approx(scene.buoy.diameter_m / (2.0 * math.pi * deep))
+    assert numbers["force"] < 1e-3  # waves do not reach down there
