@@ -8,6 +8,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from functools import partial
+from operator import itemgetter
 from pathlib import Path
 
 from engine.views import carries_tangents, in_regular_waves
@@ -34,8 +35,12 @@ OPEN_WORDS = {UNDECIDED: "tests disagree", TRANSIENT: "still changing"}
 
 def greatest(rows: Sequence[Row], name: str) -> Row | None:
     """The row in which a column is greatest; None where no row knows it."""
-    known = [row for row in rows if math.isfinite(number_of(row, name))]
-    return max(known, key=partial(number_of, name=name), default=None)
+    return max(known_rows(rows, name), key=partial(number_of, name=name), default=None)
+
+
+def known_rows(rows: Sequence[Row], name: str) -> list[Row]:
+    """The rows that know a number of a column."""
+    return [row for row in rows if math.isfinite(number_of(row, name))]
 
 
 def numbers_of(rows: Sequence[Row], name: str) -> list[float]:
@@ -53,13 +58,13 @@ def verdicts(folder: Path, quoted: int) -> Iterator[str]:
     statements = any_rows(folder / STATEMENTS)
     if not statements:  # as where no run ended
         return
-    counts = Counter(row["verdict"] for row in statements)
+    counts = Counter(map(itemgetter("verdict"), statements))
     parts = [f"{words} {counts[verdict]}" for verdict, words in VERDICTS.items() if counts[verdict]]
     yield f"Of {len(statements)} statements of the paper {listed(parts)}."
     failing = [row for row in statements if row["verdict"] == FAILS]
     for row in failing[:quoted]:
         yield f"Does not hold: {row['statement']}"
-    numbers = listed(row["number"] for row in failing[quoted:])
+    numbers = listed(map(itemgetter("number"), failing[quoted:]))
     if len(failing) > quoted:
         yield f"{('Those', 'Further ones')[quoted > 0]} that do not: no. {numbers} of {STATEMENTS}."
 
@@ -108,7 +113,10 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
         growing.append(grows and number_of(row, "strobed_period") > 0)
     if any(growing):
         others.append(f"Perturbations grow though the buoy repeats at {symbol} = {ranges(values, growing, 2)}.")
-    doubts = [f"{phrase} at {symbol} = {at(word)}" for word, phrase in OPEN_WORDS.items() if word in different]
+    doubts = []
+    for word, phrase in OPEN_WORDS.items():
+        if word in different:
+            doubts.append(f"{phrase} at {symbol} = {at(word)}")
     if doubts:
         others.append(f"Not decided: {'; '.join(doubts)}.")
     return regular, others
@@ -134,7 +142,7 @@ def _growth(rows: Sequence[Row]) -> str:
     """The exponents of rows, from tangent dynamics where they carry some, else by Wolf's method."""
     for method in ("tangent", "wolf"):
         name = f"lyapunov_{method}_bits_per_period"
-        known = [row for row in rows if math.isfinite(number_of(row, name))]
+        known = known_rows(rows, name)
         if not known:
             continue
         values = numbers_of(known, name)

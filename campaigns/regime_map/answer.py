@@ -4,6 +4,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
+from operator import itemgetter
 
 from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of
 from campaigns.explore.answer import reasons, use_of
@@ -38,7 +39,7 @@ def sentences(
         yield f"On {_share(len(several), computed)} of the map the start decides: up to {max(several):.0f} motions."
     cheap = sum(row.get("verdict") == "cheap" for row in motions)
     yield f"Of {len(motions)} motions {cheap} have a cheap verdict: they repeat at one look."
-    failed = sum(cell["source"] == FAILED for cell in cells)
+    failed = list(map(itemgetter("source"), cells)).count(FAILED)
     if failed:
         yield f"{failed} cells have no result; the column message of cells/table.csv says why."
 
@@ -56,9 +57,12 @@ def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str
 
 def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
     """The shares of the map on which the motion from rest, or some motion, is chaotic, quasi-periodic or periodic."""
-    counts = Counter(str(cell["regime_rest"] or "") for cell in computed)
-    periodic = sum(count for word, count in counts.items() if word.startswith(PERIODIC))
-    undecided = sum(counts[word] for word in OPEN_WORDS)
+    counts, periodic, undecided = Counter(), 0, 0
+    for cell in computed:
+        word = str(cell["regime_rest"] or "")
+        counts[word] += 1
+        periodic += word.startswith(PERIODIC)
+        undecided += word in OPEN_WORDS
     parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
     shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
     yield f"Rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
