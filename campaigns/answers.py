@@ -7,6 +7,8 @@ prints them and keeps them as answer.txt, where its report finds them.
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import partial
+from operator import itemgetter
 from pathlib import Path
 
 from engine.views import carries_tangents, in_regular_waves
@@ -33,8 +35,17 @@ OPEN_WORDS = {UNDECIDED: "tests disagree", TRANSIENT: "still changing"}
 
 def greatest(rows: Sequence[Row], name: str) -> Row | None:
     """The row in which a column is greatest; None where no row knows it."""
-    known = [row for row in rows if math.isfinite(number_of(row, name))]
-    return max(known, key=lambda row: number_of(row, name), default=None)
+    return max(known_rows(rows, name), key=partial(number_of, name=name), default=None)
+
+
+def known_rows(rows: Sequence[Row], name: str) -> list[Row]:
+    """The rows that know a number of a column."""
+    return [row for row in rows if math.isfinite(number_of(row, name))]
+
+
+def numbers_of(rows: Sequence[Row], name: str) -> list[float]:
+    """The numbers of a column, nan where a row has none."""
+    return [number_of(row, name) for row in rows]
 
 
 def kilonewton(force_N: float) -> str:
@@ -47,15 +58,15 @@ def verdicts(folder: Path, quoted: int) -> Iterator[str]:
     statements = any_rows(folder / STATEMENTS)
     if not statements:  # as where no run ended
         return
-    counts = Counter(row["verdict"] for row in statements)
+    counts = Counter(map(itemgetter("verdict"), statements))
     parts = [f"{words} {counts[verdict]}" for verdict, words in VERDICTS.items() if counts[verdict]]
     yield f"Of {len(statements)} statements of the paper {listed(parts)}."
     failing = [row for row in statements if row["verdict"] == FAILS]
     for row in failing[:quoted]:
         yield f"Does not hold: {row['statement']}"
-    numbers = [row["number"] for row in failing[quoted:]]
-    if numbers:
-        yield f"{'Further ones' if quoted else 'Those'} that do not: no. {listed(numbers)} of {STATEMENTS}."
+    numbers = listed(map(itemgetter("number"), failing[quoted:]))
+    if len(failing) > quoted:
+        yield f"{('Those', 'Further ones')[quoted > 0]} that do not: no. {numbers} of {STATEMENTS}."
 
 
 def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) -> tuple[list[str], list[str]]:
@@ -72,12 +83,16 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
         return ranges(values, [word in chosen for word in words], 2)
 
     different = set(filter(None, words))
-    calm = sorted((word for word in different if word.startswith(PERIODIC)), key=lambda word: (len(word), word))
+    calm = [word for word in different if word.startswith(PERIODIC)]
+    calm.sort(key=lambda word: (len(word), word))
     kinds = []
     if calm:
         kinds.append(f"period {listed(word.removeprefix(PERIODIC) for word in calm)}")
     if QUASI in different:
-        kinds.append(f"{QUASI} at {at(QUASI)}" if calm else QUASI)
+        kind = QUASI
+        if calm:
+            kind = f"{QUASI} at {at(QUASI)}"
+        kinds.append(kind)
         calm.append(QUASI)
     regular, others = [], []
     if calm:
@@ -90,16 +105,18 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
     for word in sorted(different - {*calm, *OPEN_WORDS}):
         growth = ""
         if word == CHAOTIC:
-            growth = _growth([row for row, regime in zip(rows, words, strict=True) if regime == word])
+            growth = _growth([row for row in rows if row.get("regime") == word])
         others.append(f"{word.capitalize()} at {symbol} = {at(word)}{growth}.")
-    value, error = TANGENT_EXPONENT, TANGENT_ERROR
     growing = []
     for row in rows:
-        grows = number_of(row, value) > 2.0 * number_of(row, error)
+        grows = number_of(row, TANGENT_EXPONENT) > 2.0 * number_of(row, TANGENT_ERROR)
         growing.append(grows and number_of(row, "strobed_period") > 0)
     if any(growing):
         others.append(f"Perturbations grow though the buoy repeats at {symbol} = {ranges(values, growing, 2)}.")
-    doubts = [f"{phrase} at {symbol} = {at(word)}" for word, phrase in OPEN_WORDS.items() if word in different]
+    doubts = []
+    for word, phrase in OPEN_WORDS.items():
+        if word in different:
+            doubts.append(f"{phrase} at {symbol} = {at(word)}")
     if doubts:
         others.append(f"Not decided: {'; '.join(doubts)}.")
     return regular, others
@@ -107,10 +124,10 @@ def regimes(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) ->
 
 def _unjudged(rows: Sequence[Row], symbol: str, values: Sequence[float], scene) -> str:
     """Where motions repeat of runs that have no verdict; where none does, what a verdict needs."""
-    periods = [number_of(row, "strobed_period") for row in rows]
-    known = [math.isfinite(period) for period in periods]
+    periods = numbers_of(rows, "strobed_period")
+    known = list(map(math.isfinite, periods))
     if any(known):
-        longest = max(period for period in periods if math.isfinite(period))
+        longest = max(filter(math.isfinite, periods))
         place = ranges(values, known, 2)
         return f"No run is judged. Repeats after 1 to {longest:g} wave periods: {symbol} = {place}."
     reason = "none repeats at t = k T within so few --periods"
@@ -125,11 +142,11 @@ def _growth(rows: Sequence[Row]) -> str:
     """The exponents of rows, from tangent dynamics where they carry some, else by Wolf's method."""
     for method in ("tangent", "wolf"):
         name = f"lyapunov_{method}_bits_per_period"
-        known = [row for row in rows if math.isfinite(number_of(row, name))]
+        known = known_rows(rows, name)
         if not known:
             continue
-        values = [number_of(row, name) for row in known]
-        error = max(number_of(row, f"lyapunov_{method}_error") for row in known)
+        values = numbers_of(known, name)
+        error = max(numbers_of(known, f"lyapunov_{method}_error"))
         span, most = f"{values[0]:.2f}", ""
         if len(known) > 1:
             span, most = f"{min(values):.2f} to {max(values):.2f}", "up to "

@@ -41,15 +41,14 @@ def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], m
     """
     import xarray
 
-    variables = {
-        name: (dimensions, np.asarray(values, dtype=float), {"units": unit, "long_name": long_name})
-        for name, (dimensions, values, unit, long_name) in arrays.items()
-    }
+    variables = {}
+    for name, (dimensions, values, unit, long_name) in arrays.items():
+        variables[name] = dimensions, np.asarray(values, dtype=float), {"units": unit, "long_name": long_name}
     attributes = {
         "Conventions": "CF-1.10",
         "title": title,
         "sources": json.dumps(sources, ensure_ascii=False),
-        "run_seconds": float(sum(one["run_s"] for one in sources)),
+        "run_seconds": float(sum(source["run_s"] for source in sources)),
         "made_by": made_by,
     }
     return xarray.Dataset(variables, attrs=attributes)
@@ -65,5 +64,7 @@ def attribute_of(path: Path, name: str = "made_by") -> str | None:
     """An attribute of a data file, at first the key of what it was made from; None where there is no sound file."""
     import xarray
 
-    found = read_sealed(path)
-    return None if found is None else xarray.load_dataset(io.BytesIO(found), engine="scipy").attrs.get(name)
+    content = read_sealed(path)
+    if content is None:
+        return None
+    return xarray.load_dataset(io.BytesIO(content), engine="scipy").attrs.get(name)

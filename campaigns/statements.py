@@ -52,29 +52,38 @@ class Statement:
     @property
     def verdict(self) -> str:
         """HOLDS, HOLDS_IF, FAILS or NOT_JUDGED."""
-        passed = [holds for _, holds in self.checks]
-        return NOT_JUDGED if not passed else HOLDS if all(passed) else HOLDS_IF if any(passed) else FAILS
+        passed = {holds for _, holds in self.checks}
+        if not passed:
+            return NOT_JUDGED
+        if passed == {True}:
+            return HOLDS
+        return HOLDS_IF if passed == {True, False} else FAILS
 
     @property
     def condition(self) -> str:
         """Of "holds if": where it holds, and where not; else nothing."""
         if self.verdict != HOLDS_IF:
             return ""
-        sides = (grouped([where for where, holds in self.checks if holds is wanted]) for wanted in (True, False))
-        return "{}; not {}".format(*sides)
+        places: dict[bool, list[str]] = {True: [], False: []}
+        for where, holds in self.checks:
+            places[holds].append(where)
+        return f"{grouped(places[True])}; not {grouped(places[False])}"
 
 
 def judge(claim: Claim, results: object) -> Statement:
     """Measure a claim in the results and apply its rule."""
     measured = claim.measure(results)
     checks = [(where, bool(claim.holds(value))) for where, value in measured.checks if math.isfinite(value)]
-    found = f"{claim.quantity}: {measured.told}." if measured.told else NOT_SHOWN
+    found = NOT_SHOWN
+    if measured.told:
+        found = f"{claim.quantity}: {measured.told}."
     return Statement(claim, tuple(checks), found)
 
 
 def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> None:
     """Judge the claims and write statements.csv; a file that says the same already stays as it is. Raises OSError."""
-    path, content = folder / STATEMENTS, as_csv([judge(claim, results) for claim in claims])
+    statements = [judge(claim, results) for claim in claims]
+    path, content = folder / STATEMENTS, as_csv(statements)
     if not path.exists() or path.read_bytes() != content:
         write_atomic(path, content)
 
@@ -82,10 +91,10 @@ def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> 
 def as_csv(statements: Sequence[Statement]) -> bytes:
     """statements.csv: one row a statement, numbered from 1."""
     rows = []
-    for number, one in enumerate(statements, 1):
-        claim = one.claim
-        said = (claim.text, one.verdict, one.condition, one.found, claim.threshold, claim.evidence)
-        rows.append([number, claim.place, *said])
+    for number, statement in enumerate(statements, 1):
+        claim = statement.claim
+        verdict = statement.verdict, statement.condition, statement.found
+        rows.append([number, claim.place, claim.text, *verdict, claim.threshold, claim.evidence])
     return csv_of(STATEMENT_COLUMNS, rows)
 
 
@@ -98,17 +107,20 @@ def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim
         table = tomllib.load(file)
     claims = {}
     for entry in table["claim"]:
-        name, by, evidence = entry.pop("name", entry["text"]), measures[entry.pop("by")], entry.pop("evidence")
-        fields = {field: entry.pop(field) for field in ("place", "text", "quantity")}
-        rule = {"holds": _test(entry.pop("rule")), "threshold": entry.pop("threshold")}
-        measure = by(**entry) if entry else by
-        claims[name] = Claim(**fields, measure=measure, **rule, evidence=evidence.format(**table["words"]))
+        name, measure = entry.pop("name", entry["text"]), measures[entry.pop("by")]
+        fields = {field: entry.pop(field) for field in ("place", "text", "quantity", "threshold")}
+        holds, evidence = _test(entry.pop("rule")), entry.pop("evidence").format(**table["words"])
+        if entry:
+            measure = measure(**entry)
+        claims[name] = Claim(**fields, measure=measure, holds=holds, evidence=evidence)
     return claims
 
 
 def _test(rule: str) -> Callable[[float], bool]:
     """A rule in words, "within 0.1", as a test of a number; "met": the measure has decided itself, 1 or 0."""
-    kind, _, limits = rule.rpartition(" ") if rule != "met" else ("at least", "", "1")
+    if rule == "met":
+        rule = "at least 1"
+    kind, _, limits = rule.rpartition(" ")
     limit = float(limits)
     tests = {
         "below": lambda value: value < limit,
@@ -162,8 +174,12 @@ def grouped(places: list[str]) -> str:
     """
     groups: dict[tuple[str, str], list[str]] = {}
     for place in places:
+        before, number, after = place, "", ""
         part = re.fullmatch(r"(\D*)(\d\S*)(.*)", place)
-        around, number = ((part[1], part[3]), part[2]) if part else ((place, ""), "")
-        groups.setdefault(around, []).append(number)
-    said = [f"{before}{listed(numbers)}{after}" for (before, after), numbers in groups.items()]
-    return ", and ".join(said) if len(said) == 2 and any(" and " in one for one in said) else listed(said)
+        if part:
+            before, number, after = part.groups()
+        groups.setdefault((before, after), []).append(number)
+    names = [f"{before}{listed(numbers)}{after}" for (before, after), numbers in groups.items()]
+    if len(names) == 2 and " and " in "; ".join(names):
+        return ", and ".join(names)
+    return listed(names)

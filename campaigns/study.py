@@ -95,6 +95,11 @@ class Order:
     cases: list[Job] = field(default_factory=list)
     simulate: Callable | None = None  # in place of engine.simulate
 
+    @property
+    def scenes(self) -> list:
+        """The scenes of the cases."""
+        return [case.scene for case in self.cases]
+
     def tell(self, faults: Iterable[str]) -> None:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)

@@ -58,7 +58,9 @@ class Options(cli.Options):
         except ValueError:
             faults.append(f"--grid: given {' '.join(words) or 'nothing'}; allowed: once or twice {kind.allowed}")
             counts = [COUNT]
-        size = self.displacement if across == "x z" else self.kick_speed
+        size = self.kick_speed
+        if across == "x z":
+            size = self.displacement
         self.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
@@ -72,7 +74,9 @@ def cases(order: Order) -> Iterator[Job]:
         return
     if not carries_tangents(scene):
         order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY.removeprefix('a number for ')}"])
-    elif (scene := judged_scene(order, REST)) is not None:
+        return
+    scene = judged_scene(order, REST)
+    if scene is not None:
         labels = {"steepness": scene.waves.steepness, "dimensions": scene.motion.dimensions}
         yield judged_job(order, labels, scene)
 

@@ -24,9 +24,11 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
     if worst is None:
         yield NONE_FOUND
         return
-    ways = listed(f"{row['motion']}{' from rest' if from_rest(row) else ''} ({_pull(row)})" for row in motions)
+    count = "One motion"
+    if len(motions) > 1:
+        count = f"{len(motions)} motions"
     at = f"kA = {number_of(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
-    yield f"{'One motion' if len(motions) == 1 else f'{len(motions)} motions'} at {at}: {ways}."
+    yield f"{count} at {at}: {listed(map(_of_motion, motions))}."
     yield _shares(rows, motions)
     if worst is motions[0] and len(motions) > 1:
         yield f"Motion {worst['motion']} pulls hardest: no start of the grid leads to more."
@@ -51,35 +53,48 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
     yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
 
 
-def _pull(row: Row) -> str:
-    return f"{row.get('regime') or row['status']}, {kilonewton(number_of(row, PEAK))}"
+def _of_motion(row: Row) -> str:
+    """ "A from rest (period-1, 9.45 kN)"."""
+    name = row["motion"]
+    if from_rest(row):
+        name = f"{name} from rest"
+    return f"{name} ({row.get('regime') or row['status']}, {kilonewton(number_of(row, PEAK))})"
 
 
 def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
-    counts = Counter(row["motion"] for row in rows)
+    counts, unsettled, failed = Counter(), 0, 0
+    for row in rows:
+        counts[row["motion"]] += 1
+        unsettled += row.get("outcome") == UNSETTLED
+        failed += row["status"] != "ok"
     ends = listed(f"{counts[motion['motion']]} end in {motion['motion']}" for motion in motions)
-    unsettled = sum(row.get("outcome") == UNSETTLED for row in rows)
-    failed = sum(row["status"] != "ok" for row in rows)
-    rest = f"; {unsettled} had not settled, and {failed} failed" if unsettled or failed else ""
-    return f"Of {len(rows)} starts {ends}{rest}."
+    sentence = f"Of {len(rows)} starts {ends}"
+    if unsettled or failed:
+        sentence += f"; {unsettled} had not settled, and {failed} failed"
+    return f"{sentence}."
 
 
 def _way(shock: Row, across: Sequence[str]) -> str:
     """The direction of a smallest start in words: "23 degrees below the direction of the waves"."""
+    first = number_of(shock, COLUMNS[across[0]])
+    ahead = ("along the waves", "against the waves")[first < 0.0]
     if PHASE in across:
-        ways = ("along the waves", "against the waves") if across[0] == "vx" else ("upwards", "downwards")
-        way = ways[number_of(shock, COLUMNS[across[0]]) < 0.0]
-        return f"{way}, {_phase(shock):.2f} T before a crest,"
-    x, z = (number_of(shock, COLUMNS[axis]) for axis in across)
-    angle, upright = math.degrees(math.atan2(abs(z), abs(x))), "upwards" if z > 0.0 else "downwards"
-    ahead = "along the waves" if x >= 0.0 else "against the waves"
-    if STRAIGHT < angle < 90.0 - STRAIGHT:
-        return f"{ahead}, {angle:.0f} degrees {upright}"
-    return ahead if angle <= STRAIGHT else upright
+        if across[0] == "vz":
+            ahead = ("upwards", "downwards")[first < 0.0]
+        return f"{ahead}, {_phase(shock):.2f} T before a crest,"
+    second = number_of(shock, COLUMNS[across[1]])
+    upright = ("downwards", "upwards")[second > 0.0]
+    angle = math.degrees(math.atan2(abs(second), abs(first)))
+    if angle <= STRAIGHT:
+        return ahead
+    if angle >= 90.0 - STRAIGHT:
+        return upright
+    return f"{ahead}, {angle:.0f} degrees {upright}"
 
 
 def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
-    unit, good = "m" if "x" in across else "m/s", [row for row in rows if row["status"] == "ok"]
+    unit = ("m/s", "m")["x" in across]
+    good = [row for row in rows if row["status"] == "ok"]
     if not good:
         return f"No smallest start was found: {rows[0]['message']}."
     first, *finer = good
@@ -90,7 +105,9 @@ def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
     )
     for row in finer:
         words += f"; on {number_of(row, 'nodes'):.0f} nodes {number_of(row, 'size'):.2g} {unit} {_way(row, across)}"
-    return f"{words}." if finer else f"{words}; on a finer grid of the line {rows[-1]['message']}."
+    if not finer:
+        words += f"; on a finer grid of the line {rows[-1]['message']}"
+    return f"{words}."
 
 
 def _phase(row: Row) -> float:
@@ -100,21 +117,20 @@ def _phase(row: Row) -> float:
 
 def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
-    least = dict.fromkeys(sorted({_phase(row) for row in rows}), math.inf)  # by phase
+    least = dict.fromkeys(sorted(map(_phase, rows)), math.inf)  # by phase
     for row in rows:
         if row["motion"] == letter:
             least[_phase(row)] = min(abs(number_of(row, COLUMNS[across[0]])), least[_phase(row)])
     sizes, phases = list(least.values()), [round(phase, 3) for phase in least]
     low, high = min(sizes), max(filter(math.isfinite, sizes), default=math.inf)
-    words = {
-        "no gust of the grid does": math.inf,
-        f"it takes {high:.2g} m/s, the most": high,
-        "none is needed" if low == 0.0 else f"{low:.2g} m/s are enough": low,
-    }
+    enough = f"{low:.2g} m/s are enough"
+    if low == 0.0:
+        enough = "none is needed"
+    words = {enough: low, f"it takes {high:.2g} m/s, the most": high, "no gust of the grid does": math.inf}
     parts = []
     for text, limit in words.items():
         if limit in sizes:
-            parts.insert(0, f"at {ranges(phases, [size == limit for size in sizes], 2)} T {text}")
+            parts.append(f"at {ranges(phases, [size == limit for size in sizes], 2)} T {text}")
     return f"How a gust leads to {letter}, by the time from it to a crest: {'; '.join(parts)}."
 
 
@@ -123,7 +139,9 @@ def _edge(edge: Row) -> Iterator[str]:
         yield f"No edge state between {edge['motion']} and {edge['other']} could be followed: the border was lost."
         return
     period = number_of(edge, "strobed_period")
-    kind = f"a motion of period {period:.0f}" if math.isfinite(period) else "a motion without a period up to 16"
+    kind = "a motion without a period up to 16"
+    if math.isfinite(period):
+        kind = f"a motion of period {period:.0f}"
     pull, growth = kilonewton(number_of(edge, PEAK)), number_of(edge, "growth_bits_per_period")
     yield (
         f"Between {edge['motion']} and {edge['other']} lies {kind} that no start keeps ({pull}): runs leave it by "

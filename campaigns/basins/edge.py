@@ -17,7 +17,7 @@ from campaigns.explore.starts import Start, section_of
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
 from engine.views import LONGEST_PERIOD
-from tables import MESSAGE, RUN_KEY, STATUS, Column, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, names, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -54,8 +54,8 @@ class Edge:
 
     def __init__(self, exploration: Exploration, first: Motion, second: Motion):
         self.exploration, self.sides = exploration, (first, second)
-        self.scale = np.max([motion.settled.scale for motion in self.sides], axis=0)
-        self.states = [motion.state.at_zero() for motion in self.sides]
+        self.scale = np.maximum(first.settled.scale, second.settled.scale)
+        self.states = [first.state.at_zero(), second.state.at_zero()]
         self.runs: list = [None, None]
         self.known = True  # that they are on either side: each begins anew, by small steps, where it has gone on to
         self.rounds = 0
@@ -65,7 +65,9 @@ class Edge:
 
         None where rounds have run out, or the border has been lost.
         """
-        beyond = 0.0 if self.known else BEYOND
+        beyond = 0.0
+        if not self.known:
+            beyond = BEYOND
         while self.rounds < ROUNDS and beyond <= BEYOND**3:
             self.rounds += 1
             border = self._border(beyond)
@@ -77,7 +79,9 @@ class Edge:
                 if row is not None:
                     self.runs[side] = run_of(self.exploration.starts.plan.how.out, row)
             self.known, beyond = True, 0.0
-            distances = self._distances() if None not in self.runs else np.ones(1)
+            if None in self.runs:
+                continue
+            distances = self._distances()
             if distances[0] <= NEAR and distances[: TOGETHER + 1].max() <= APART:
                 return distances
         return None
@@ -90,9 +94,13 @@ class Edge:
         """
         from engine.run.going_on import between
 
-        shares = [(1.0 + 2.0 * beyond) * (k + 1) / (SHARES + 1) - beyond for k in range(SHARES)]
-        states = [between(*self.states, share) for share in shares]
-        requests = [self.exploration.request(_start(state), most=LONGEST, settles=False) for state in states]
+        shares, states, requests = [], [], []
+        for number in range(1, SHARES + 1):
+            share = (1.0 + 2.0 * beyond) * number / (SHARES + 1) - beyond
+            state = between(*self.states, share)
+            shares.append(share)
+            states.append(state)
+            requests.append(self.exploration.request(_start(state), most=LONGEST, settles=False))
         endings = self.exploration.starts.run("states between two motions", requests)
         decided = []
         for share, state, ending in zip(shares, states, endings, strict=True):
@@ -105,7 +113,7 @@ class Edge:
         return min(borders, key=lambda pair: abs(pair[0][0] + pair[1][0] - 1.0), default=None)
 
     def _distances(self) -> np.ndarray:
-        first, second = (section_of(trajectory)[0] for trajectory in self.runs)
+        first, second = map(_strobed, self.runs)
         count = min(len(first), len(second))
         return np.abs((first[:count] - second[:count]) / self.scale).max(axis=1)
 
@@ -119,9 +127,14 @@ class Edge:
         runs = self.exploration.runs_within(FOLDER, "along the edge", jobs)
         if None in runs:
             return None, ""
-        self.states, self.runs = [run.final_state.at_zero() for run in runs], [None, None]
-        self.known = False
+        self.states = [run.final_state.at_zero() for run in runs]
+        self.runs, self.known = [None, None], False
         return runs[0], jobs[0].key
+
+
+def _strobed(trajectory) -> np.ndarray:
+    """The strobed states of a run, the first of `section_of`."""
+    return section_of(trajectory)[0]
 
 
 def _start(state) -> Start:
@@ -136,37 +149,44 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> dict[
     edge = Edge(exploration, first, second)
     runs, distances_so_far, doublings = [], [], 0.0
     row: dict[str, object] = {"motion": first.branch.letter, "other": second.branch.letter}
-    while len(distances_so_far) < MOST and (distances := edge.narrow()) is not None:
-        parted = distances > APART
-        periods = int(np.argmax(parted)) - 1 if parted.any() else len(distances) - 1
+    row["status"] = "lost"
+    while len(distances_so_far) < MOST:
+        distances = edge.narrow()
+        if distances is None:
+            break
+        parted = np.append(distances > APART, True)  # behind the last at the latest
+        periods = int(np.argmax(parted)) - 1
         trajectory, row["run_key"] = edge.go_on(periods)
         if trajectory is None:
             break
         runs.append(trajectory)
         distances_so_far += [*map(float, distances[:periods])]
         doublings += math.log2(distances[periods] / distances[0])
-    row |= {"periods": len(distances_so_far), "status": "ok" if len(distances_so_far) >= MOST else "lost"}
+    else:
+        row["status"] = "ok"
+    row["periods"] = len(distances_so_far)
     strobed: list[np.ndarray] = []
     if runs:
         row["growth_bits_per_period"] = doublings / len(distances_so_far)
         for trajectory in runs:
-            strobed += [*section_of(trajectory)[0][:-1]]
+            strobed += [*_strobed(trajectory)[:-1]]
         row |= _later_extremes(runs) | {"strobed_period": _repeats(np.array(strobed) / edge.scale)}
     folder = subfolder(exploration.plan, FOLDER)
     write_table(folder / "table.csv", COLUMNS, [row])
-    names, orbit = [column.name for column in ORBIT[1:-1]], []
+    orbit = []
     for period, state in enumerate(strobed):
-        orbit.append({"period": period, **dict(zip(names, state, strict=True)), "apart": distances_so_far[period]})
+        orbit.append(dict(zip(names(ORBIT), (period, *state, distances_so_far[period]), strict=True)))
     write_table(folder / "orbit.csv", ORBIT, orbit)
     return row
 
 
 def _later_extremes(runs: list) -> dict[str, float]:
     """Extremes over the later half of what was followed."""
-    radius, tension = (np.concatenate([run.columns[name] for run in runs]) for name in ("radius_m", TOP))
+    radius = np.concatenate([run.columns["radius_m"] for run in runs])
+    tension = np.concatenate([run.columns[TOP] for run in runs])
     half = len(radius) // 2
     extremes = radius[half:].min(), radius[half:].max(), tension[half:].max()
-    return dict(zip((column.name for column in _EXTREMES), map(float, extremes), strict=True))
+    return dict(zip(names(_EXTREMES), map(float, extremes), strict=True))
 
 
 def _repeats(states: np.ndarray) -> int | None:

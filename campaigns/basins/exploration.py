@@ -4,14 +4,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from campaigns.basins.grid import StartGrid
-from campaigns.explore.motions import MOTION, Motion, Motions, Search
+from campaigns.explore.motions import MOTION, Motion, Motions, Search, settled_in
 from campaigns.explore.rows import STEEPNESS
 from campaigns.explore.stages import judge, name, propose, run_from_rest
 from campaigns.explore.starts import JOINED, KICKS, OUTCOME, Ending, Request, Start
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run
-from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column
+from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, names
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
 PEAK = Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line in its motion", 0)
@@ -55,7 +55,9 @@ class Exploration:
         computed_before, starts = self.starts.computed, []
         for number in numbers:
             start = self.grid.start(*points[number])
-            starts.append((0, self.places.fine(0, start) if fine else start))
+            if fine:
+                start = self.places.fine(0, start)
+            starts.append((0, start))
         for motion in self.places.run_starts(title, starts):
             if motion is not None:
                 motion.kicks += 1
@@ -65,15 +67,18 @@ class Exploration:
 
     def request(self, start: Start, scene=None, **options) -> Request:
         """A start of the scene, or of another one with the same motions. options: fields of `Request`."""
-        known = tuple(motion.settled for motion in self.motions)
-        return Request(self.places.name_of(0), scene or self.scene, start, known, **options)
+        name = self.places.name_of(0)
+        return Request(name, scene or self.scene, start, settled_in(self.motions), **options)
 
     def motion_of(self, ending: Ending) -> Motion | None:
         """The motion in which a start has ended that `find` did not run; None for one that it has not found."""
-        number = ending.joins if ending.row.get("outcome") == JOINED else None
-        if number is None and ending.settled is not None:
-            number = ending.same_as([motion.settled for motion in self.motions])
-        ending.motion = None if number is None else self.motions[number]
+        number = None
+        if ending.row.get("outcome") == JOINED:
+            number = ending.joins
+        elif ending.settled is not None:
+            number = ending.same_as(settled_in(self.motions))
+        if number is not None:
+            ending.motion = self.motions[number]
         return ending.motion
 
     def runs_within(self, folder: str, title: str, jobs: list[Job]) -> list:
@@ -82,12 +87,15 @@ class Exploration:
         with claimed(running.out):
             timing, summary = run(replace(self.plan, how=running, title=title), jobs)
         self.places.times.update(timing)
-        rows = {row["run_key"]: row for row in summary.rows}
-        return [run_of(running.out, rows[job.key]) if job.key in rows else None for job in jobs]
+        rows, trajectories = summary.by_key, []
+        for job in jobs:
+            row = rows.get(job.key)
+            trajectories.append(row and run_of(running.out, row))
+        return trajectories
 
     def rows(self) -> Iterator[dict[str, object]]:
         """The rows of COLUMNS."""
-        shown = {column.name for column in COLUMNS}
+        shown = names(COLUMNS)
         for number in range(len(self.endings)):
             ending = self.endings[number]
             row = {name: entry for name, entry in ending.row.items() if name in shown}

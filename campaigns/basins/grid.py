@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -49,16 +50,20 @@ class StartGrid:
         """The start with these two coordinates."""
         from campaigns.explore.starts import Start  # slow to import
 
-        coordinates = dict(zip(self.across, (first, second), strict=True))
-        kick, moved = ((coordinates.get(x, 0.0), coordinates.get(z, 0.0)) for x, z in (("vx", "vz"), ("x", "z")))
-        return Start(found_by, kick, moved, coordinates.get(PHASE))
+        coordinates = dict.fromkeys(("vx", "vz", "x", "z"), 0.0)
+        coordinates |= zip(self.across, (first, second), strict=True)
+        kick = coordinates["vx"], coordinates["vz"]
+        displacement = coordinates["x"], coordinates["z"]
+        return Start(found_by, kick, displacement, coordinates.get(PHASE))
 
     def at(self, turn: float, size: float, found_by: str) -> "Start":
         """The start of a turn and a size."""
         if self.across[1] != PHASE:
             return self.start(round(size * math.cos(turn), 12), round(size * math.sin(turn), 12), found_by)
         part = round(turn / (2.0 * math.pi) * PHASES)
-        return self.start(-size if part // PHASES % 2 else size, 2.0 * math.pi * (part % PHASES) / PHASES, found_by)
+        if part // PHASES % 2:
+            size = -size
+        return self.start(size, 2.0 * math.pi * (part % PHASES) / PHASES, found_by)
 
     def polar(self, first: float, second: float) -> tuple[float, float]:
         """Turn and size of a start."""
@@ -68,7 +73,8 @@ class StartGrid:
 
     def points(self) -> list[tuple[float, float]]:
         """All of them, in the order of the table."""
-        return [(first, second) for second in self.values(1) for first in self.values(0)]
+        points = product(self.values(1), self.values(0))
+        return [(first, second) for second, first in points]
 
     def spread(self, seed: int) -> Iterator[int]:
         """The numbers of all points, so that any first part of them is spread over the grid (Halton's sequence)."""

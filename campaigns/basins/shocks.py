@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import partial
+from itertools import compress
 
 from campaigns.basins.exploration import Exploration
 from campaigns.basins.smallest import Shock, smallest
@@ -30,8 +31,9 @@ def shocks(exploration: Exploration, target: Motion) -> list[dict[str, object]]:
         if ending.motion is target:
             candidates.append(grid.polar(*points[number]))
     candidates = sorted(candidates, key=lambda polar: polar[1])[:FIRST]
-    scenes = exploration.scene, finer(exploration.scene, elements=2)
-    rows = [_row(exploration, target, scene, candidates) for scene in scenes]
+    rows = []
+    for scene in (exploration.scene, finer(exploration.scene, elements=2)):
+        rows.append(_row(exploration, target, scene, candidates))
     write_table(subfolder(exploration.plan, FOLDER) / "table.csv", COLUMNS, rows)
     return rows
 
@@ -43,7 +45,7 @@ def _row(
     leads = partial(_leads, exploration, target, scene)
     successful = candidates
     if scene is not exploration.scene:
-        successful = [polar for polar, success in zip(candidates, leads(candidates), strict=True) if success]
+        successful = list(compress(candidates, leads(candidates)))
     if not successful:
         return row | {"status": "none", "message": f"none of {len(candidates)} starts of the grid leads there"}
     least = Shock(*successful[0], 0.0)
@@ -57,5 +59,8 @@ def _row(
 def _leads(exploration: Exploration, target: Motion, scene, starts: Sequence[tuple[float, float]]) -> list[bool]:
     """Whether starts, each a turn and a size, lead to the target in a scene."""
     title = f"smallest start, {scene.tether.nodes} nodes"
-    requests = [exploration.request(exploration.grid.at(*polar, title), scene) for polar in starts]
-    return [exploration.motion_of(ending) is target for ending in exploration.starts.run(title, requests)]
+    requests = []
+    for turn, size in starts:
+        requests.append(exploration.request(exploration.grid.at(turn, size, title), scene))
+    endings = exploration.starts.run(title, requests)
+    return [exploration.motion_of(ending) is target for ending in endings]

@@ -1,12 +1,15 @@
 """The smallest start that leads somewhere: the minimal fatal shock (Halekotte & Feudel, Sci. Rep. 10, 11783, 2020)."""
 
 from collections.abc import Callable, Sequence
+from itertools import compress
+from operator import attrgetter
 from typing import NamedTuple
 
 SHARP = 0.01  # of the size
 RAYS = 16  # bisected side by side
 NARROWER = 4.0  # the next rays lie within this part of the angle about the best one
 LEAST_TURN = 0.02  # rad between rays below which no better one is looked for
+_size = attrgetter("size")
 
 
 class Shock(NamedTuple):
@@ -28,33 +31,43 @@ def smallest(leads: Callable[[Sequence[tuple[float, float]]], list[bool]], first
     best, width = first, round_
     while True:
         previous_size = best.size
-        turns = [best.turn + width * (k / RAYS - 0.5) for k in range(RAYS)]  # the best one among them
-        rays = _rays(leads, best, [turn for turn in turns if turn != best.turn])
-        while wide := [ray for ray in rays if ray.size - ray.below > SHARP * ray.size]:
-            rays = [ray for ray in rays if ray not in wide] + _bisected(leads, wide)
-            least = min(ray.size for ray in rays)
-            rays = [ray for ray in rays if ray.below < least]
-        best = min(rays, key=lambda ray: ray.size)
+        best = _best_of(leads, _rays(leads, best, width))
         near = width / RAYS <= LEAST_TURN
         if near or (width < round_ and best.size > (1.0 - SHARP) * previous_size):
             return best
         width /= NARROWER
 
 
-def _rays(leads: Callable, best: Shock, turns: Sequence[float]) -> list[Shock]:
-    """The best ray, and those of the turns on which a start of its size leads there too."""
-    rays = [best]
-    for turn, success in zip(turns, leads([(turn, best.size) for turn in turns]), strict=True):
-        if success:
-            rays.append(Shock(turn, best.size, 0.0))
-    return rays
+def _rays(leads: Callable, best: Shock, width: float) -> list[Shock]:
+    """The best ray, and those of RAYS within a width about it on which a start of its size leads there too."""
+    starts = []
+    for k in range(RAYS):
+        turn = best.turn + width * (k / RAYS - 0.5)
+        if turn != best.turn:
+            starts.append((turn, best.size))
+    successful = compress(starts, leads(starts))
+    return [best, *(Shock(*start, 0.0) for start in successful)]
+
+
+def _best_of(leads: Callable, rays: list[Shock]) -> Shock:
+    """The smallest start of the rays, which are bisected side by side."""
+    while True:
+        sharp, wide = [], []
+        for ray in rays:
+            uncertain = ray.size - ray.below > SHARP * ray.size
+            (wide if uncertain else sharp).append(ray)
+        if not wide:
+            return min(rays, key=_size)
+        rays = sharp + _bisected(leads, wide)
+        least = min(rays, key=_size).size
+        rays = [ray for ray in rays if ray.below < least]
 
 
 def _bisected(leads: Callable, rays: Sequence[Shock]) -> list[Shock]:
     """The rays with half the uncertainty of their sizes."""
-    middles = [0.5 * (ray.size + ray.below) for ray in rays]
-    successes = leads([(ray.turn, size) for ray, size in zip(rays, middles, strict=True)])
+    middles = [(ray.turn, 0.5 * (ray.size + ray.below)) for ray in rays]
     bisected = []
-    for ray, size, success in zip(rays, middles, successes, strict=True):
-        bisected.append(ray._replace(size=size) if success else ray._replace(below=size))
+    for ray, (_, middle), success in zip(rays, middles, leads(middles), strict=True):
+        side = "size" if success else "below"
+        bisected.append(ray._replace(**{side: middle}))
     return bisected

@@ -76,14 +76,15 @@ def cases(order: Order) -> Iterator[Job]:
     scenes = []
     for place in order.options.grid.places():
         changes, _ = order.options.grid.changes(place, base)
-        scene = judged_scene(order, {"motion.dimensions": 3 if dimensions == "3" else 2, **changes})
+        scene = judged_scene(order, {**_changes(dimensions), **changes})
         if scene is not None and dimensions != "2":
             try:
-                spatial = in_space(scene)[0]
+                spatial, _ = in_space(scene)
             except engine.SceneError as error:
                 order.tell(error.faults)
                 continue
-            scene = spatial if dimensions == "3" else scene
+            if dimensions == "3":
+                scene = spatial
         if scene is not None:
             scenes.append(scene)
             labels = place | {"dimensions": scene.motion.dimensions}
@@ -91,22 +92,31 @@ def cases(order: Order) -> Iterator[Job]:
     motions.kicks_of(order, scenes)
 
 
+def _changes(dimensions: str) -> dict[str, object]:
+    """What a scene is changed by so that its runs have these dimensions; `auto` begins in the plane."""
+    return {"motion.dimensions": (2, 3)[dimensions == "3"]}
+
+
 def dimensions_of(order: Order) -> str:
     """One of DIMENSIONS: as the command line says, or the scene."""
     if order.options.dimensions is not None:
         return order.options.dimensions
     scene = order.base()
-    return "2" if scene is None else str(scene.motion.dimensions)
+    if scene is None:
+        return "2"
+    return str(scene.motion.dimensions)
 
 
 def kicks_of(order: Order) -> int | None:
     """Kicks at each value; None: runs from rest only (`campaigns.explore.sweep`)."""
-    return motions.kicks_of(order, [case.scene for case in order.cases])
+    return motions.kicks_of(order, order.scenes)
 
 
 def runs(order: Order) -> Callable:
     """The runs in a plane, in space where needed, or of every motion."""
-    return run_where_needed if dimensions_of(order) == "auto" else motions.runs(order, kicks_of(order))
+    if dimensions_of(order) == "auto":
+        return run_where_needed
+    return motions.runs(order, kicks_of(order))
 
 
 def measures(order: Order) -> Measures:
@@ -118,14 +128,17 @@ def measures(order: Order) -> Measures:
 
 def parameters(order: Order) -> dict[str, object]:
     """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
-    dimensions = dimensions_of(order)
-    pushed = dimensions != "2" and in_space(order.base({"motion.dimensions": 3 if dimensions == "3" else 2}))[1]
+    dimensions, push_mps = dimensions_of(order), None
+    if dimensions != "2":
+        _, pushed = in_space(order.base(_changes(dimensions)))
+        if pushed:
+            push_mps = SEED_MPS
     return {
         "steepness": [case.labels["steepness"] for case in order.cases],
         "strobe_tolerance": STROBE_TOLERANCE,
         "longest_period": LONGEST_PERIOD,
         "dimensions": dimensions,
-        "push_mps": SEED_MPS if pushed else None,
+        "push_mps": push_mps,
         "accuracy": not order.options.no_accuracy,
         **motions.parameters(order, kicks_of(order)),
     }
@@ -148,7 +161,9 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     """The findings of the sweep (`campaigns.explore.answer`)."""
     from campaigns.explore.answer import sentences
 
-    folders = [] if order.options.no_accuracy else ["companions"]
+    folders = []
+    if not order.options.no_accuracy:
+        folders.append("companions")
     if kicks_of(order) is not None:
         folders.append("ends")
     tables = motions.tables_of(order.how.out, *folders)

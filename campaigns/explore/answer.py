@@ -6,10 +6,11 @@ the median change between neighbours. A largest tension is doubted where the mod
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import partial
 from itertools import pairwise
 from statistics import median
 
-from campaigns.answers import OPEN_WORDS, greatest, kilonewton, regimes
+from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of, regimes
 from campaigns.explore.motions import from_rest
 from campaigns.machinery.session import MOST_LINES
 from engine.views import in_regular_waves
@@ -46,35 +47,42 @@ def sentences(
     good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
     if not good:
         return ["No run lasts beyond the transient, so nothing can be said of the motion."]
-    good.sort(key=lambda row: number_of(row, key))
-    first = [row for row in good if from_rest(row)]
-    regular, rest = regimes(first, symbol, [number_of(row, key) for row in first], scene)
+    good.sort(key=partial(number_of, name=key))
+    first = list(filter(from_rest, good))
+    regular, rest = regimes(first, symbol, numbers_of(first, key), scene)
     several = [*coexisting(good, key, symbol), *_ends(good, key, ends)]
-    if several:
-        regular = [f"From rest: {line[:1].lower()}{line[1:]}" for line in regular]
+    if several and regular:
+        (line,) = regular
+        regular = [f"From rest: {line[:1].lower()}{line[1:]}"]
     lines = [*regular, *jumps(first, key, symbol), *rest, *several, *use(good, key, symbol, scene, companions)]
-    return [line for line in lines if len(lines) <= MOST_LINES or not line.startswith(SMALLER)]
+    if len(lines) > MOST_LINES:
+        lines = [line for line in lines if not line.startswith(SMALLER)]
+    return lines
 
 
 def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """The largest jump in numbers, and where the next ones are. rows: sorted."""
-    pairs = []
+    pairs, sizes = [], []
     for below, above in pairwise(rows):
         if number_of(below, PEAK) > 0.0 and number_of(above, PEAK) > 0.0:
-            pairs.append((abs(math.log(number_of(above, PEAK) / number_of(below, PEAK))), below, above))
-    least = max(LEAST_JUMP, TYPICAL * median(size for size, *_ in pairs)) if pairs else math.inf
-    large = sorted((pair for pair in pairs if pair[0] > least), key=lambda pair: -pair[0])
+            size = abs(math.log(number_of(above, PEAK) / number_of(below, PEAK)))
+            sizes.append(size)
+            pairs.append((size, below, above))
+    if not pairs:
+        return
+    least = max(LEAST_JUMP, TYPICAL * median(sizes))
+    large = [pair for pair in pairs if pair[0] > least]
+    large.sort(key=lambda pair: -pair[0])
     for _, below, above in large[:1]:
-        swing_below, swing_above = (
-            number_of(row, "radius_max_m") - number_of(row, "radius_min_m") for row in (below, above)
-        )
-        slack = (100.0 * number_of(row, "slack_fraction") for row in (below, above))
-        growth = swing_above / swing_below if swing_below else math.inf
+        swing_below, swing_above, growth = _swing(below), _swing(above), math.inf
+        if swing_below:
+            growth = swing_above / swing_below
+        slack_below, slack_above = number_of(below, "slack_fraction"), number_of(above, "slack_fraction")
         yield (
             f"Between {symbol} = {number_of(below, key):.4g} and {number_of(above, key):.4g} the motion jumps to one "
             f"{growth:.2g} times as large: peak tension {_change(below, above)}, "
-            f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, "
-            "time with less than 5 % of the static tension {:.0f} -> {:.0f} %.".format(*slack)
+            f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, time with less than 5 % of the static tension "
+            f"{100.0 * slack_below:.0f} -> {100.0 * slack_above:.0f} %."
         )
     smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: number_of(pair[1], key))
     if smaller:
@@ -82,6 +90,10 @@ def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
         for _, below, above in smaller:
             places.append(f"{number_of(below, key):.4g} and {number_of(above, key):.4g} ({_change(below, above)})")
         yield f"{SMALLER} {symbol} = {listed(places)}."
+
+
+def _swing(row: Row) -> float:
+    return number_of(row, "radius_max_m") - number_of(row, "radius_min_m")
 
 
 def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
@@ -102,7 +114,9 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     several = ranges([*by_value], [len(motions) > 1 for motions in by_value.values()], 2)
     sentence = f"One wave has several motions at {symbol} = {several}"
     if worst is not usual:
-        rest = "the one from rest" if from_rest(usual) else f"motion {usual['motion']}"
+        rest = f"motion {usual['motion']}"
+        if from_rest(usual):
+            rest = "the one from rest"
         sentence += (
             f"; at {symbol} = {number_of(worst, key):.4g} motion {worst['motion']} pulls "
             f"{kilonewton(number_of(worst, PEAK))}, {rest} {kilonewton(number_of(usual, PEAK))}"
@@ -116,16 +130,23 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
 
 def _ends(rows: Sequence[Row], key: str, ends: Sequence[Row]) -> Iterator[str]:
     """Where motions end, if a value has several. ends: rows of ends/table.csv."""
-    if not ends or len({number_of(row, key) for row in rows}) == len(rows):
+    if not ends or len(set(numbers_of(rows, key))) == len(rows):
         return
+    sides = {"upper": "above", "lower": "below"}
     words = []
     for end in ends:
-        exact, inside, outside = (number_of(end, f"{key}_{side}") for side in ("end", "with", "without"))
-        value = f"{exact:.4g} ({end['kind']})" if math.isfinite(exact) else f"{0.5 * (inside + outside):.3g}"
-        successor = f", into {end['leads_to']}" if end.get("leads_to") else ""
-        words.append(f"{end['motion']} {'above' if end['end'] == 'upper' else 'below'} {value}{successor}")
-    unnamed = len(words) - MOST_ENDS
-    rest = f"; {unnamed} more in ends/table.csv" if unnamed > 0 else ""
+        exact = number_of(end, f"{key}_end")
+        if math.isfinite(exact):
+            value = f"{exact:.4g} ({end['kind']})"
+        else:
+            value = f"{0.5 * (number_of(end, f'{key}_with') + number_of(end, f'{key}_without')):.3g}"
+        sentence = f"{end['motion']} {sides[end['end']]} {value}"
+        if end.get("leads_to"):
+            sentence += f", into {end['leads_to']}"
+        words.append(sentence)
+    unnamed, rest = words[MOST_ENDS:], ""
+    if unnamed:
+        rest = f"; {len(unnamed)} more in ends/table.csv"
     yield f"Motions end: {listed(words[:MOST_ENDS])}{rest}."
 
 
@@ -137,9 +158,11 @@ def _change(before: Row, after: Row) -> str:
 def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> Iterator[str]:
     """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
     peak, static_N = greatest(rows, PEAK), static_tension(scene)
-    times = f" ({number_of(peak, PEAK) / static_N:.1f} times static)" if static_N else ""
-    motion = "" if from_rest(peak) else f", motion {peak['motion']}"
-    sentence = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}{motion}{times}"
+    sentence = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}"
+    if not from_rest(peak):
+        sentence += f", motion {peak['motion']}"
+    if static_N:
+        sentence += f" ({number_of(peak, PEAK) / static_N:.1f} times static)"
     sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
     for row in sound:
         if number_of(row, key) == number_of(peak, key) and str(row.get("motion") or "") == str(
@@ -149,12 +172,14 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     yield f"{sentence}."
     if scene is None:
         return
-    searched = any(math.isfinite(number_of(row, "share")) for row in rows)
+    searched = any(map(math.isfinite, numbers_of(rows, "share")))
     yield use_of(peak, scene, searched)
     usable = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
     if usable is None or usable is peak:
         return
-    head = f"With the {CAPPED} the largest tension is" if usable in sound else "Largest tension without that:"
+    head = "Largest tension without that:"
+    if usable in sound:
+        head = f"With the {CAPPED} the largest tension is"
     yield f"{head} {largest(usable)} at {symbol} = {number_of(usable, key):.4g}. {use_of(usable, scene, searched)}"
 
 
@@ -164,13 +189,17 @@ def use_of(row: Row, scene, searched: bool) -> str:
     searched: whether other motions were looked for.
     """
     doubts = [*reasons(row, scene)]
-    return f"It is no load to design for, because {listed(doubts)}." if doubts else f"{_checks(row, scene, searched)}."
+    if doubts:
+        return f"It is no load to design for, because {listed(doubts)}."
+    return _checks(row, scene, searched)
 
 
 def _checks(row: Row, scene, searched: bool) -> str:
     """The checks that the tension of a row has passed, and those that were not made."""
     error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
-    grid = f"grid and steps (± {100.0 * error:.2g} %)" if math.isfinite(error) else "grid and steps"
+    grid = "grid and steps"
+    if math.isfinite(error):
+        grid = f"{grid} (± {100.0 * error:.2g} %)"
     checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
     if scene.buoy is not None and waves is not None:
         wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
@@ -183,15 +212,18 @@ def _checks(row: Row, scene, searched: bool) -> str:
     if scene.water is not None:
         checks["the sea bed"] = scene.floor is not None
     checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
-    passed = listed(name for name, checked in checks.items() if checked)
-    missing = listed(name for name, checked in checks.items() if not checked)
-    return f"Checked: {passed}; not checked: {missing}"
+    passed, missing = [], []
+    for name, checked in checks.items():
+        (passed if checked else missing).append(name)
+    return f"Checked: {listed(passed)}; not checked: {listed(missing)}."
 
 
 def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
-    error = number_of(row, PEAK_ERROR)
-    return f"{kilonewton(number_of(row, PEAK))}{f' (± {error / 1e3:.2g} kN)' if math.isfinite(error) else ''}"
+    text, error = kilonewton(number_of(row, PEAK)), number_of(row, PEAK_ERROR)
+    if math.isfinite(error):
+        text += f" (± {error / 1e3:.2g} kN)"
+    return text
 
 
 def reasons(row: Row, scene) -> Iterator[str]:
@@ -211,5 +243,5 @@ def static_tension(scene) -> float | None:
     """The tension of the buoy at rest (N), None where there is no closed form."""
     from engine.natural_frequencies import natural_frequencies
 
-    modes = None if scene is None else natural_frequencies(scene)
-    return None if modes is None else modes.static_tension_N
+    modes = scene and natural_frequencies(scene)
+    return modes and modes.static_tension_N

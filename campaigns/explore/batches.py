@@ -58,22 +58,17 @@ class Batch:
         out = plan.how.out / self.folder
         if not self.jobs and not out.exists():
             return 0.0
-        batch = replace(
-            plan,
-            how=replace(plan.how, out=out),
-            columns=self.columns,
-            title=self.title,
-            describe=self.row,
-            judge=None,
-            simulate_each=plan.simulate_each if self.together else None,
-        )
+        how = replace(plan.how, out=out)
+        batch = replace(plan, how=how, columns=self.columns, title=self.title, describe=self.row, judge=None)
+        if not self.together:
+            batch = replace(batch, simulate_each=None)
         with claimed(out):
             return run(batch, self.jobs)[1].analysis_s
 
 
-def changed(scene, *changes: dict):
-    """The scene with these keys changed."""
-    return scene_from_toml(scene.to_toml(), {key: value for keys in changes for key, value in keys.items()})
+def unfollowed(scene, changes: dict):
+    """The scene without perturbations, and with these keys changed."""
+    return scene_from_toml(scene.to_toml(), UNFOLLOWED | changes)
 
 
 def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
@@ -88,10 +83,11 @@ def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
     values, fine = sorted(scenes), []
     ends = np.linspace(0, max(LEAST_COLUMNS - len(values), 0), len(values)).round().astype(int)  # of those in the gaps
     for (low, high), count in zip(pairwise(values), np.diff(ends), strict=True):
-        fine += [float(f"{low + (high - low) * number / (count + 1):.12g}") for number in range(1, count + 1)]
+        for number in range(1, count + 1):
+            fine.append(float(f"{low + (high - low) * number / (count + 1):.12g}"))
     jobs = []
     for value in fine:
-        scene = changed(scenes[values[0]], UNFOLLOWED, {key: value})
+        scene = unfollowed(scenes[values[0]], {key: value})
         jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
     if not groups_of(plan, jobs):
         jobs = []
@@ -101,24 +97,30 @@ def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
 
 def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     """Every value whose sphere flies, with the wetted cap, where these can go side by side; else that of the peak."""
-    length, jobs = min(periods, COMPANION_PERIODS), []
+    length, jobs, largest = min(periods, COMPANION_PERIODS), [], []
     peak = of_largest_tension(summary.rows)
-    scene = None if peak is None else changed(run_of(plan.how.out, peak).scene, UNFOLLOWED)
+    scene = peak and run_of(plan.how.out, peak).scene
     if scene is not None and scene.buoy.submergence == "full":
-        flying = [row for row in summary.rows if (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m]
-        for row in flying:
+        for row in summary.rows:
+            flies = (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m
+            if not flies:
+                continue
             labels = {"role": CAPPED, "steepness": row["steepness"], "motion": row.get("motion")}
-            capped = changed(scene, {key: row["steepness"], "buoy.submergence": "spherical-cap"})
+            capped = unfollowed(scene, {key: row["steepness"], "buoy.submergence": "spherical-cap"})
             jobs.append(job_from(labels, capped, length, start_of(plan, row)))
+            if row is peak:
+                largest = jobs[-1:]
         if not groups_of(plan, jobs):
-            jobs = [job for job, row in zip(jobs, flying, strict=True) if row is peak]
+            jobs = largest
     row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
     return Batch("companions", "runs with the wetted cap", COMPANIONS, row, jobs, together=True).do(plan)
 
 
 def start_of(plan: Plan, row: dict):
     """The state in which a run begins that repeats that of a row: the last of a motion that is not found from rest."""
-    return None if from_rest(row) else run_of(plan.how.out, row).final_state.at_zero()
+    if from_rest(row):
+        return None
+    return run_of(plan.how.out, row).final_state.at_zero()
 
 
 def of_largest_tension(rows: list[dict]) -> dict | None:
@@ -135,5 +137,5 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
         scene, start = run_of(plan.how.out, row).scene, start_of(plan, row)
         profiles = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         labels = {"steepness": row["steepness"], "motion": row.get("motion"), "periods": length}
-        jobs.append(job_from(labels, changed(scene, UNFOLLOWED, profiles), length, start))
+        jobs.append(job_from(labels, unfollowed(scene, profiles), length, start))
     return Batch("close_up", "the close-up", CLOSE_UP, partial(counted, columns=(WALL_S,)), jobs).do(plan)

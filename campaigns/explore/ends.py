@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
+from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, settled_in, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
 from tables import JOINED, MESSAGE, RUN_KEY, STATUS, Column, write_table
@@ -47,10 +47,10 @@ class _End:
         """Those that do not come from an orbit."""
         return {
             "motion": self.motion.branch.letter,
-            "end": "upper" if self.step == UP else "lower",
+            "end": {UP: "upper", DOWN: "lower"}[self.step],
             f"{key.name}_with": self.inside,
             f"{key.name}_without": self.outside,
-            "leads_to": None if self.successor is None else self.successor.branch.letter,
+            "leads_to": self.successor and self.successor.branch.letter,
             **self.row,
         }
 
@@ -85,7 +85,10 @@ def find_ends(motions: Motions, scene_at: Callable) -> list[dict[str, object]]:
     values = _values(motions)
     ends = [*_ends_of(motions, values)]
     width = (max(values) - min(values)) / SHARPNESS
-    while wide := [end for end in ends if _is_wide(end, width, scene_at)]:
+    while True:
+        wide = [end for end in ends if _is_wide(end, width, scene_at)]
+        if not wide:
+            break
         requests = []
         for end in wide:
             start = motions.fine(end.motion.place, Start(CARRIED[end.step], state=end.state.at_zero()))
@@ -183,7 +186,7 @@ def confirm(motions: Motions) -> None:
         motion = max(branch, key=lambda motion: motion.tension_N)
         if motion.state is None:
             continue
-        scene, known = motions.jobs[motion.place].scene, tuple(known.settled for known in motions.at[motion.place])
+        scene, known = motions.jobs[motion.place].scene, settled_in(motions.at[motion.place])
         changed = {TIGHTER: finer(scene, steps=10), FINER.format(2 * scene.tether.nodes - 1): finer(scene, elements=2)}
         for change, changed_scene in changed.items():
             start = motions.fine(motion.place, Start(change, state=motion.state.at_zero()))
@@ -204,7 +207,7 @@ def confirm(motions: Motions) -> None:
 def _confirmation(motion: Motion, change: str, result: Motion | None) -> str:
     """What a motion becomes with a change of the numerical method, in words."""
     if result is motion:
-        return f"at {change}" if change == TIGHTER else f"on {change}"
+        return f"{('on', 'at')[change == TIGHTER]} {change}"
     if result is not None:
         return f"NOT with {change}, where it becomes {result.branch.letter}"
     return f"not settled with {change}"

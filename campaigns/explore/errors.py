@@ -82,8 +82,9 @@ def errors(plan: Plan, summary: Summary) -> float:
 
     Rows without a transient, as of runs that ended early, stay empty. Raises as `runner.run`.
     """
-    rows = summary.rows if plan.simulate is simulate else []
-    compared = [companion for companion in (_companion(plan, row) for row in rows) if companion is not None]
+    compared = []
+    if plan.simulate is simulate:
+        compared = list(filter(None, map(partial(_companion, plan), summary.rows)))
     jobs = [companion.job for companion in compared]
     batch = Batch(FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs, together=True)
     analysis_s = batch.do(plan)
@@ -113,7 +114,10 @@ class _Companion(NamedTuple):
 
 def _companion(plan: Plan, row: dict) -> _Companion | None:
     """The companion of a row; None where there can be none."""
-    run = None if row.get("transient_periods") is None else run_of(plan.how.out, row)
+    transient = row.get("transient_periods")
+    if transient is None:
+        return None
+    run = run_of(plan.how.out, row)
     if run is None:
         return None
     orbits = orbits_in(plan.how.out)
@@ -122,12 +126,15 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
         run = orbit_ahead(run, orbits)[0].run
     if run.final_state is None or not goes_in_lanes(scene):
         return None
-    length = min(max(REPEATING, 3 * period) if period else OTHERS, round(row["periods"]))
-    motion = (settled_of(run, orbits) or as_it_is(run)) if row.get("regime") else None
+    length, motion = OTHERS, None
+    if period:
+        length = max(REPEATING, 3 * period)
+    if row.get("regime"):
+        motion = settled_of(run, orbits) or as_it_is(run)
+    length = min(length, round(row["periods"]))
     job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
     job = replace(job, describe=partial(companion_row, period=period, motion=motion))
-    usual_N = usual_max_N(run, row["transient_periods"], period)
-    return _Companion(job, row, usual_N, slack_shares(run, row["transient_periods"], period))
+    return _Companion(job, row, usual_max_N(run, transient, period), slack_shares(run, transient, period))
 
 
 def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
@@ -139,10 +146,13 @@ def companion_row(trajectory, period: int | None = None, motion=None) -> dict[st
     if trajectory.status == "ok":
         row[USUAL.name] = usual_max_N(trajectory, LEFT_OUT * row["periods"], period)
         shares = slack_shares(trajectory, LEFT_OUT * row["periods"], period)
-        row[SLACK.name] = float(shares.mean()) if len(shares) else None
+        if len(shares):
+            row[SLACK.name] = float(shares.mean())
         if motion is not None:
             strobed, measures, _ = section_of(trajectory)
-            row[OUTCOME.name] = UNSETTLED if joins(strobed, measures, [motion]) is None else JOINED
+            row[OUTCOME.name] = JOINED
+            if joins(strobed, measures, [motion]) is None:
+                row[OUTCOME.name] = UNSETTLED
     return row
 
 
@@ -153,7 +163,9 @@ def usual_max_N(trajectory, transient_periods: float, period: int | None) -> flo
         samples = round(_whole(period) * scene.waves.period_s / scene.sample_step_s())
         return float(columns["tension_top_high_N"][-samples:].max())
     largest = _maxima_of_blocks(scene, columns, transient_periods)
-    return float(largest.mean()) if len(largest) else math.nan
+    if not len(largest):
+        return math.nan
+    return float(largest.mean())
 
 
 def _maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
@@ -170,7 +182,10 @@ def slack_shares(trajectory, transient_periods: float, period: int | None) -> np
     scene, tension_N = trajectory.scene, trajectory.columns["tension_top_N"]
     threshold_N = max(NEAR_ZERO * static_tension_N(scene, trajectory.columns), 0.0)
     in_period = scene.waves.period_s / scene.sample_step_s()
-    samples = round((_whole(period) if period else BLOCK) * in_period)
+    stretch = BLOCK
+    if period:
+        stretch = _whole(period)
+    samples = round(stretch * in_period)
     count = round(len(tension_N) - 1 - transient_periods * in_period) // samples
     slack = tension_N[len(tension_N) - count * samples :] <= threshold_N
     return slack.reshape(count, samples).mean(axis=1)
@@ -178,11 +193,15 @@ def slack_shares(trajectory, transient_periods: float, period: int | None) -> np
 
 def slack_error(shares: np.ndarray, companion: dict) -> tuple[float, list[str]]:
     """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
-    difference = abs(number_of(companion, SLACK.name) - shares.mean()) if len(shares) else math.nan
-    scatter = shares.std(ddof=1) if len(shares) > 1 else 0.0
-    error = float(4.0 / 3.0 * difference + 3.0 * scatter / math.sqrt(max(len(shares), 1)))
-    coarse = error > SLACK_COARSE and difference > 2.0 * scatter
-    return error, [f"the slack fraction holds to {error:.2f} only"] if coarse else []
+    if not len(shares):
+        return math.nan, []
+    difference, scatter = abs(number_of(companion, SLACK.name) - shares.mean()), 0.0
+    if len(shares) > 1:
+        scatter = shares.std(ddof=1)
+    error, words = float(4.0 / 3.0 * difference + 3.0 * scatter / math.sqrt(len(shares))), []
+    if error > SLACK_COARSE and difference > 2.0 * scatter:
+        words.append(f"the slack fraction holds to {error:.2f} only")
+    return error, words
 
 
 def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:
@@ -204,9 +223,12 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str
 
 def _period(row: dict) -> int | None:
     """Wave periods after which a row's motion repeats, by its verdict, or where it has none by its strobed state."""
-    if not (word := row.get("regime")):
+    word = row.get("regime")
+    if not word:
         return row.get("strobed_period")
-    return int(word.removeprefix(PERIODIC)) if word.startswith(PERIODIC) else None
+    if word.startswith(PERIODIC):
+        return int(word.removeprefix(PERIODIC))
+    return None
 
 
 def _whole(period: int) -> int:

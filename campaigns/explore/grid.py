@@ -14,7 +14,7 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Order
-from tables import Column
+from tables import Column, names
 
 
 @dataclass(frozen=True)
@@ -49,15 +49,18 @@ class Varied:
         if not isinstance(elements, list | tuple) or self.index >= len(elements):
             yield f"--vary {self.key}: the scene has no such element; {self.name} is {elements}"
             return
-        element = {**elements[self.index], self.part: value} if self.part else value
-        changes[self.name] = [*elements[: self.index], element, *elements[self.index + 1 :]]
+        if self.part:
+            value = {**elements[self.index], self.part: value}
+        changes[self.name] = [*elements[: self.index], value, *elements[self.index + 1 :]]
 
     def of(self, scene) -> float | None:
         """The value of the key in a scene; None where it has none."""
         value = reduce(lambda section, name: getattr(section, name, None), self.name.split("."), scene)
         if self.index is None:
             return value
-        return value[self.index] if isinstance(value, list | tuple) and self.index < len(value) else None
+        if isinstance(value, list | tuple) and self.index < len(value):
+            return value[self.index]
+        return None
 
 
 def varied(words: list[str], faults: list[str], option: str = "--vary", of_words: bool = False) -> Varied | None:
@@ -67,29 +70,42 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
 
     key = words[0]
     element = re.fullmatch(r"(.+)\[(\d+)\](?:\.(\w+))?", key)
-    name, index, part = (element[1], int(element[2]), element[3] or "") if element else (key, None, "")
-    declared_keys, list_name = keys(), name
-    name = f"{name}.{part}" if part else name
+    list_name, index, part = key, None, ""
+    if element:
+        list_name, index, part = element[1], int(element[2]), element[3] or ""
+    name = list_name
+    if part:
+        name = f"{list_name}.{part}"
+    declared_keys = keys()
     text = of_words and name in declared_keys and declared_keys[name].kind == "text"
-    values = list(dict.fromkeys(words[1:])) if text else cli.evenly(words[1:], f"{option} {key}", faults)
+    if text:
+        values = list(dict.fromkeys(words[1:]))
+    else:
+        values = cli.evenly(words[1:], f"{option} {key}", faults)
     if name not in declared_keys:
         faults.append(f"{option} {key}: no such key{suggestion(name, list(declared_keys))}")
         return None
     declared = declared_keys[name]
     kind = declared.kind
     if kind not in ("number", "whole number") and not (kind == "list" and element) and not text:
-        allowed = f"one element of it, as {name}[0]" if kind == "list" else "a key that holds a number"
+        allowed = "a key that holds a number"
+        if kind == "list":
+            allowed = f"one element of it, as {name}[0]"
         faults.append(f"{option} {key}: holds a {kind}; allowed: {allowed}")
         return None
     if text and not values:
         faults.append(f"{option} {key}: given nothing; allowed: its words")
     if kind == "whole number":
-        values = list(dict.fromkeys(round(value) for value in values))
+        values = list(dict.fromkeys(map(round, values)))
     if not values:
         return None
-    unit = "" if declared.unit == "1" else declared.unit
-    symbol = declared.symbol if declared.symbol not in ("", "-", "–") else key.rpartition(".")[2]
-    digits = None if text else max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
+    unit, symbol, digits = declared.unit, declared.symbol, None
+    if unit == "1":
+        unit = ""
+    if symbol in ("", "-", "–"):
+        symbol = key.rpartition(".")[2]
+    if not text:
+        digits = max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
     return Varied(key, list_name, index, tuple(values), Column(key, unit, symbol, meaning, digits), part)
 
@@ -107,9 +123,8 @@ class Grid:
 
     def places(self) -> Iterator[dict[str, object]]:
         """The columns of every place."""
-        names = [column.name for column in self.columns]
         for values in product(*(key.values for key in self.keys)):
-            yield dict(zip(names, values, strict=True))
+            yield dict(zip(names(self.columns), values, strict=True))
 
     def changes(self, place: dict[str, object], base) -> tuple[dict[str, object], list[str]]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
@@ -126,7 +141,9 @@ class Grid:
         """
         changes, faults = self.changes(place, order.base())
         order.tell(faults)
-        scene = None if faults else judged_scene(order, changes)
+        if faults:
+            return None
+        scene = judged_scene(order, changes)
         if scene is None:
             return None
         return judged_job(order, {**place, **labels, "dimensions": scene.motion.dimensions}, scene, most=most)

@@ -95,11 +95,19 @@ class Motion:
         return len(self.branch.letter), self.branch.letter
 
 
+def settled_in(motions: Sequence[Motion]) -> tuple:
+    """What each of these motions has settled to."""
+    return tuple(motion.settled for motion in motions)
+
+
 def in_a_row(count: int) -> Callable[[int], dict[int, str]]:
     """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
 
     def neighbours(place: int) -> dict[int, str]:
-        return {place + step: found_by for step, found_by in CARRIED.items() if 0 <= place + step < count}
+        beside = {place + step: found_by for step, found_by in CARRIED.items()}
+        for outside in (-1, count):
+            beside.pop(outside, None)
+        return beside
 
     return neighbours
 
@@ -124,7 +132,7 @@ class Motions:
         folder: str = "",
     ):
         self.plan, self.keys, self.neighbours, self.match_distance = plan, tuple(keys), neighbours, match_distance
-        self.folder = plan.how.out / folder if folder else plan.how.out
+        self.folder = plan.how.out / folder  # "" adds nothing
         self.orbits = orbits_in(self.folder)
         self.starts = Starts(plan, (*self.keys, MOTION))
         self.kicks = 0  # at each place
@@ -156,17 +164,20 @@ class Motions:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
-        own_folder = self.folder == self.plan.how.out
-        with contextlib.nullcontext() if own_folder else claimed(self.folder):
+        claim = contextlib.nullcontext()
+        if self.folder != self.plan.how.out:
+            claim = claimed(self.folder)
+        with claim:
             plan = replace(self.plan, how=replace(self.plan.how, out=self.folder), title=title)
             timing, summary = run(plan, list(jobs), ahead)
         self.times.update(timing)
         self.computed |= summary.made
-        self.rows |= {row["run_key"]: row for row in summary.rows}
+        self.rows |= summary.by_key
 
     def judged_run(self, key: str):
         """The Trajectory of a judged run; None where it has not ended as asked."""
-        return run_of(self.folder, self.rows[key]) if key in self.rows else None
+        row = self.rows.get(key)
+        return row and run_of(self.folder, row)
 
     def fine(self, place: int, start: Start) -> Start:
         """The start with as many samples as a run of its place, which then takes up its last state to the moment."""
@@ -175,14 +186,14 @@ class Motions:
 
     def run_starts(self, title: str, starts: Sequence[tuple[int, Start]]) -> list[Motion | None]:
         """Run starts at places; returns the motion in which each ended, None where it did not settle."""
-        motions_before = [list(motions) for motions in self.at]
-        settled = [tuple(motion.settled for motion in motions) for motions in self.at]
-        requests = [
-            Request(self.name_of(place), self.jobs[place].scene, start, settled[place]) for place, start in starts
-        ]
-        for (place, start), ending in zip(starts, endings := self.starts.run(title, requests), strict=True):
+        settled = list(map(settled_in, self.at))
+        requests = []
+        for place, start in starts:
+            requests.append(Request(self.name_of(place), self.jobs[place].scene, start, settled[place]))
+        endings = self.starts.run(title, requests)
+        for (place, start), ending in zip(starts, endings, strict=True):
             if ending.joins is not None:
-                ending.motion = motions_before[place][ending.joins]
+                ending.motion = self.at[place][ending.joins]  # new motions stand behind those it may join
             elif ending.settled is not None:
                 ending.motion = self._motion_of(place, start, ending)
         return [ending.motion for ending in endings]
@@ -190,7 +201,7 @@ class Motions:
     def _motion_of(self, place: int, start: Start, ending: Ending) -> Motion:
         """The motion on which a start has settled: a known one, or a new one."""
         motions = self.at[place]
-        number = ending.same_as([motion.settled for motion in motions])
+        number = ending.same_as(settled_in(motions))
         if number is not None:
             return motions[number]
         motions.append(Motion(place, ending.settled, ending.state, start.found_by))
@@ -215,14 +226,17 @@ class Motions:
 
     def row_of(self, motion: Motion) -> dict:
         """The row of the judged run of a motion; {} where there is none yet."""
-        key = self.jobs[motion.place].key if motion.found_by == FROM_REST else self.job_keys.get(motion, "")
+        key = self.job_keys.get(motion, "")
+        if motion.found_by == FROM_REST:
+            key = self.jobs[motion.place].key
         return self.rows.get(key, {})
 
     def table(self) -> list[dict]:
         """A row for each motion, by place and letter; of a place whose run from rest has no motion, also that run's."""
         rows = []
         for job, motions in zip(self.jobs, self.at, strict=True):
-            if job.key in self.rows and not any(motion.found_by == FROM_REST for motion in motions):
+            starts = {motion.found_by for motion in motions}
+            if job.key in self.rows and FROM_REST not in starts:
                 rows.append({**self.rows[job.key], **job.labels})
             for motion in sorted(motions, key=lambda motion: motion.order):
                 rows.append({**self.row_of(motion), **job.labels, **self.labels(motion)})
@@ -239,7 +253,8 @@ class Motions:
 
     def timing(self) -> dict[str, float]:
         """Seconds of all runs, those of the starts among them."""
-        return {name: self.times[name] + self.starts.times[name] for name in ("compile_s", "run_s", "analysis_s")}
+        names = "compile_s", "run_s", "analysis_s"
+        return {name: self.times[name] + self.starts.times[name] for name in names}
 
 
 def subfolder(plan: Plan, name: str) -> Path:

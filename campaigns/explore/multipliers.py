@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import engine
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.store import Store, key_of
-from tables import REGIMES, SHEET, Column
+from tables import REGIMES, SHEET, Column, finite, names
 
 if TYPE_CHECKING:
     import numpy as np
@@ -71,18 +71,19 @@ class OrbitUnder:
 
     def row(self) -> dict[str, float | None]:
         """The columns MULTIPLIERS."""
-        modulus, angle, error = self._leading()
-        values = modulus, angle, error if math.isfinite(error) else None
-        return dict(zip((column.name for column in MULTIPLIERS), values, strict=True))
+        return dict(zip(names(MULTIPLIERS), map(finite, self._leading()), strict=True))
 
     def words(self) -> str:
         """The leading multiplier, and whether the orbit is stable."""
         first = self.multipliers[0]
         modulus, angle, error = self._leading()
-        size = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees" if first.imag else f"{first.real:.4f}"
-        doubt = ""
+        size, doubt = f"{first.real:.4f}", ""
+        if first.imag:
+            size = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees"
         if modulus >= 1.0:
-            doubt = ", not known to be stable" if modulus - error < 1.0 else ": NOT stable, the run lies beside it"
+            doubt = ": NOT stable, the run lies beside it"
+            if modulus - error < 1.0:
+                doubt = ", not known to be stable"
         return f"leading multiplier {size}, ± {error:.2g}{doubt}"
 
     def _leading(self) -> tuple[float, float, float]:

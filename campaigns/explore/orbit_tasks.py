@@ -25,8 +25,9 @@ def under(line: Line, value: float, period: int, state: object) -> tuple[dict, l
     from analysis.orbits import find_orbit, middle_of
 
     cable, system = line.maps
-    begin = state if isinstance(state, np.ndarray) else cable.at_strobe(state, value)
-    orbit = find_orbit(system, begin, value, period, count=COUNT)
+    if not isinstance(state, np.ndarray):
+        state = cable.at_strobe(state, value)
+    orbit = find_orbit(system, state, value, period, count=COUNT)
     if not orbit.found:
         return {"reason": orbit.reason}, []
     orbit, errors = middle_of(system, orbit)
@@ -56,8 +57,8 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
         row |= {"kind": event.kind, "angle_rad": event.angle_rad, "at": len(points_of)}
         row |= {"value": event.parameter, "error": _finite(event.error)}
         points_of.append(event.orbit.points)
-        doubled = _doubled(system, event) if event.kind == "flip" else None
-        if doubled is not None:
+        doubled = event.kind == "flip" and _doubled(system, event)
+        if doubled:
             row |= {"doubled": len(points_of), "doubled_value": doubled.parameter}
             row["doubled_seen"] = doubled.points @ cable.seen
             points_of.append(doubled.points)
@@ -116,14 +117,16 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
     cable, _ = line.maps
     fine_line = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
     # rates between nodes are no rates of the finer line: a run makes them, and leads to the strobe after the next
-    later = [engine.simulate(fine_line.scene(value), periods=1, start=cable.state_of(z, value)) for z in points]
-    if failed := [run for run in later if run.final_state is None]:
-        return {"reason": f"on {fine_line.nodes} nodes: {failed[0].message or failed[0].status}"}, []
-    fine_line = replace(fine_line, state=later[-1].final_state, value=value)
-    fine = fine_line.maps[0]
-    return _event_near(
-        fine_line, kind, at, value, np.roll([fine.at_strobe(run.final_state, value) for run in later], 2, axis=0)
-    )
+    states = []
+    for z in points:
+        run = engine.simulate(fine_line.scene(value), periods=1, start=cable.state_of(z, value))
+        if run.final_state is None:
+            return {"reason": f"on {fine_line.nodes} nodes: {run.message or run.status}"}, []
+        states.append(run.final_state)
+    fine_line = replace(fine_line, state=states[-1], value=value)
+    fine, _ = fine_line.maps
+    fine_points = [fine.at_strobe(state, value) for state in states]
+    return _event_near(fine_line, kind, at, value, np.roll(fine_points, 2, axis=0))
 
 
 def _event_near(line, kind, at, value, points):
@@ -164,4 +167,6 @@ def _row(cable, orbit, history, errors) -> dict:
 
 
 def _finite(error: float) -> float | None:
-    return error if math.isfinite(error) else None
+    if math.isfinite(error):
+        return error
+    return None

@@ -3,7 +3,7 @@
 from functools import partial
 
 from campaigns.study import Measures, Order
-from tables import Column
+from tables import Column, names
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -14,7 +14,9 @@ def measures_of(order: Order, columns: tuple[Column, ...], full: bool = False) -
     from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row
 
-    settings = {"transient_periods": order.transient, "full": order.periods if full else None}
+    settings = {"transient_periods": order.transient, "full": None}
+    if full:
+        settings["full"] = order.periods
     return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
 
 
@@ -22,6 +24,6 @@ def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
     """Those of the places of a grid, then those of the rows of a buoy in a plane."""
     from campaigns.explore.rows import COLUMNS, STEEPNESS
 
-    names = {STEEPNESS.name, *(key.name for key in keys)}
-    measured = [column for column in COLUMNS if column.name not in names and not column.name.startswith("planar_")]
+    of_places = names((STEEPNESS, *keys))
+    measured = [column for column in COLUMNS if column.name not in of_places and not column.name.startswith("planar_")]
     return *keys, *measured

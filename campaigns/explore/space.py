@@ -40,7 +40,7 @@ def in_space(scene):
     out, because only a planar run can carry them. Raises SceneError if the scene is not allowed in three dimensions.
     """
     heading = scene.waves.direction_rad
-    sine, cosine = (math.sin(heading), math.cos(heading)) if heading else (0.0, 1.0)
+    sine, cosine = math.sin(heading), math.cos(heading)
     vx, vy, vz = scene.start.buoy_velocity_mps
     changes = {"motion.dimensions": 3, "output.tangent_vectors": 0, "output.lateral_growth": False}
     added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
@@ -56,7 +56,7 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
     errors as `runner.run`.
     """
     timing, summary = run(plan, jobs)
-    rows = {row["run_key"]: row for row in summary.rows}
+    rows = summary.by_key
     jobs_of_rows, in_space_count = [], 0
     for job in jobs:
         row = rows[job.key]

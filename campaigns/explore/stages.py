@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 from string import ascii_uppercase
 
 import engine
-from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search
+from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search, settled_in
 from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, as_it_is, settled_of, start_job
 from campaigns.explore.transients import as_long_as, outlasting
@@ -150,7 +150,9 @@ def judged_job_of(motions: Motions, motion: Motion, search: Search) -> Job:
     """The judged run of a motion from its last state."""
     order, place = search.order, motions.jobs[motion.place]
     job = judged_job(order, place.labels, place.scene, motion.state.at_zero(), search.most)
-    return as_long_as(job, order.periods) if motion.found_by == KICKED else job
+    if motion.found_by == KICKED:
+        return as_long_as(job, order.periods)
+    return job
 
 
 def merge(motions: Motions, settled: Mapping[Motion, object], grouped: Callable | None = None) -> None:
@@ -167,7 +169,7 @@ def merge(motions: Motions, settled: Mapping[Motion, object], grouped: Callable 
         for motion in motions_here:
             motion.settled = settled.get(motion, motion.settled)
         first: dict[int, Motion] = {}
-        for label, motion in zip(grouped([motion.settled for motion in motions_here]), motions_here, strict=True):
+        for label, motion in zip(grouped(settled_in(motions_here)), motions_here, strict=True):
             merged[motion] = first.setdefault(int(label), motion)
             if merged[motion] is not motion:
                 merged[motion].kicks += motion.kicks
@@ -202,7 +204,9 @@ def name(motions: Motions, matched: Callable | None = None) -> None:
         motion.branch = first.setdefault(id(branches[motion]), motion)
         if motion.branch is motion:
             repetition, letter = divmod(len(first) - 1, len(ascii_uppercase))
-            motion.letter = ascii_uppercase[letter] + (str(repetition + 1) if repetition else "")
+            motion.letter = ascii_uppercase[letter]
+            if repetition:
+                motion.letter += str(repetition + 1)
 
 
 def _continue_unsettled(motions: Motions, place: int, neighbour: int, matched: Callable) -> None:
@@ -212,7 +216,7 @@ def _continue_unsettled(motions: Motions, place: int, neighbour: int, matched: C
     _follow_back(neighbours, own_motions, neighbour, place)
     unsettled = [motion for motion in own_motions if motion.becomes.get(neighbour) is None]
     candidates = [motion for motion in neighbours if motion.becomes.get(place) is None]
-    numbers = matched([motion.settled for motion in unsettled], [motion.settled for motion in candidates])
+    numbers = matched(settled_in(unsettled), settled_in(candidates))
     for motion, number in zip(unsettled, numbers, strict=True):
         if number is not None:
             motion.becomes[neighbour] = candidates[number]

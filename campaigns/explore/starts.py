@@ -8,6 +8,7 @@ because a motion is told by its strobes and by the extremes of its periods; what
 
 import hashlib
 import math
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -38,6 +39,7 @@ from tables import (
     WALL_S,
     Column,
     counted,
+    names,
     write_table,
 )
 
@@ -75,20 +77,23 @@ class Start:
 
     def scene(self, scene):
         """The scene that begins so."""
-        share = strobed_at(scene.waves.phase_rad if self.phase is None else self.phase)
-        parts = Fraction(share).limit_denominator(MOST_OFTEN).denominator  # strobes are samples
-        step_s = scene.waves.period_s / (parts * math.ceil(self.often / parts))
-        changes: dict[str, object] = {TANGENTS: 0, LATERAL: False, "output.step_s": step_s}
+        changes: dict[str, object] = {TANGENTS: 0, LATERAL: False}
+        phase = scene.waves.phase_rad
+        if self.phase is not None:
+            phase = changes[PHASE] = self.phase
+        parts = Fraction(strobed_at(phase)).limit_denominator(MOST_OFTEN).denominator  # strobes are samples
+        changes["output.step_s"] = scene.waves.period_s / (parts * math.ceil(self.often / parts))
         for key, (x, z) in ((KICK, self.kick), (DISPLACEMENT, self.displacement)):
-            changes[key] = [x, 0.0, z] if self.state is None else [0.0, 0.0, 0.0]
-        changes |= {} if self.phase is None else {PHASE: self.phase}
+            changes[key] = [x, 0.0, z]
+            if self.state is not None:
+                changes[key] = [0.0, 0.0, 0.0]
         return scene_from_toml(scene.to_toml(), changes)
 
     def labels(self) -> dict[str, object]:
         """The columns of KICKS; those of a state are empty."""
         labels: dict[str, object] = {"found_by": self.found_by}
         if self.state is None:
-            labels |= dict(zip((column.name for column in KICKS), (*self.kick, *self.displacement), strict=False))
+            labels |= zip(names(KICKS[:4]), (*self.kick, *self.displacement), strict=True)
             if self.phase is not None:
                 labels["phase_rad"] = self.phase
         return labels
@@ -125,20 +130,27 @@ def start_job(request: Request) -> Job:
     """The run of a start."""
     start, scene = request.start, request.scene
     # it ends at the phase at which its scene begins, so that the scene can take up its last state
-    shift = 0.0 if start.phase is None else strobed_at(start.phase - scene.waves.phase_rad)
-    looks = [look for look in LOOKS if look < request.most]
-    ends = tuple(look + shift for look in (*looks, request.most))
-    digest = hashlib.sha256(b"" if start.state is None else start.state.digest().encode())
+    shift = 0.0
+    if start.phase is not None:
+        shift = strobed_at(start.phase - scene.waves.phase_rad)
+    looks = [*LOOKS[: bisect_left(LOOKS, request.most)], request.most]
+    ends = tuple(look + shift for look in looks)
+    digest = hashlib.sha256()
+    if start.state is not None:
+        digest.update(start.state.digest().encode())
     for motion in request.known:
         for part in (motion.points, motion.measures, motion.scale):
             digest.update(np.ascontiguousarray(part).tobytes())
+    made = f"start {digest.hexdigest()}"
+    if not request.settles:
+        made += " joins"
     return Job(
         request.labels | start.labels(),
         start.scene(scene),
         ends[-1],
         describe=partial(start_row, known=tuple(request.known), settles=request.settles),
         going=partial(until_settled, start=start.state, ends=ends),
-        made=f"start {digest.hexdigest()}{'' if request.settles else ' joins'}",
+        made=made,
     )
 
 
@@ -156,8 +168,9 @@ def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[st
     number = joins(strobed, measures, known)
     if number is not None:
         return row | {"outcome": JOINED, "joins": number}
-    motion = settled(strobed, measures, scale=scale) if settles else None
-    return row | {"outcome": UNSETTLED if motion is None else SETTLED}
+    if settles and settled(strobed, measures, scale=scale) is not None:
+        return row | {"outcome": SETTLED}
+    return row | {"outcome": UNSETTLED}
 
 
 def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
@@ -229,7 +242,9 @@ class Ending:
         if not known:
             return None
         *labels, label = grouped([*known, self.settled])
-        return labels.index(label) if label in labels else None
+        if label in labels:
+            return labels.index(label)
+        return None
 
 
 class Starts:
@@ -256,17 +271,19 @@ class Starts:
             timing, summary = run(replace(self.plan, title=title), jobs)
         self.times.update(timing)
         self.computed += summary.computed
-        rows = {row["run_key"]: row for row in summary.rows}
+        rows = summary.by_key
         endings = [self._ending(job, rows.get(job.key)) for job in jobs]
         if listed:
             self.endings += endings
         return endings
 
     def _ending(self, job: Job, row: dict | None) -> Ending:
-        row = {**job.labels, "status": "lost"} if row is None else {**row, **job.labels}
+        row = {**(row or {"status": "lost"}), **job.labels}
         if row.get("outcome") == JOINED:
             return Ending(row, round(row["joins"]))
-        run = run_of(self.plan.how.out, row) if row.get("outcome") == SETTLED else None
+        if row.get("outcome") != SETTLED:
+            return Ending(row)
+        run = run_of(self.plan.how.out, row)
         if run is None:
             return Ending(row)
         return Ending(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
@@ -275,7 +292,7 @@ class Starts:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""
         rows = []
         for ending in self.endings:
-            row = {**ending.row, "motion": ending.motion.branch.letter if ending.motion else None}
+            row = {**ending.row, "motion": ending.motion and ending.motion.branch.letter}
             row.pop("joins", None)
             rows.append(row)
         columns = tuple(column for column in self.plan.columns if column is not JOINS)

@@ -87,6 +87,11 @@ class Summary:
     whole: bool = False
     made: frozenset[str] = frozenset()
 
+    @property
+    def by_key(self) -> dict[str, dict]:
+        """The rows by the keys of their runs."""
+        return {row["run_key"]: row for row in self.rows}
+
 
 @dataclass(frozen=True)
 class Plan:

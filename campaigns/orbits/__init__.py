@@ -77,9 +77,13 @@ def cases(order: Order) -> Iterator[Job]:
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.options.grid.keys:
         return
-    jobs = [*(_jobs(order) if order.options.start_from is None else _job_of_file(order))]
+    jobs_of = _jobs
+    if order.options.start_from is not None:
+        jobs_of = _job_of_file
+    jobs = list(jobs_of(order))
     grids = {job.scene.tether.nodes for job in jobs}
-    for reason in dict.fromkeys(filter(None, (why_no_map(job.scene) for job in jobs))):
+    reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
+    for reason in filter(None, reasons):
         order.tell([f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a "
                     "plane with bending stiffness, an integrator with error control"])  # fmt: skip
     if len(grids) > 1:
@@ -96,8 +100,10 @@ def _jobs(order: Order) -> Iterator[Job]:
     if base is not None and base.waves is None:
         order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
     elif base is not None:
-        jobs = (order.options.grid.job(order, place) for place in order.options.grid.places())
-        yield from (job for job in jobs if job is not None)
+        for place in order.options.grid.places():
+            job = order.options.grid.job(order, place)
+            if job is not None:
+                yield job
 
 
 def _job_of_file(order: Order) -> Iterator[Job]:
@@ -143,8 +149,10 @@ def runs(order: Order) -> Callable:
                 timing, _ = find(inner, jobs)
             starts = [*_under_motions(order, inner.how.out)]
         began = time.perf_counter()
-        state, value = (starts[0][3], starts[0][1]) if starts else (None, key.values[0])
         low, high = key.values[0], key.values[-1]
+        state, value = None, low
+        if starts:
+            _, value, _, state = starts[0]
         scenes = Scenes(jobs[0].scene.to_toml(), key.key, key.name, key.index)
         line = Line(scenes, low, high, high - low, state, value)
         tree = Tree(plan, line, order.options.orbits, order.options.branches)

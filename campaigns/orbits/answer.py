@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import groupby
 
-from campaigns.answers import kilonewton
+from campaigns.answers import kilonewton, numbers_of
 from tables import Column, Row, listed, number_of
 
 NONE = "No periodic motion has an orbit that could be found: {}."
@@ -15,17 +15,16 @@ MOST = 8
 
 def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
     """At most eight, of the rows of table.csv and of those in the folders branches, events and orbits (parts)."""
-    branches = [row for row in parts["branches"] if row["status"] == "ok"]
-    failed = [row for row in parts["branches"] if row["status"] != "ok"]
+    branches, failed = [], []
+    for row in parts["branches"]:
+        (branches if row["status"] == "ok" else failed).append(row)
     if not branches:
         yield NONE.format(listed({str(row["message"]) for row in failed}) or "no run is periodic")
         return
-    stable = sum(number_of(row, "unstable") == 0 for row in rows)
+    stable = sum(map(_is_stable, rows))
     yield f"{len(rows)} orbits on {len(branches)} branches, {stable} of them stable, {len(rows) - stable} not."
     for branch in branches[: MOST - 4]:
-        orbits = [row for row in rows if row["branch"] == branch["branch"]]
-        events = [row for row in parts["events"] if row["branch"] == branch["branch"]]
-        yield _branch(branch, orbits, key, events)
+        yield _branch(branch, _on_branch(rows, branch), key, _on_branch(parts["events"], branch))
     yield from _between(parts["orbits"], key)
     unsure = []
     for event in parts["events"]:
@@ -36,27 +35,38 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row
     if failed:
         words = []
         for row in failed:
-            name = f"motion {row['motion']}" if row["motion"] else f"period {number_of(row, 'period'):.0f}"
+            name = f"period {number_of(row, 'period'):.0f}"
+            if row["motion"]:
+                name = f"motion {row['motion']}"
             words.append(f"{name} ({row['message']})")
         yield f"Without a branch: {listed(words)}."
 
 
+def _is_stable(orbit: Row) -> bool:
+    return number_of(orbit, "unstable") == 0
+
+
+def _on_branch(rows: Sequence[Row], branch: Row) -> list[Row]:
+    return [row for row in rows if row["branch"] == branch["branch"]]
+
+
 def _branch(branch: Row, orbits: Sequence[Row], key: Column, events: Sequence[Row]) -> str:
-    spans = _stable_spans(orbits, key, [number_of(event, key.name) for event in events])
-    if (
-        number_of(branch, "closed")
-        and len(spans) > 1
-        and all(number_of(row, "unstable") == 0 for row in (orbits[0], orbits[-1]))
-    ):
-        first, last = spans[0], spans.pop()  # an island begins and ends at one orbit
-        spans[0] = (min(first[0], last[0]), max(first[1], last[1]))
+    sentence = f"Period {branch['branch']}"
+    if branch["motion"]:
+        sentence += f" (motion {branch['motion']})"
+    spans = _stable_spans(orbits, key, numbers_of(events, key.name))
+    if number_of(branch, "closed"):
+        sentence += ", an island"
+        if len(spans) > 1 and _is_stable(orbits[0]) and _is_stable(orbits[-1]):
+            first, last = spans[0], spans.pop()  # an island begins and ends at one orbit
+            spans[0] = (min(first[0], last[0]), max(first[1], last[1]))
     stability = "never stable"
     if spans:
         stability = f"stable at {key.symbol} = {listed(f'{low:.4g} to {high:.4g}' for low, high in sorted(spans))}"
-    motion = f" (motion {branch['motion']})" if branch["motion"] else ""
-    shape = ", an island" if number_of(branch, "closed") else ""
-    turns = f"; {listed(_event(event, key) for event in events)}" if events else ""
-    return f"Period {branch['branch']}{motion}{shape}: {stability}{turns}."
+    sentence += f": {stability}"
+    if events:
+        sentence += f"; {listed(_event(event, key) for event in events)}"
+    return f"{sentence}."
 
 
 def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) -> list[tuple[float, float]]:
@@ -64,7 +74,7 @@ def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) ->
 
     Where stability changes, the event nearest to the last stable orbit is the end.
     """
-    values, stable = [number_of(row, key.name) for row in orbits], [number_of(row, "unstable") == 0 for row in orbits]
+    values, stable = numbers_of(orbits, key.name), list(map(_is_stable, orbits))
     spans: list[tuple[float, float]] = []
     for number, value in enumerate(values):
         if not stable[number]:
@@ -81,8 +91,11 @@ def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) ->
 
 def _event(event: Row, key: Column) -> str:
     error = number_of(event, "error")
-    grid = "" if math.isfinite(number_of(event, "finer")) else " on this grid alone"
-    accuracy = f" ± {error:.1g}{grid}" if math.isfinite(error) else ", unsure"
+    accuracy = ", unsure"
+    if math.isfinite(error):
+        accuracy = f" ± {error:.1g}"
+        if math.isnan(number_of(event, "finer")):
+            accuracy += " on this grid alone"
     return f"{event['kind']} at {number_of(event, key.name):.5g}{accuracy}"
 
 
@@ -93,7 +106,7 @@ def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
         unstable, stable = [], []
         for row in group:
             name = row["branch"] or f"{number_of(row, 'period'):.0f}"
-            words = unstable if number_of(row, "unstable") > 0 else stable
+            words = stable if _is_stable(row) else unstable
             words.append(f"period {name} ({kilonewton(number_of(row, 'tension_top_max_N'))}, {multiplier(row)})")
         if unstable and stable:
             yield f"At {key.symbol} = {value:.4g} stable: {listed(stable)}; unstable, and between: {listed(unstable)}."
@@ -103,5 +116,7 @@ def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
 def multiplier(row: Row) -> str:
     """The leading multiplier of an orbit, with its error."""
     leading = complex(number_of(row, "multiplier_1_real"), number_of(row, "multiplier_1_imag"))
-    value = f"μ = {leading.real:.3g}" if leading.imag == 0.0 else f"|μ| = {abs(leading):.3g}"
+    value = f"|μ| = {abs(leading):.3g}"
+    if leading.imag == 0.0:
+        value = f"μ = {leading.real:.3g}"
     return f"{value} ± {number_of(row, 'multiplier_1_error'):.1g}"

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 
 from campaigns.explore.motions import MOTION, subfolder
@@ -10,23 +11,19 @@ from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
-from tables import MESSAGE, STATUS, Column, csv_of, write_table
+from tables import MESSAGE, STATUS, Column, csv_of, names, write_table
 
 BRANCH = Column("branch", symbol="branch", meaning="the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
 PERIOD = replace(STROBED, name="period", meaning="wave periods after which the orbit repeats")
 UNSTABLE = Column("unstable", "", "unstable", "multipliers outside the unit circle; 0: the orbit is stable", 0)
-PARTS = tuple(
-    Column(
-        f"multiplier_{i}_{part}", "", f"{symbol} μ{i}", f"{part} part of multiplier {i}, the largest first", 3
-    )
-    for i in range(1, COUNT + 1)
-    for part, symbol in (("real", "Re"), ("imag", "Im"))
-)  # fmt: skip
-ERRORS = tuple(
-    Column(f"multiplier_{i}_error", "", f"± μ{i}", "largest change over three sequences of steps", 4)
-    for i in range(1, COUNT + 1)
-)
+PARTS: list[Column] = []
+ERRORS: list[Column] = []
+for _i in range(1, COUNT + 1):
+    for _part, _symbol in (("real", "Re"), ("imag", "Im")):
+        _meaning = f"{_part} part of multiplier {_i}, the largest first"
+        PARTS.append(Column(f"multiplier_{_i}_{_part}", "", f"{_symbol} μ{_i}", _meaning, 3))
+    ERRORS.append(Column(f"multiplier_{_i}_error", "", f"± μ{_i}", "largest change over three sequences of steps", 4))
 MODULUS = MULTIPLIERS[0]
 MOTION_OF = (
     Column("radius_min_m", "m", "r_min", "smallest distance of the buoy from the anchor on the orbit", 3),
@@ -76,25 +73,23 @@ def _event_columns(key: Column) -> tuple[Column, ...]:
 
 def _numbers(orbit: dict) -> dict[str, object]:
     """The columns of an orbit."""
-    multipliers = [complex(*pair) for pair in orbit["multipliers"]]
-    parts = [part for pair in orbit["multipliers"] for part in pair]
+    moduli = [abs(complex(*pair)) for pair in orbit["multipliers"]]
     row = {
         "period": orbit["period"],
-        "unstable": sum(abs(multiplier) > 1.0 for multiplier in multipliers),
+        "unstable": sum(modulus > 1.0 for modulus in moduli),
         "gap": orbit["gap"],
-        MODULUS.name: abs(multipliers[0]),
+        MODULUS.name: moduli[0],
         "status": "ok",
     }
-    for columns, numbers in (
-        (PARTS, parts), (ERRORS, orbit["errors"]), (MOTION_OF, (*orbit["radius_m"], *orbit["tension_N"]))
-    ):  # fmt: skip
-        row |= {column.name: number for column, number in zip(columns, numbers, strict=False)}
+    row |= zip(names(PARTS), chain.from_iterable(orbit["multipliers"]), strict=False)
+    row |= zip(names(ERRORS), orbit["errors"], strict=False)
+    row |= zip(names(MOTION_OF), (*orbit["radius_m"], *orbit["tension_N"]), strict=True)
     if not orbit["settled"]:
         return row | {"status": "unsure", "message": "its multipliers have not settled"}
-    for multiplier, error in zip(multipliers, orbit["errors"], strict=True):
+    for modulus, error in zip(moduli, orbit["errors"], strict=True):
         if error is None:
             return row | {"message": "with other steps it is not found: its multipliers have no errors"}
-        if abs(abs(multiplier) - 1.0) <= error:
+        if abs(modulus - 1.0) <= error:
             return row | {"message": "stable or not within the error of a multiplier"}
     return row
 
@@ -102,7 +97,9 @@ def _numbers(orbit: dict) -> dict[str, object]:
 def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
     for branch in tree.branches:
         for event in branch.result["events"]:
-            sure = event["error"] is not None
+            status, message = "ok", ""
+            if event["error"] is None:
+                status, message = "unsure", "not found with other steps"
             yield {
                 "branch": branch.name,
                 "kind": event["kind"],
@@ -114,8 +111,8 @@ def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
                 "tension_top_max_N": event["tension_N"][1],
                 "radius_m": event["strobes"][0],
                 "leads_to": event.get("leads_to"),
-                "status": "ok" if sure else "unsure",
-                "message": event.get("doubt") or ("" if sure else "not found with other steps"),
+                "status": status,
+                "message": event.get("doubt") or message,
             }
 
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from itertools import filterfalse, pairwise
 from string import ascii_lowercase
 
 import numpy as np
@@ -31,6 +31,17 @@ class Branch:
     @property
     def orbits(self) -> list[dict]:
         return self.result["orbits"]
+
+    @property
+    def events(self) -> list[dict]:
+        return self.result["events"]
+
+    def take(self, seed: "Seed") -> None:
+        """Note that the orbit of a seed lies on the branch: its motion is one of it, and its flip leads to it."""
+        if seed.motion and seed.motion not in self.motions:
+            self.motions.append(seed.motion)
+        if seed.begins is not None:
+            seed.begins["leads_to"] = self.name
 
 
 @dataclass(eq=False)
@@ -77,23 +88,24 @@ class Tree:
         """Follow the orbits under runs (motion, value, period, FinalState), and the branches that begin at flips."""
         seeds = self._seeds(starts)
         while seeds and len(self.branches) < self.room:
-            seeds = [seed for seed in seeds if not self._is_known(seed)]
+            seeds = list(filterfalse(self._is_known, seeds))
             following, seeds = seeds[: self.plan.how.jobs], seeds[self.plan.how.jobs :]
-            tasks = [line_task(followed, self.line, (seed.value, seed.points, self.most)) for seed in following]
+            tasks = []
+            for seed in following:
+                tasks.append(line_task(followed, self.line, (seed.value, seed.points, self.most)))
             for seed, (result, points) in zip(following, self.work("branches", tasks), strict=True):
                 if result.get("reason"):
                     self._fail(seed, result["reason"])
                 elif not self._is_known(seed):  # it may be found meanwhile from another orbit
                     seeds += self._add(seed, result, points)
-        for seed in seeds:
-            if not self._is_known(seed):
-                self._fail(seed, f"not followed: {self.room} branches are (--branches)")
+        for seed in filterfalse(self._is_known, seeds):
+            self._fail(seed, f"not followed: {self.room} branches are (--branches)")
         self._meet()
 
     def _seeds(self, starts: Sequence[tuple[str, float, int, object]]) -> list[Seed]:
         """The orbits under runs."""
-        tasks, seeds = [line_task(under, self.line, start[1:]) for start in starts], []
-        results = self.work("orbits under motions", tasks)
+        tasks = [line_task(under, self.line, start[1:]) for start in starts]
+        seeds, results = [], self.work("orbits under motions", tasks)
         for (motion, value, period, _), (result, points) in zip(starts, results, strict=True):
             if result["reason"] or result["period"] > LONGEST_PERIOD:
                 reason = result["reason"] or f"its orbit has period {result['period']}"
@@ -109,53 +121,58 @@ class Tree:
 
     def _add(self, seed: Seed, result: dict, points: list[np.ndarray]) -> list[Seed]:
         """Add the branch of a seed; returns the orbits of twice the period that begin at its flips."""
-        branch = Branch(self._name(len(seed.seen)), result, points, [seed.motion] if seed.motion else [])
+        branch = Branch(self._name(len(seed.seen)), result, points)
         self.branches.append(branch)
-        if seed.begins is not None:
-            seed.begins["leads_to"] = branch.name
+        branch.take(seed)
         seeds = []
-        for event in result["events"]:
+        for event in branch.events:
             if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD:
                 seeds.append(Seed("", event["doubled_value"], event["doubled_seen"], points[event["doubled"]], event))
         return seeds
 
     def _meet(self) -> None:
         """Lead flips to the branches that meet their orbit there; a seed of such a flip has not failed."""
-        flips = [event for branch in self.branches for event in branch.result["events"] if event["kind"] == "flip"]
         for branch in self.branches:
             for end, orbit in (("begins", branch.orbits[0]), ("ends", branch.orbits[-1])):
-                if "meets" not in branch.result[end]:
-                    continue
-                nearest, least = None, math.inf
-                for flip in flips:
-                    distance = abs(flip["value"] - orbit["value"])
-                    if 2 * flip["period"] == orbit["period"] and distance < least:
-                        nearest, least = flip, distance
-                if nearest is not None:
-                    nearest.setdefault("leads_to", branch.name)
+                if "meets" in branch.result[end]:
+                    flip = self._nearest_flip(orbit)
+                    if flip is not None:
+                        flip.setdefault("leads_to", branch.name)
         self.failed = [failure for failure in self.failed if not (failure.get("begins") or {}).get("leads_to")]
+
+    def _nearest_flip(self, orbit: dict) -> dict | None:
+        """The flip nearest in value to an orbit of twice its period; None where there is none."""
+        nearest, least = None, math.inf
+        for branch in self.branches:
+            for event in branch.events:
+                distance = abs(event["value"] - orbit["value"])
+                if event["kind"] == "flip" and 2 * event["period"] == orbit["period"] and distance < least:
+                    nearest, least = event, distance
+        return nearest
 
     def _is_known(self, seed: Seed) -> bool:
         """Whether an orbit lies on a branch; its motion is then one of that branch."""
+        seen = np.array(seed.seen)
         for branch in self.branches:
-            if any(_on(chord, seed.value, np.array(seed.seen), self.line.size) for chord in pairwise(branch.orbits)):
-                if seed.motion and seed.motion not in branch.motions:
-                    branch.motions.append(seed.motion)
-                if seed.begins is not None:
-                    seed.begins["leads_to"] = branch.name
-                return True
+            for chord in pairwise(branch.orbits):
+                if _on(chord, seed.value, seen, self.line.size):
+                    branch.take(seed)
+                    return True
         return False
 
     def _name(self, period: int) -> str:
         count = sum(branch.name.rstrip(ascii_lowercase) == str(period) for branch in self.branches)
-        return f"{period}{ascii_lowercase[count % 26] if count else ''}"
+        if not count:
+            return str(period)
+        return f"{period}{ascii_lowercase[count % 26]}"
 
     def across(self, values: Sequence[float]) -> None:
         """All orbits of the branches at that one of the values where there are most, with errors and histories.
 
         Those under a motion there are known.
         """
-        value = max(values, key=lambda value: sum(len(_crossings(branch, value)) for branch in self.branches))
+        counts = [sum(len(_crossings(branch, value)) for branch in self.branches) for value in values]
+        value = values[int(np.argmax(counts))]
         tasks, branches = [], []
         for branch in self.branches:
             for place in _crossings(branch, value):
@@ -185,18 +202,23 @@ class Tree:
         sharp_line, rough = replace(self.line, rtol=0.1 * self.line.rtol), SHARP * self.line.size
         near = []  # events, each with the value and the points of the nearest orbit
         for branch in self.branches:
-            for event in branch.result["events"]:
+            for event in branch.events:
                 distances = [_apart(orbit, event, self.line.size) for orbit in branch.orbits]
                 place = int(np.argmin(distances))
                 near.append((event, branch.orbits[place]["value"], branch.points[place]))
-        unsure = [entry for entry in near if entry[0]["error"] is None or entry[0]["error"] > rough]
-        tasks = [line_task(sharper, sharp_line, (event["kind"], event["value"], *orbit)) for event, *orbit in unsure]
-        for (event, *_), (result, _) in zip(unsure, self.work("events at a tighter tolerance", tasks), strict=True):
+        unsure, tasks = [], []
+        for event, *orbit in near:
+            if event["error"] is None or event["error"] > rough:
+                unsure.append(event)
+                tasks.append(line_task(sharper, sharp_line, (event["kind"], event["value"], *orbit)))
+        for event, (result, _) in zip(unsure, self.work("events at a tighter tolerance", tasks), strict=True):
             if not result["reason"]:
                 event |= {"value": result["value"], "error": result["error"], "sharp": True}
         tasks = []
         for event, *orbit in near:
-            line = sharp_line if event.get("sharp") else self.line
+            line = self.line
+            if event.get("sharp"):
+                line = sharp_line
             tasks.append(line_task(finer, line, (event["kind"], event["value"], *orbit)))
         for (event, *_), (result, _) in zip(near, self.work("events on a finer grid", tasks), strict=True):
             event |= {"finer": result.get("value"), "doubt": result["reason"]}
@@ -227,18 +249,24 @@ def _same(seen, candidate) -> bool:
     seen, candidate = np.array(seen), np.array(candidate)
     if seen.shape != candidate.shape:
         return False
-    return any(np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M for k in range(len(seen)))
+    for k in range(len(seen)):
+        if np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M:
+            return True
+    return False
 
 
 def _on(chord, value: float, seen: np.ndarray, size: float) -> bool:
     """Whether an orbit at a value lies on the chord between two neighbours of a branch."""
-    begin, end = (np.array(orbit["seen"]) for orbit in chord)
-    values = [orbit["value"] for orbit in chord]
+    first, last = chord
+    begin, end = np.array(first["seen"]), np.array(last["seen"])
+    low, high = sorted((first["value"], last["value"]))
     margin = 1e-9 * size
-    if begin.shape != seen.shape or not min(values) - margin <= value <= max(values) + margin:
+    if begin.shape != seen.shape or not low - margin <= value <= high + margin:
         return False
     length = np.linalg.norm(end - begin, axis=1).max()
-    share = (value - values[0]) / (values[1] - values[0]) if values[1] != values[0] else 0.5
+    share = 0.5
+    if low != high:
+        share = (value - first["value"]) / (last["value"] - first["value"])
     on = begin + np.clip(share, 0.0, 1.0) * (end - begin)
     off = min(np.linalg.norm(np.roll(seen, k, axis=0) - on, axis=1).max() for k in range(len(seen)))
     return bool(off < NEAR_M + ON_CHORD * length)

@@ -69,8 +69,9 @@ class Options(cli.Options):
         keys = (*pages, *axes)
         if None in keys:
             return
-        if len({key.key for key in keys}) < len(keys):
-            faults.append(f"--vary {' '.join(key.key for key in keys)}: given twice; allowed: different keys")
+        names = [key.key for key in keys]
+        if len(set(names)) < len(names):
+            faults.append(f"--vary {' '.join(names)}: given twice; allowed: different keys")
         for key in axes:
             if len(key.values) < 2:
                 faults.append(f"--vary {key.key}: one value only; allowed: two or more")
@@ -100,7 +101,8 @@ def cases(order: Order) -> Iterator[Job]:
             place = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
             order.tell([f"--vary: that is at {place}, the first cell of the map that cannot be"])
             return
-        if order.options.screen and (reason := why_not_covered(job.scene)):
+        reason = order.options.screen and why_not_covered(job.scene)
+        if reason:
             order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
             return
         yield job
@@ -184,9 +186,12 @@ parser, read_order = STUDY.parser, STUDY.read_order
 
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
-    argv = list(sys.argv[1:] if argv is None else argv)
+    if argv is None:
+        argv = sys.argv[1:]
 
     def work(order: Order, words: list[str]) -> int:
-        return cuts.cut(order, words, simulate) if order.options.cut else STUDY.conduct(order, words, simulate)
+        if order.options.cut:
+            return cuts.cut(order, words, simulate)
+        return STUDY.conduct(order, words, simulate)
 
-    return session.command(STUDY.called, argv, read_order, work)
+    return session.command(STUDY.called, list(argv), read_order, work)

@@ -3,8 +3,10 @@
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from itertools import filterfalse
+from operator import itemgetter
 
-from campaigns.answers import OPEN_WORDS, greatest, kilonewton
+from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of
 from campaigns.explore.answer import reasons, use_of
 from campaigns.regime_map.tables import RATIO, TENSION
 from tables import CHAOTIC, EMPTY, FAILED, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
@@ -17,27 +19,33 @@ def sentences(
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
     """
-    coarse = [cell for cell in cells if number_of(cell, "level") == 0.0]
+    coarse = list(filter(_is_coarse, cells))
     computed = [cell for cell in coarse if cell["source"] != SCREENED]
     if not computed:
         yield from _of_the_screen(coarse, keys)
         return
     finer, screened = len(cells) - len(coarse), len(coarse) - len(computed)
-    rest = f"{screened} are only screened with a massless tether" if screened else "none is only screened"
+    rest = "none is only screened"
+    if screened:
+        rest = f"{screened} are only screened with a massless tether"
     yield f"{len(computed)} cells of the coarse grid and {finer} finer ones are computed; {rest}."
     yield from _regimes(computed, motions, keys)
     peak = greatest(cells, TENSION.name)
     if peak is not None:
         yield _peak(peak, motions, keys)
         yield from _use([row for row in motions if number_of(row, TENSION.name) > 0.0], keys, scene)
-    several = [number_of(cell, "motions") for cell in computed if number_of(cell, "motions") > 1]
+    several = [count for count in numbers_of(computed, "motions") if count > 1]
     if several:
         yield f"On {_share(len(several), computed)} of the map the start decides: up to {max(several):.0f} motions."
     cheap = sum(row.get("verdict") == "cheap" for row in motions)
     yield f"Of {len(motions)} motions {cheap} have a cheap verdict: they repeat at one look."
-    failed = sum(cell["source"] == FAILED for cell in cells)
+    failed = list(map(itemgetter("source"), cells)).count(FAILED)
     if failed:
         yield f"{failed} cells have no result; the column message of cells/table.csv says why."
+
+
+def _is_coarse(row: Row) -> bool:
+    return number_of(row, "level") == 0.0
 
 
 def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
@@ -49,24 +57,29 @@ def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str
 
 def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
     """The shares of the map on which the motion from rest, or some motion, is chaotic, quasi-periodic or periodic."""
-    counts = Counter(str(cell["regime_rest"] or "") for cell in computed)
-    periodic = sum(count for word, count in counts.items() if word.startswith(PERIODIC))
-    undecided = sum(counts[word] for word in OPEN_WORDS)
+    counts, periodic, undecided = Counter(), 0, 0
+    for cell in computed:
+        word = str(cell["regime_rest"] or "")
+        counts[word] += 1
+        periodic += word.startswith(PERIODIC)
+        undecided += word in OPEN_WORDS
     parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
     shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
     yield f"Rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
-    chaotic = {_place(row, keys) for row in motions if row.get("regime") == CHAOTIC and number_of(row, "level") == 0.0}
+    chaotic = {_place(row, keys) for row in filter(_is_coarse, motions) if row.get("regime") == CHAOTIC}
     if len(chaotic) > counts[CHAOTIC]:
         yield f"Some motion is chaotic on {_share(len(chaotic), computed)} of the map."
 
 
 def _peak(peak: Row, motions: Sequence[Row], keys: Sequence[Column]) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
+    pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
+    sentence = f"Largest tension {pull}, at {_at(peak, keys)}"
     motions_of_cell = [row for row in motions if _place(row, keys) == _place(peak, keys)]
     kicks = of_kicks(greatest(motions_of_cell, TENSION.name) or {})
-    share = f"; {kicks} kicks there end in it" if kicks != EMPTY else ""
-    pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
-    return f"Largest tension {pull}, at {_at(peak, keys)}{share}."
+    if kicks != EMPTY:
+        sentence += f"; {kicks} kicks there end in it"
+    return f"{sentence}."
 
 
 def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
@@ -75,7 +88,7 @@ def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], 
         return
     by_tension = sorted(motions, key=lambda row: -number_of(row, TENSION.name))
     peak = by_tension[0]
-    usable = next((row for row in by_tension if not [*reasons(row, scene(row))]), None)
+    usable = next(filterfalse(lambda row: [*reasons(row, scene(row))], by_tension), None)
     sentence = use_of(peak, scene(peak), searched=math.isfinite(number_of(peak, "share")))
     if usable is not None and usable is not peak:
         sentence += f" Without that it is {kilonewton(number_of(usable, TENSION.name))}, at {_at(usable, keys)}."
@@ -93,6 +106,8 @@ def _place(row: Row, keys: Sequence[Column]) -> tuple:
 def _at(row: Row, keys: Sequence[Column]) -> str:
     words = []
     for key, value in zip(keys, _place(row, keys), strict=True):
-        text = value if isinstance(value, str) else f"{value:.4g}"
+        text = value
+        if not isinstance(value, str):
+            text = f"{value:.4g}"
         words.append(f"{key.symbol} = {text} {key.unit}".rstrip())
     return ", ".join(words)

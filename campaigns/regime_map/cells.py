@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import product
+from itertools import filterfalse, product
 from typing import NamedTuple
 
 from campaigns.explore.grid import Grid, Varied
@@ -25,7 +25,8 @@ class Cell(NamedTuple):
 
     def parts(self) -> list["Cell"]:
         """The four into which it is bisected."""
-        return [Cell(self.page, self.level + 1, 2 * self.i + a, 2 * self.j + b) for a, b in product((0, 1), (0, 1))]
+        i, j = 2 * self.i, 2 * self.j
+        return [Cell(self.page, self.level + 1, *place) for place in product((i, i + 1), (j, j + 1))]
 
     def parent(self) -> "Cell":
         """The cell of which it is a part."""
@@ -48,17 +49,22 @@ class CellGrid(Grid):
     @property
     def page(self) -> Varied | None:
         """The key of the pages."""
-        return self.keys[0] if len(self.keys) > 2 else None
+        return next(iter(self.keys[:-2]), None)
 
     def coarse(self) -> list[Cell]:
         """The cells of level 0, page by page."""
-        pages = range(1 if self.page is None else len(self.page.values))
-        counts = (range(len(key.values)) for key in self.axes)
-        return [Cell(page, 0, i, j) for page, i, j in product(pages, *counts)]
+        pages, levels = range(1), (0,)
+        if self.page is not None:
+            pages = range(len(self.page.values))
+        along_i, along_j = self.axes
+        numbers = range(len(along_i.values)), range(len(along_j.values))
+        return [Cell(*numbers_of_cell) for numbers_of_cell in product(pages, levels, *numbers)]
 
     def labels(self, cell: Cell) -> dict[str, object]:
         """The values of the keys at the centre of a cell."""
-        labels = {} if self.page is None else {self.page.key: self.page.values[cell.page]}
+        labels = {}
+        if self.page is not None:
+            labels[self.page.key] = self.page.values[cell.page]
         for key, number in zip(self.axes, (cell.i, cell.j), strict=True):
             if cell.level == 0:
                 labels[key.key] = key.values[number]
@@ -105,7 +111,7 @@ class Quadtree:
 
     def leaves(self) -> list[Cell]:
         """The cells that are not bisected."""
-        return [cell for cell in self.cells if not self.bisected(cell)]
+        return list(filterfalse(self.bisected, self.cells))
 
     def touching(self, cell: Cell) -> Iterator[Cell]:
         """The cells without parts that have a side, or a part of one, in common with a cell."""
@@ -122,7 +128,8 @@ class Quadtree:
             yield cell
             return
         for part in cell.parts():
-            if all(not step or number % 2 == (step < 0) for step, number in zip(side, (part.i, part.j), strict=True)):
+            back = part.next((-side[0], -side[1]))
+            if back.parent() != cell:
                 yield from self._facing(part, side)
 
     def neighbours(self, place: int) -> dict[int, str]:
@@ -132,11 +139,11 @@ class Quadtree:
         """
         if place not in self._neighbours:
             cell = self.cells[place]
-            near = [*(cell.next(side) for side in SIDES), *cell.parts()]
+            near = [*map(cell.next, SIDES), *cell.parts()]
             if not self.bisected(cell):
                 near += self.touching(cell)
             if cell.level:
                 near.append(cell.parent())
-            numbers = (self.number.get(neighbour) for neighbour in near)
-            self._neighbours[place] = dict.fromkeys((number for number in numbers if number is not None), CARRIED)
+            numbers = [self.number[neighbour] for neighbour in near if neighbour in self.number]
+            self._neighbours[place] = dict.fromkeys(numbers, CARRIED)
         return self._neighbours[place]

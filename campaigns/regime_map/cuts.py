@@ -2,7 +2,7 @@
 
 import os
 import shutil
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,7 +25,9 @@ def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> 
             continue
         values = by_name[name].values
         try:
-            chosen[name] = text if text in values else min(values, key=lambda value: abs(value - float(text)))
+            if text not in values:
+                text = min(values, key=lambda value: abs(value - float(text)))
+            chosen[name] = text
         except (TypeError, ValueError):
             faults.append(f"--cut {word}: allowed: one of {', '.join(map(str, values))}")
     if not faults and len(chosen) != len(keys) - 1:
@@ -37,8 +39,8 @@ def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> 
 def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     """Do the sweep of the key that is left; returns its exit code. argv, simulate: as of `Study.conduct`."""
     chosen = order.options.cut
-    places = ",".join(f"{name}={value}" for name, value in chosen.items())
-    out = order.how.out / "cuts" / places
+    places = [f"{name}={value}" for name, value in chosen.items()]
+    out = order.how.out / "cuts" / ",".join(places)
     _share_runs(order, out)
     changes = dict(order.changes)
     for key in order.options.grid.keys:
@@ -47,9 +49,10 @@ def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     study, options = _sweep_of(order)
     options |= {"seed": order.options.seed, "kick_speed": order.options.kick_speed}
     sweep = study.order(replace(order.how, out=out), order.name, changes, **options)
-    if faults := [*order.faults, *sweep.faults]:
+    faults = [*order.faults, *sweep.faults]
+    if faults:
         raise CampaignStopped("; ".join(faults))
-    print(f"cut      {' and '.join(f'{name} = {value}' for name, value in chosen.items())}, in {out}")
+    print(f"cut      {' and '.join(places).replace('=', ' = ')}, in {out}")
     return study.conduct(sweep, argv, simulate)
 
 
@@ -68,17 +71,13 @@ def _sweep_of(order: Order) -> tuple[Study, dict[str, object]]:
 def _share_runs(order: Order, out: Path) -> None:
     """Give the folder of a cut the judged runs of its cells."""
     chosen, folder = order.options.cut, order.how.out
-    keys = {case.key for case in order.cases if _lies_on(case.labels, chosen)}
-    keys |= {row["run_key"] for row in tables_of(folder, ".")["."] if _lies_on(row, chosen)}
+    keys = {case.key for case in order.cases if chosen.items() <= case.labels.items()}
+    keys |= {row["run_key"] for row in tables_of(folder, ".")["."] if chosen.items() <= row.items()}
     with claimed(out):
         for key in sorted(keys):
             source, target = trajectory_path(folder, key), trajectory_path(out, key)
             if source.exists() and not target.exists():
                 _link(source, target)
-
-
-def _lies_on(labels: Mapping, chosen: dict[str, object]) -> bool:
-    return all(labels[name] == value for name, value in chosen.items())
 
 
 def _link(source: Path, target: Path) -> None:

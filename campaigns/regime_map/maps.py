@@ -44,9 +44,9 @@ def cell_row(trajectory, judgement) -> dict[str, object]:
         row |= {"regime": f"period-{period:g}", "verdict": CHEAP}
     elif row.get("regime"):
         row["verdict"] = FULL
-    first = (trajectory.columns[name][:1] for name in ("radius_rate_mps", "angle_rate_radps"))
-    if all(len(rate) and rate[0] == 0.0 for rate in first):
-        row[STATIC.name] = finite(static_tension_N(trajectory.scene, trajectory.columns))
+    columns = trajectory.columns
+    if [*columns["radius_rate_mps"][:1], *columns["angle_rate_radps"][:1]] == [0.0, 0.0]:
+        row[STATIC.name] = finite(static_tension_N(trajectory.scene, columns))
     return row
 
 
@@ -99,10 +99,15 @@ class Map:
 
     def borders(self) -> list[Cell]:
         """The cells of the coarsest level that differ from one that touches them, the largest leap of tension first."""
-        leaps = {cell: self._leap(cell) for cell in self.tree.leaves()}
-        bordering = [cell for cell, leap in leaps.items() if leap > 0.0]
-        coarsest = min((cell.level for cell in bordering), default=0)
-        return sorted((cell for cell in bordering if cell.level == coarsest), key=lambda cell: -leaps[cell])
+        leaps: dict[int, dict[Cell, float]] = {}  # by level
+        for cell in self.tree.leaves():
+            leap = self._leap(cell)
+            if leap > 0.0:
+                leaps.setdefault(cell.level, {})[cell] = leap
+        if not leaps:
+            return []
+        coarsest = leaps[min(leaps)]
+        return sorted(coarsest, key=lambda cell: -coarsest[cell])
 
     def _leap(self, cell: Cell) -> float:
         """Largest ratio of largest tensions of a cell and those that touch it; 0 where no border runs there."""

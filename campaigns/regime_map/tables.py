@@ -88,7 +88,9 @@ def screen_row(motions: list[dict]) -> dict[str, object]:
     regime = None
     for motion in motions:
         if motion["rest"]:
-            regime = f"period-{motion['period']}" if motion["period"] else "irregular"
+            regime = "irregular"
+            if motion["period"]:
+                regime = f"period-{motion['period']}"
             break
     largest = max(motions, key=lambda motion: motion["tension_N"])
     row = {"motions": len(motions), "regime_rest": regime, "share_of_largest": largest["share"]}
@@ -113,7 +115,9 @@ def _cells(map_: "Map") -> Iterator[dict]:
     places = {cell: place for cell, place in map_.tree.number.items() if _is_done(map_, place)}
     for number, cell in enumerate(grid.coarse()):
         if cell not in places:
-            row = screen_row(map_.screen[number]) if map_.screen else {}
+            row = {}
+            if map_.screen:
+                row = screen_row(map_.screen[number])
             yield {**grid.labels(cell), **grid.widths(cell), "level": 0, "source": SCREENED, **row}
     for cell, place in places.items():
         row = _cell(map_, motions.at[place], motions.rows[motions.jobs[place].key])
@@ -128,19 +132,22 @@ def _is_done(map_: "Map", place: int) -> bool:
 
 def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> dict[str, object]:
     """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
-    rows = [map_.motions.row_of(motion) for motion in motions]
-    rows = [row for row in rows if row] or [rest]
+    rows = list(filter(None, map(map_.motions.row_of, motions))) or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
     largest = max(motions, key=map_.tension_N, default=None)
-    tension_N = rest.get(TENSION.name) if largest is None else map_.tension_N(largest)
+    tension_N, source = rest.get(TENSION.name), COMPUTED
+    if largest is not None:
+        tension_N = map_.tension_N(largest)
+    elif rest["status"] != "ok":
+        source = FAILED
     static_N = rest.get(STATIC.name)
     cell = {
-        "source": FAILED if rest["status"] != "ok" and not motions else COMPUTED,
+        "source": source,
         "motions": len(motions) or None,
         "regime_rest": rest.get("regime"),
         "period_rest": rest.get("strobed_period"),
         TENSION.name: tension_N,
-        RATIO.name: tension_N / static_N if tension_N and static_N else None,
+        RATIO.name: None,
         "exponent_max_per_period": max(exponents, default=None),
         "loops": int(_any_above_zero(rows, LOOPS)),
         "leaves_water": int(_any_above_zero(rows, HEIGHT)),
@@ -149,6 +156,8 @@ def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> dict[str, objec
         "status": rest["status"],
         "message": rest.get("message"),
     }
+    if tension_N and static_N:
+        cell[RATIO.name] = tension_N / static_N
     if largest is not None and map_.motions.kicks:
         cell[SHARE.name] = largest.kicks / map_.motions.kicks
     return cell
@@ -164,14 +173,14 @@ def write_strobes(out: Path, map_: "Map") -> None:
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.
     """
     motions = [*map_.motions.all_motions()]
-    radius, tension = (np.full((len(motions), STROBES), np.nan, np.float32) for _ in range(2))
+    radius, tension = np.full((2, len(motions), STROBES), np.nan, np.float32)
     keys, letters = [], []
     for number, motion in enumerate(motions):
         points, measures = motion.settled.points[-STROBES:], motion.settled.measures[-STROBES:]
         radius[number, : len(points)] = np.hypot(points[:, 0], points[:, 1])
         tension[number, : len(measures)] = measures[:, 2]
         keys.append(str(map_.motions.row_of(motion).get(RUN_KEY.name, "")))
-        letters.append(motion.branch.letter if motion.branch else "")
+        letters.append(getattr(motion.branch, "letter", ""))
     content = io.BytesIO()
     arrays = {"radius_m": radius, "tension_N": tension}
     np.savez_compressed(content, run_key=np.array(keys, "U64"), motion=np.array(letters, "U8"), **arrays)

@@ -24,7 +24,7 @@ from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, counted
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, counted, names
 
 MOST_KEYS = 2
 
@@ -44,10 +44,13 @@ class Options(motions.Starts):
         if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
             faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
             words = []
-        keys = [varied(words[start : start + 4], faults) for start in range(0, len(words), 4)]
-        self.grid = Grid(tuple(key for key in keys if key is not None))
-        if len({key.key for key in self.grid.keys}) < len(self.grid.keys):
-            faults.append(f"--vary {self.grid.keys[0].key}: given twice; allowed: two different keys")
+        keys = []
+        while words:
+            keys.append(varied(words[:4], faults))
+            words = words[4:]
+        self.grid = Grid(tuple(filter(None, keys)))
+        if len(keys) == 2 and keys[0] and keys[1] and keys[0].key == keys[1].key:
+            faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -57,11 +60,14 @@ def cases(order: Order) -> Iterator[Job]:
     base = order.base(tell=True)
     if base is None or not grid.keys:
         return
-    duration_s, periods = order.options.duration, order.periods if base.waves is not None else None
+    duration_s, periods = order.options.duration, order.periods
     if base.waves is not None and duration_s is not None:
         order.tell(["--duration: given for a scene with waves; allowed: --periods"])
-    if base.waves is None and duration_s is None:
-        order.tell([f"--duration: given nothing for {order.name!r}, a scene without waves; allowed: seconds, above 0"])
+    if base.waves is None:
+        periods = None
+        if duration_s is None:
+            absent = f"--duration: given nothing for {order.name!r}, a scene without waves"
+            order.tell([f"{absent}; allowed: seconds, above 0"])
     scenes = []
     for place in grid.places():
         changes, faults = grid.changes(place, base)
@@ -86,7 +92,9 @@ def kicks_of(order: Order, scenes=None) -> int | None:
         if order.options.starts not in (None, motions.REST):
             order.tell([f"--starts: given {order.options.starts} with two keys; allowed: {motions.REST}, or one key"])
         return None
-    return motions.kicks_of(order, [case.scene for case in order.cases] if scenes is None else scenes)
+    if scenes is None:
+        scenes = order.scenes
+    return motions.kicks_of(order, scenes)
 
 
 def runs(order: Order) -> Callable:
@@ -99,17 +107,17 @@ def measures(order: Order) -> Measures:
     from campaigns.explore import rows
 
     keys = order.options.grid.columns
-    if any(in_regular_waves(case.scene) for case in order.cases):
+    if any(map(in_regular_waves, order.scenes)):
         columns = columns_of(keys)
     else:
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
-        names = {key.name for key in keys}
-        columns = (*keys, *(column for column in measured if column.name not in names))
+        columns = (*keys, *(column for column in measured if column.name not in names(keys)))
+    settings = {"transient_periods": order.transient, "full": None}
     waves = order.cases[0].scene.waves
-    settings = {
-        "transient_periods": order.given_transient if waves is not None and waves.irregular else order.transient,
-        "full": order.periods if order.options.evidence == "full" else None,
-    }
+    if waves is not None and waves.irregular:
+        settings["transient_periods"] = order.given_transient
+    if order.options.evidence == motions.FULL:
+        settings["full"] = order.periods
     row = partial(sweep_row, transient_periods=settings["transient_periods"])
     sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
     return Measures(columns, row, sources, settings, partial(judge, **settings))
@@ -119,7 +127,9 @@ def judge(trajectory, checks, orbits, **settings):
     """`judgement_of` of a buoy in regular waves; None of any other line."""
     from campaigns.explore.judgement import judgement_of
 
-    return judgement_of(trajectory, checks, orbits, **settings) if in_regular_waves(trajectory.scene) else None
+    if not in_regular_waves(trajectory.scene):
+        return None
+    return judgement_of(trajectory, checks, orbits, **settings)
 
 
 def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str, object]:
@@ -157,7 +167,7 @@ def parameters(order: Order) -> dict[str, object]:
 
 def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
-    if len(order.options.grid.keys) == 1 and any(in_regular_waves(case.scene) for case in order.cases):
+    if len(order.options.grid.keys) == 1 and any(map(in_regular_waves, order.scenes)):
         from campaigns.explore.errors import errors
 
         yield errors
@@ -169,9 +179,12 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     from campaigns.explore.answer import largest, sentences, use_of
     from tables import PEAK, number_of
 
-    keys, scene = [key.key for key in order.options.grid.keys], order.cases[0].scene
+    keys, scene = names(order.options.grid.columns), order.cases[0].scene
     if len(keys) == 1:
-        tables = motions.tables_of(order.how.out, *(["ends"] if kicks_of(order) is not None else []))
+        folders = []
+        if kicks_of(order) is not None:
+            folders.append("ends")
+        tables = motions.tables_of(order.how.out, *folders)
         return sentences(rows, keys[0], keys[0], scene, **tables)
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     lines = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
