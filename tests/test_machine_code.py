@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from numba.core.caching import IndexDataCacheFile
 
-from engine import load_scene
+from engine import load_scene, source_hash
 from engine.parameters import record_of
 from engine.planar.columns import NODE_WIDTH
 from engine.planar.node import shape
@@ -43,8 +43,15 @@ def test_every_source_counts_by_name_and_code(tmp_path, monkeypatch):
     assert hash_of(package, endings=endings) in found
 
 
+def test_the_hash_of_the_engine_takes_in_kernels_scenes_and_the_store(monkeypatch):
+    hashed = []
+    monkeypatch.setattr("machine_code.store.kept_hash", hashed.extend)
+    source_hash.__wrapped__()
+    assert {"engine/time/steps.py", "engine/scenes/tethered_buoy.toml", "store.py"} <= set(hashed)
+
+
 SOURCE = '''"""Module."""
-def f(a, b=2):
+def f(a, b=0):
     """Function."""
     return [a + b for a in "x"]  # comment
 
@@ -63,11 +70,11 @@ class C:
         ("a + b for", "(a\n  + b)  for", True),
         ('"x"', 'u"x"', True),
         ('"x"', '"y"', False),
-        ("b=2", "b=2.0", False),
-        ("b=2", "b=None", False),
+        ("b=0", "b=0.0", False),
+        ("b=0", "b=None", False),
         ("a + b for", "b + a for", False),
         ('    """Class."""', '    name = """Class."""', False),
-        ("(a, b=2)", "(a, /, b=2)", False),
+        ("(a, b=0)", "(a, /, b=0)", False),
         ("def f", "async def f", False),
         ("    return [", '    ("a",)\n    return [', False),
     ],

@@ -19,6 +19,7 @@ from scipy.integrate import quad
 
 from engine import goes_in_lanes
 from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
+from engine.physics.submergence import surface
 from engine.physics.waves import wave_number
 from engine.scene.values import LARGEST, SMALLEST
 from tests.engine.kernels import parameters_of, waves_at
@@ -133,6 +134,16 @@ def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave(name):
     for t in (8.0, 9.7):
         assert waves_at(ramped, t, X) == pytest.approx(waves_at(full, t, X), abs=1e-13)
     assert elevation_m(ramped, 4.0, X[:, 0]) == pytest.approx(0.5 * elevation_m(full, 4.0, X[:, 0]), abs=1e-13)
+
+
+@pytest.mark.parametrize("t", [3.0, 9.7])
+def test_the_surface_that_wets_a_buoy_is_that_of_the_waves_also_while_they_grow(t):
+    """Elevation, slope and rate, by central differences of step 1e-4."""
+    sea, x, d = sea_of("against x", ramp_s=8.0), 2.0, 1e-4
+    eta, slope, _, rate, _ = surface(parameters_of(sea)[0], t, 1.0, -x)
+    assert eta == pytest.approx(elevation_m(sea, t, x), abs=1e-12)
+    assert rate == pytest.approx((elevation_m(sea, t + d, x) - elevation_m(sea, t - d, x)) / (2 * d), abs=1e-6)
+    assert -slope == pytest.approx((elevation_m(sea, t, x + d) - elevation_m(sea, t, x - d)) / (2 * d), abs=1e-6)
 
 
 def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():

@@ -31,6 +31,13 @@ def test_scenes_that_differ_in_anything_have_different_keys():
     assert load_scene("tethered_buoy", {"water.depth_m": 21}).key() in keys  # the same number, written as a whole one
 
 
+def test_every_part_of_a_scene_counts_in_its_key():
+    floor, current = {"stiffness_Npm3": 1e5}, {"law": "uniform", "velocity_mps": [0.1, 0.0, 0.0]}
+    scene = load_scene("tethered_buoy", {"floor": floor, "current": current})
+    for name in Scene.model_fields:
+        assert scene.model_copy(update={name: None}).key() != scene.key(), name
+
+
 def test_the_shipped_scene_is_table_1():
     scene = load_scene("tethered_buoy")
     assert [load_scene(name).name for name in list_scenes()] == list_scenes()
