@@ -9,6 +9,7 @@ import pytest
 import xarray
 
 from engine import SceneError, Trajectory, simulate, simulate_batch
+from engine.perturbations.tangent import period_of
 from tests.engine.lines import assert_same, line, ran
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6, "tether.nodes": 21}
@@ -52,6 +53,10 @@ def test_releases_are_told_in_their_period(asked):
     stopped = simulate(line({"water.depth_m": 21.6, "solver.loop_release": False}, ASKED[asked]), 12)
     assert stopped.status == "turn-unresolved"
     assert len(stopped.tangent.growth_nats) == int(stopped.statistics["end_time_s"] // 5.0) == 10
+
+
+def test_a_step_that_ends_with_a_period_belongs_to_it():
+    assert [period_of(t, 5.0, 3) for t in (0.1, 5.0, 5.001, 10.0, 99.0)] == [0, 0, 1, 1, 2]
 
 
 @pytest.mark.parametrize("asked", ASKED)

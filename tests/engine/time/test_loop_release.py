@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from engine.planar import columns as col
-from tests.engine.kernels import Steps, new_state
+from engine.planar.state import largest_turn
+from tests.engine.kernels import Steps, new_state, parameters_of
 from tests.engine.lines import in_space, line, ran
 
 PER_PERIOD = 100  # samples
@@ -48,3 +49,11 @@ def test_a_release_turns_phi_alone_and_one_element_at_a_time():
     assert state["turned"] == 8 and state["releases"] == 1
     before[8:, col.PHI] += 2 * np.pi
     assert np.array_equal(Y, before)
+
+
+def test_the_turn_of_every_element_is_watched():
+    p = parameters_of(line(nodes=6))[0]
+    for element in range(1, 6):
+        Y = np.zeros((6, 6))
+        Y[element:, col.PHI] = -2.0
+        assert largest_turn(p, Y) == (2.0, element)

@@ -12,8 +12,11 @@ import pytest
 from engine import load_scene, simulate
 from engine.run import Run
 from engine.simd.elementary import strain_within
+from engine.time.integrators import esdirk43, trbdf2
+from engine.time.steps import embedded_error
 from engine.time.time_loop import weights_within
-from tests.engine.lines import line, orders, ran
+from tests.engine.kernels import Stage
+from tests.engine.lines import Motion, line, orders, ran
 from tests.engine.time.test_order import ASIDE, SCENES
 
 REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
@@ -53,6 +56,23 @@ def test_default_tolerance_is_good_to_centimetres_in_small_waves(reference):
     """The default, without the cap on the step that the shipped scene has: fewer than 10 steps a period."""
     run = ran(line(REGULAR), 6)
     assert run.statistics["steps"] < 60 and error_of(run, reference) < 0.01
+
+
+@pytest.mark.parametrize("method", [esdirk43, trbdf2])
+def test_the_estimate_is_the_rms_of_what_the_embedded_method_differs_by_over_the_tolerance(method):
+    """Along the line in its strain, across it in its angle, of velocities in the speed of the scene."""
+    name = method.__name__.rpartition(".")[2]
+    scene, dt, s = line({"solver.integrator": name, "solver.rtol": 0.02}), 0.1, len(method.A)
+    stage, Y = Stage(scene), Motion(scene).Y.copy()
+    Y[:, 4] += np.linspace(0.0, 2.0, len(Y))
+    stage.places(Y)
+    K = np.random.default_rng(1).normal(size=(s, len(Y), 4))
+    error = dt * np.tensordot(method.A[-1] - method.B_EMBEDDED, K, 1)
+    c, sine, p = np.cos(Y[:, 4]), np.sin(Y[:, 4]), stage.p
+    parts = (error[:, 0] * c + error[:, 1] * sine) * p["per_strain"], error[:, 1] * c - error[:, 0] * sine
+    squares = parts[0] ** 2 + parts[1] ** 2 + np.sum(error[:, 2:] ** 2, 1) * p["per_speed"] ** 2
+    found = embedded_error(p, stage.tables, dt, K, stage.Q, np.empty(s), np.empty(4))
+    assert found == pytest.approx(np.sqrt(squares.mean()) / 0.02, rel=1e-12)
 
 
 def run_to(seconds):
