@@ -52,7 +52,8 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     from engine.run.period_map import PeriodMap
 
     cable = PeriodMap(scene_of, state, value)
-    return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)
+    settings = {"parameter_size": size, "meshes": cable.meshes, "abreast": cable.abreast, "seen": cable.seen}
+    return cable, OrbitMap(cable.step, frozen=cable.frozen, **settings)
 
 
 @dataclass(frozen=True)
