@@ -25,7 +25,7 @@ from ..time.steps import known_part, plan_stage, stage_rate
 from .ticks import row_of_stage
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
-# Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation; known (n, 3): as in `tangent_stage`
+# Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4), known (n, 3): of a perturbation, as in `tangent_stage`
 Turn = namedtuple("Turn", "numbers a w Y K K_new known")
 # Perturbations of every lane, COUNT the last axis: C, K (k, n, 4), conserved variables and rates; Ks (k, s, n, 4) of
 # the stages of a step; C_tilde, C_new (n, 4) of one stage

@@ -192,8 +192,8 @@ def _up_the_line(p, tables, base, work, water, dC_tilde, known_of_box):
 def tangent_stage(p, tables, base, dC_tilde, dC, dK, work, water, known_of_box):
     """dC, dK (n, 4) of one perturbation at a stage that `linearise` has eliminated.
 
-    dC_tilde (n, 4): what the perturbation makes of C~; known_of_box (n, 3): work. Down the line velocities follow from the box rule of
-    compatibility, V_a = V_b - e (q_t,a + q_t,b). A line without bending carries no perturbations.
+    dC_tilde (n, 4): what the perturbation makes of C~; known_of_box (n, 3): work. Down the line velocities follow from
+    the box rule of compatibility, V_a = V_b - e (q_t,a + q_t,b). A line without bending carries no perturbations.
     """
     Q, rate, n = work.Q, base.rate, base.Y.shape[0]
     y, U, W = _up_the_line(p, tables, base, work, water, dC_tilde, known_of_box)
