@@ -58,7 +58,7 @@ class Exploration:
             if fine:
                 start = self.places.fine(0, start)
             starts.append((0, start))
-        for motion in self.places.run_starts(title, starts):
+        for motion in self.places.run_starts(title, starts, coarse_first=not fine):
             if motion is not None:
                 motion.kicks += 1
         self.computed += self.starts.computed - computed_before

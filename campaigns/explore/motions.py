@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from campaigns.explore.coarse import coarse_endings
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts
 from campaigns.machinery.folder import claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -184,19 +185,31 @@ class Motions:
         scene = self.jobs[place].scene
         return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
 
-    def run_starts(self, title: str, starts: Sequence[tuple[int, Start]]) -> list[Motion | None]:
-        """Run starts at places; returns the motion in which each ended, None where it did not settle."""
+    def run_starts(
+        self, title: str, starts: Sequence[tuple[int, Start]], coarse_first: bool = False
+    ) -> list[Motion | None]:
+        """Run starts at places; returns the motion in which each ended, None where it did not settle.
+
+        coarse_first: where they end is asked on a coarse line first (`campaigns.explore.coarse`).
+        """
+        endings: dict[int, Ending] = {}
+        if coarse_first:
+            endings = coarse_endings(self, title, starts)
         settled = list(map(settled_in, self.at))
-        requests = []
-        for place, start in starts:
-            requests.append(Request(self.name_of(place), self.jobs[place].scene, start, settled[place]))
-        endings = self.starts.run(title, requests)
-        for (place, start), ending in zip(starts, endings, strict=True):
+        requests = {}
+        for number, (place, start) in enumerate(starts):
+            if number not in endings:
+                requests[number] = Request(self.name_of(place), self.jobs[place].scene, start, settled[place])
+        for number, ending in zip(requests, self.starts.run(title, [*requests.values()], listed=False), strict=True):
+            place, start = starts[number]
             if ending.joins is not None:
                 ending.motion = self.at[place][ending.joins]  # new motions stand behind those it may join
             elif ending.settled is not None:
                 ending.motion = self._motion_of(place, start, ending)
-        return [ending.motion for ending in endings]
+            endings[number] = ending
+        in_order = [endings[number] for number in range(len(starts))]
+        self.starts.endings += in_order
+        return [ending.motion for ending in in_order]
 
     def _motion_of(self, place: int, start: Start, ending: Ending) -> Motion:
         """The motion on which a start has settled: a known one, or a new one."""

@@ -116,7 +116,8 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
         for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
             starts.append((place, Start(KICKED, velocity)))
     kicked: dict[Motion, tuple[int, Start]] = {}  # the motions that kicks have found, each with its last kick
-    for start, motion in zip(starts, motions.run_starts("kicks", starts), strict=True):
+    ends = motions.run_starts("kicks", starts, coarse_first=motions.plan.simulate is engine.simulate)
+    for start, motion in zip(starts, ends, strict=True):
         if motion is not None:
             motion.kicks += 1
             if motion.found_by == KICKED:
