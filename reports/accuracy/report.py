@@ -16,7 +16,7 @@ from .sections import Study, read_study
 def report(directory: str | Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [
+    items = [
         *section_items("accuracy", "Question"),
         Heading("Error against run time"),
         Text(_protocol(study)),
@@ -52,8 +52,8 @@ def peer_items(study: Study) -> Iterator[Item]:
         return
     notes = study.folder.provenance.get("peer_notes") or {}
     yield Heading("Other codes")
-    yield Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))
-    rows: list[tuple[str, ...]] = []
+    yield Bullets([f"{name}: {text}" for name, text in notes.items()])
+    rows = []
     for work in study.works:
         rows += _beside_ours(study, work)
     if rows:
@@ -65,11 +65,11 @@ def peer_items(study: Study) -> Iterator[Item]:
             "refined run, in which the differences of the models show. The two finest levels that it reaches. From "
             "`table.csv`."
         )
-        yield Table(columns, tuple(rows), caption, small=True)
+        yield Table(columns, rows, caption)
     missing = dict.fromkeys((setting.method, setting.status, setting.message) for setting in of_peers if setting.failed)
     if missing:
         caption = "Settings of other codes without a result. From `table.csv`."
-        yield Table(heads("code", "outcome", "why"), tuple(missing), caption, small=True)
+        yield Table(heads("code", "outcome", "why"), tuple(missing), caption)
 
 
 def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:

@@ -57,8 +57,8 @@ class Study:
     folder: Folder
     works: dict[str, dict]
     rows: tuple[dict, ...]
-    settings: tuple[Setting, ...]
-    orders: tuple[dict, ...]
+    settings: list[Setting]
+    orders: list[dict]
     order_columns: dict[str, Column]
 
     def unit(self, work: str) -> str:
@@ -84,7 +84,7 @@ def read_study(directory: str | Path) -> Study:
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     files = read_files(directory, wanted)
     orders, columns = files.values()
-    return Study(folder, works, folder.table, tuple(_settings(folder.table)), tuple(orders), columns)
+    return Study(folder, works, folder.table, list(_settings(folder.table)), orders, columns)
 
 
 def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
@@ -165,7 +165,7 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
     if failed:
         rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
-        yield Table(heads("method", "setting", "outcome"), tuple(rows), caption, small=True)
+        yield Table(heads("method", "setting", "outcome"), rows, caption)
 
 
 def _diagram(study: Study, work: str) -> Figure:

@@ -167,7 +167,7 @@ def _edge(part: Folder | None) -> Iterator[Item]:
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:
-    rows_of_outcomes: dict[str, list] = {}
+    rows_of_outcomes = {}
     for row in folder.table:
         if row["motion"]:
             continue

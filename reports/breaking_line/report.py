@@ -68,7 +68,7 @@ def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
     return first + present
 
 
-def _warnings(lines: tuple[Line, ...]) -> list[Item]:
+def _warnings(lines: list[Line]) -> list[Item]:
     warnings = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
     for line in lines:
         if line.fault:
@@ -84,7 +84,7 @@ def _warnings(lines: tuple[Line, ...]) -> list[Item]:
             warnings.append(f"The energy budget of case {line.name} does not close to {percent(CLOSED)}.")
     if not warnings:
         return []
-    return [Notice("warning", "What limits these runs", tuple(warnings))]
+    return [Notice("warning", "What limits these runs", warnings)]
 
 
 def _run(line: Line) -> str:
@@ -94,11 +94,11 @@ def _run(line: Line) -> str:
     return f"{run}, {number(line['nodes'])} nodes"
 
 
-def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
+def _fronts(folder: Folder, lines: list[Line]) -> list[Item | None]:
     """Nothing where no case has a theory."""
     if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
-    items: list[Item | None] = []
+    items = []
     exact = read_exact(folder)
     if exact is not None:
         items += [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]

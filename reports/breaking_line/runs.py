@@ -99,7 +99,7 @@ class Line(Row):
         return self[column] / self["stored_J"]
 
 
-def read_lines(folder: Folder) -> tuple[Line, ...]:
+def read_lines(folder: Folder) -> list[Line]:
     """Every run of the table, in its order."""
     lines = []
     for row in folder.table:
@@ -107,7 +107,7 @@ def read_lines(folder: Folder) -> tuple[Line, ...]:
             lines.append(Line(row, *folder.trajectory(row)))
         else:
             lines.append(Line(row))
-    return tuple(lines)
+    return lines
 
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:
@@ -126,7 +126,7 @@ def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     return runs
 
 
-def table_of_runs(lines: tuple[Line, ...], columns: Columns, kind: str) -> Table | None:
+def table_of_runs(lines: list[Line], columns: Columns, kind: str) -> Table | None:
     """A table of OF_RUNS, its energies in per cent of the stored one; None where no run is to be shown."""
     names, kinds, needed, caption = OF_RUNS[kind]
     shown = _runs_to_show(lines, kinds, needed)
@@ -143,7 +143,7 @@ def table_of_runs(lines: tuple[Line, ...], columns: Columns, kind: str) -> Table
     return table_of(columns | in_percent, names, rows, caption)
 
 
-def _runs_to_show(lines: tuple[Line, ...], kinds: tuple[str, ...], needed: str) -> list[Line]:
+def _runs_to_show(lines: list[Line], kinds: tuple[str, ...], needed: str) -> list[Line]:
     """The runs of these kinds that a table of OF_RUNS shows; needed: what they must have, as described there."""
     if not needed:
         return [line for line in lines if line["kind"] in kinds]
@@ -155,7 +155,7 @@ def _runs_to_show(lines: tuple[Line, ...], kinds: tuple[str, ...], needed: str) 
     return sorted(shown, key=lambda line: (line["case"], line["nodes"], line["bending_stiffness_Nm2"]))
 
 
-def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
+def series_table(lines: list[Line], columns: Columns) -> Table | None:
     """Convergence to the exact motion, grid by grid."""
     series = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
     if not series:

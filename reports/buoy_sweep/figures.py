@@ -37,7 +37,7 @@ from ..parts.style import BLUE, INK, REGIME_COLOURS
 from ..parts.symbols import T_I, T_S
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, lines, shares_panel, tension_panel
-from .runs import Run, Sweep, rows_of
+from .runs import Run, Sweep
 from .tables import sweep_table
 
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
@@ -56,7 +56,7 @@ def exponents(sweep: Sweep) -> list[tuple[str, str]]:
     """The pairs of columns, value and error, in which some run has an exponent."""
     pairs = []
     for value, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
-        if np.isfinite(_of(sweep.judged, value)).any():
+        if np.isfinite(series(sweep.judged, value)).any():
             pairs.append((value, error))
     return pairs
 
@@ -67,7 +67,7 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     if not drawn:
         return None
     drawn.sort(key=lambda run: (run.steepness, run.motion))
-    columns = [Strobes(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
+    columns = [Strobes(run.steepness, run.section[:, 0], run.get("regime") or "", run.motion) for run in drawn]
     missing = [run.steepness for run in sweep.runs if run not in drawn]
     first, last = drawn[0].steepness, drawn[-1].steepness
     marks = [(kA, "paper") for kA in PAPER_STEEPNESS if first <= kA <= last]
@@ -142,7 +142,7 @@ def _ranges(sweep: Sweep, drawn: Sequence[Run]) -> list[Range]:
 def _motion_title(sweep: Sweep, letter: str) -> str:
     """A motion in the legend: its largest tension, and in a word each what else some of its runs do."""
     runs = sweep.motions[letter]
-    parts = [f"up to {number(np.nanmax(_of(runs, PEAK)) / 1e3, 3)} kN"]
+    parts = [f"up to {number(np.nanmax(series(runs, PEAK)) / 1e3, 3)} kN"]
     for excursion in _EXCURSIONS:
         if excursion.in_any(sweep, runs):
             parts.append(excursion.word)
@@ -186,12 +186,8 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
 
 
 def _slack(drawn: Sequence[Run]) -> Panel:
-    slack = 100.0 * _of(drawn, "slack_fraction")
-    return Panel([Curve(_of(drawn, "steepness"), slack, colour=INK)], y_label="slack (%)")
-
-
-def _of(runs: Sequence[Run], column: str) -> np.ndarray:
-    return series(rows_of(runs), column)
+    slack = 100.0 * series(drawn, "slack_fraction")
+    return Panel([Curve(series(drawn, "steepness"), slack, colour=INK)], y_label="slack (%)")
 
 
 def _exponent_panel(sweep: Sweep) -> Panel | None:
@@ -210,7 +206,7 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
         y.append(exponent)
         bars.append(2.0 * error)
         words.append(word)
-    x, y, bars = _of(sweep.judged, "steepness"), np.array(y), np.array(bars)
+    x, y, bars = series(sweep.judged, "steepness"), np.array(y), np.array(bars)
     known = np.isfinite(y)
     if not known.any():
         return None
@@ -230,9 +226,9 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
     label, capped = f"largest T\n{unit}", _capped(sweep)
-    cap_x, cap_y = _of(capped, "steepness"), scale * _of(capped, PEAK)
+    cap_x, cap_y = series(capped, "steepness"), scale * series(capped, PEAK)
     if not sweep.colours:
-        curves = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
+        curves = [Curve(series(drawn, "steepness"), scale * series(drawn, PEAK), "as run", colour=INK)]
         if capped:
             curves.append(Curve(cap_x, cap_y, CAPPED, colour=BLUE))
         return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
@@ -314,7 +310,7 @@ def regime_items(sweep: Sweep) -> list[Item]:
     if not sweep.judged:
         return []
     caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
-    names = shown_on(sweep.folder.columns, rows_of(sweep.judged), REGIMES)
+    names = shown_on(sweep.folder.columns, sweep.judged, REGIMES)
     return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, names, sweep.judged, caption)]
 
 
@@ -329,4 +325,4 @@ def evidence_table(run: Run) -> Table | None:
     rows = []
     for name, *cells in tests:
         rows.append((name, *(cell.replace("-", "−") for cell in cells)))
-    return Table(columns, tuple(rows), caption, small=True)
+    return Table(columns, rows, caption)

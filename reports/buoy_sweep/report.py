@@ -14,7 +14,7 @@ from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes, series
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
-from .runs import PAPER_WINDOW, Run, Sweep, read_sweep, rows_of
+from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import sheet_items
 from .tables import plane_items, runs_items, scene_and_modes, time_items
 
@@ -58,9 +58,9 @@ def _question(sweep: Sweep) -> list[Item]:
     keys = [columns["steepness"]]
     if sweep.colours:
         keys.append(columns["motion"])
-    items: list[Item] = [
+    items = [
         *section_items("buoy_sweep", "Question"),
-        *extremes(keys, rows_of(sweep.good), shown, _EXTREMES_CAPTION),
+        *extremes(keys, sweep.good, shown, _EXTREMES_CAPTION),
     ]
     if sweep.judged:
         return items
@@ -82,7 +82,7 @@ def warnings(sweep: Sweep) -> Notice:
 
 def _failures(sweep: Sweep) -> Iterator[Limit]:
     """The runs that ended early, one limit for each status, and the runs whose trajectory cannot be read."""
-    by_status: dict[str, list[Run]] = {}
+    by_status = {}
     for run in reversed(sweep.runs):
         if not run.ok:
             by_status.setdefault(run["status"], []).insert(0, run)
@@ -132,7 +132,7 @@ def _physical_limits(sweep: Sweep) -> Iterator[Limit]:
     if dry_m > 0.0:
         yield f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water", sweep.runs
     flying = sweep.runs_with(lambda run: run["max_buoy_height_above_water_m"] > scene.buoy.diameter_m)
-    height_m = series(rows_of(flying), "max_buoy_height_above_water_m").max(initial=0.0) - scene.buoy.diameter_m
+    height_m = series(flying, "max_buoy_height_above_water_m").max(initial=0.0) - scene.buoy.diameter_m
     yield (
         f"the whole sphere rises above still water, its lowest point by up to {decimals(height_m, 2)} m. There "
         f"the choice of `buoy.submergence` = {scene.buoy.submergence} and `waves.above_still_water` = "

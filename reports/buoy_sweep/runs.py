@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -97,19 +97,19 @@ class Sweep:
     """
 
     folder: Folder
-    runs: tuple[Run, ...]
-    between: tuple[Run, ...]
+    runs: list[Run]
+    between: list[Run]
     tolerance: float
     longest: int
     modes: Modes | None
 
     @cached_property
-    def good(self) -> tuple[Run, ...]:
+    def good(self) -> list[Run]:
         """The runs that reached their full length."""
         return self.runs_with(lambda run: run.ok)
 
     @cached_property
-    def judged(self) -> tuple[Run, ...]:
+    def judged(self) -> list[Run]:
         """The runs with a regime."""
         return self.runs_with(lambda run: run["regime"])
 
@@ -119,23 +119,23 @@ class Sweep:
         return sorted({run.steepness for run in self.runs})
 
     @cached_property
-    def motions(self) -> dict[str, tuple[Run, ...]]:
+    def motions(self) -> dict[str, list[Run]]:
         """The runs of each motion by its letter; {"": all} where there is one motion."""
-        motions: dict[str, tuple[Run, ...]] = {}
+        motions = {}
         for run in sorted(self.runs, key=lambda run: run.motion):
-            motions[run.motion] = (*motions.get(run.motion, ()), run)
+            motions.setdefault(run.motion, []).append(run)
         return motions
 
     @cached_property
     def colours(self) -> dict[str, str]:
         """The colour of each motion by its letter; {} where there is one motion."""
-        return colours_of(rows_of(self.runs))
+        return colours_of(self.runs)
 
     @cached_property
     def chosen(self) -> frozenset[Run]:
         """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
         drawable = self.runs_with(lambda run: run.drawing)
-        good = tuple(filter(lambda run: run.ok, drawable)) or drawable
+        good = [run for run in drawable if run.ok] or drawable
         if not good:
             return frozenset()
         places, several = set(), None  # several: the first run that repeats after several periods
@@ -149,13 +149,13 @@ class Sweep:
                 chosen.add(run)
         return frozenset(chosen)
 
-    def runs_with(self, condition: Callable[[Run], object]) -> tuple[Run, ...]:
+    def runs_with(self, condition: Callable[[Run], object]) -> list[Run]:
         """The runs of the table for which the condition holds."""
-        return tuple(filter(condition, self.runs))
+        return list(filter(condition, self.runs))
 
     def at(self, chosen: Iterable[Run]) -> str:
         """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined; " (A)" behind those of a motion."""
-        places: dict[str, set[float]] = {}
+        places = {}
         for run in sorted(chosen, key=lambda run: run.motion):
             places.setdefault(run.motion, set()).add(run.steepness)
         parts = []
@@ -163,11 +163,6 @@ class Sweep:
             text = f"kA = {ranges(self.values, np.isin(self.values, list(steepness)))}"
             parts.append(f"{text} ({letter})" if letter else text)
         return listed(parts)
-
-
-def rows_of(runs: Iterable[Run]) -> list[Mapping[str, object]]:
-    """The rows of the table that the runs stand in."""
-    return [run.row for run in runs]
 
 
 def read_sweep(directory: str | Path) -> Sweep:
@@ -192,12 +187,12 @@ def read_sweep(directory: str | Path) -> Sweep:
     if part is not None:
         for row in part.completed:
             between.append(_named(_read_run(part, row), runs))
-    return Sweep(folder, tuple(runs), tuple(between), tolerance, longest, modes)
+    return Sweep(folder, runs, between, tolerance, longest, modes)
 
 
 def _named(run: Run, judged: Sequence[Run]) -> Run:
     """A run between the values of others as one of the motion, of those beside it, whose range of r is nearest its."""
-    values = series(rows_of(judged), "steepness")
+    values = series(judged, "steepness")
     low, high = values[values < run.steepness].max(initial=-np.inf), values[values > run.steepness].min(initial=np.inf)
     nearest, least = run, math.inf
     for neighbour in judged:

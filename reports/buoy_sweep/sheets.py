@@ -9,7 +9,7 @@ from ..parts.columns import printed_cells, shown_on
 from ..parts.content import Explorer, ExplorerColumn, Heading, Item, Sheet, Text, link
 from ..sweep.quantities import series
 from .figures import evidence_table, exponents
-from .runs import END_PERIODS, Run, Sweep, rows_of
+from .runs import END_PERIODS, Run, Sweep
 
 # columns that a sheet shows in its title, its drawing, its table or its message
 _ELSEWHERE = ("steepness", "motion", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
@@ -22,7 +22,7 @@ def explorer(sweep: Sweep) -> Explorer:
         points = tuple(run.section[:, 0]) if run.ok else ()
         colour = sweep.colours.get(run.motion, "")
         columns.append(ExplorerColumn(run.steepness, points, _name(run), run.anchor, colour))
-    rows = rows_of(sweep.runs)
+    rows = sweep.runs
     lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(rows))]
     for column, error in exponents(sweep)[:1]:
         lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))

@@ -1,6 +1,6 @@
 """The tables of a buoy sweep: the runs, what is out of the plane, their cost, the scene."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
 from ..sweep.quantities import batched, over_key, series
-from .runs import Run, Sweep, rows_of
+from .runs import Run, Sweep
 
 _MOST = 18  # columns of one table
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
@@ -27,28 +27,27 @@ def sweep_table(sweep: Sweep, names: Sequence[str], runs: Sequence[Run], caption
 
     A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns, rows = sweep.folder.columns, [{**run.row, "run": run} for run in runs]
-    filled = shown_on(columns, rows)
+    columns = sweep.folder.columns
+    filled = shown_on(columns, runs)
     shown = [name for name in dict.fromkeys(("steepness", "motion", *names)) if name in filled]
     own_cells = {"steepness": _linked_steepness, "share": of_kicks, "strobed_period": _period}
-    return table_of(columns, shown, rows, caption, own_cells)
+    return table_of(columns, shown, runs, caption, own_cells)
 
 
-def _linked_steepness(row: Mapping[str, object]) -> str:
+def _linked_steepness(run: Run) -> str:
     """The steepness of a run as a link to its sheet."""
-    return link(number(row["steepness"]), row["run"].anchor)
+    return link(number(run.steepness), run.anchor)
 
 
-def _period(row: Mapping[str, object]) -> str:
+def _period(run: Run) -> str:
     """The wave periods after which a run repeats, "none" where no number fits, a dash where this is not known."""
-    period = row["run"].period
-    return EMPTY if period is None else str(period or "none")
+    return EMPTY if run.period is None else str(run.period or "none")
 
 
 def runs_items(sweep: Sweep) -> list[Item]:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = sweep.folder.columns
-    names = shown_on(columns, rows_of(sweep.runs), RUNS, longest=LONGEST_CELL)
+    names = shown_on(columns, sweep.runs, RUNS, longest=LONGEST_CELL)
     names = [name for name in names if name not in ("steepness", "motion")]
     if sweep.runs_with(lambda run: run.in_space):
         names.insert(0, "dimensions")
@@ -68,7 +67,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     growth_name, error_name = "offplane_growth_bits_per_period", "offplane_growth_error"
     columns = sweep.folder.columns
     shown = sweep.runs_with(lambda run: run.in_space or run.planar_releases > 0)
-    across = rows_of(sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name)))
+    across = sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name))
     if not shown and not across:
         return []
     provenance = sweep.folder.provenance
@@ -80,7 +79,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     push = provenance.get("push_mps")
     if push:
         words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
-    items: list[Item] = [Heading("Out of the plane"), Text(words)]
+    items = [Heading("Out of the plane"), Text(words)]
     if across:
         growth, error = columns[growth_name], columns[error_name]
         picture = over_key(across, columns["steepness"], [((growth, error),)], sweep.colours)
@@ -133,7 +132,7 @@ def scene_and_modes(sweep: Sweep) -> list[Item]:
     modes = sweep.modes
     varied = {"waves.steepness": ranges(sweep.values, [True] * len(sweep.values))}
     if sweep.runs_with(lambda run: run.in_space):
-        dimensions = np.unique(series(rows_of(sweep.runs), "dimensions"))
+        dimensions = np.unique(series(sweep.runs, "dimensions"))
         varied["motion.dimensions"] = listed(map(number, dimensions))
         push = sweep.folder.provenance.get("push_mps")
         if push:
@@ -148,5 +147,5 @@ def scene_and_modes(sweep: Sweep) -> list[Item]:
             ("wave frequency", OMEGA_I, number(modes.wave_radps), "rad/s"),
         )
         columns = heads("quantity", "symbol", ("value", ""), ("unit", ""))
-        items.append(Table(columns, rows, "What follows from the scene in closed form."))
+        items.append(Table(columns, rows, "What follows from the scene in closed form.", small=False))
     return items

@@ -146,7 +146,7 @@ def curves(
     "xy" both. widths: of the columns, against each other.
     """
     shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
-    handles: dict[str, object] = {}
+    handles = {}
     with sheet(height_in) as figure:
         grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
         for places, panels in zip(grid, rows, strict=True):

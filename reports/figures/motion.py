@@ -67,7 +67,7 @@ def _extremes(values: np.ndarray, bins: int) -> np.ndarray:
     n = len(values)
     if n <= 2 * bins:
         return np.arange(n)
-    indices: set[int] = set()
+    indices = set()
     for first, end in pairwise(np.linspace(0, n, bins + 1).astype(int)):
         part = values[first:end]
         if np.isfinite(part).any():

@@ -287,7 +287,7 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
-    groups: dict[tuple[str, str], list[Strobes]] = {}
+    groups = {}
     for column in columns:
         groups.setdefault((column.word, column.motion), []).append(column)
     for (word, motion), members in sorted(groups.items()):

@@ -87,7 +87,7 @@ def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Bran
     parents.pop("", None)
     for row in any_rows(folder.directory / "strobes.csv"):
         strobes.setdefault((row["branch"], int(row["place"])), []).append(float(row["radius_m"]))
-    orbits_of_branches: dict[str, list[Row]] = {}
+    orbits_of_branches = {}
     for row in folder.table:
         orbits = orbits_of_branches.setdefault(row["branch"], [])
         if (row["branch"], row["place"]) in strobes:

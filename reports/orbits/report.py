@@ -41,7 +41,7 @@ def report(directory: str | Path) -> Report:
     key = _varied(folder)
     motions = having(rows_of(folder, "motions"), status="ok")
     branches = read_branches(folder, key.name, motions)
-    items: list[Item] = []
+    items = []
     if branches:
         items.append(_diagram(folder, key, branches, motions))
     located = {key.name: partial(_located, key=key.name)}
@@ -217,7 +217,7 @@ def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Iterato
         "Multipliers, the largest first; in brackets their errors: what other steps change. Gap: what is left of the "
         "equation of the orbit."
     )
-    yield Table(columns, tuple(body), caption, small=True)
+    yield Table(columns, body, caption)
 
 
 def _multiplier(row: Row, k: int) -> str:

@@ -28,9 +28,9 @@ LAMBDA_1 = "λ" + sub("1")
 def report(directory: str | Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = []
+    items = []
     if study.faults:  # before the first heading: on the first page, after the answer
-        missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
+        missing = [f"`{part}`: {reason}." for part, reason in study.faults.items()]
         items.append(Notice("warning", "Parts without results", missing))
     items += section_items("oscillator", "Question")
     for part, (title, section) in SECTIONS.items():
@@ -55,7 +55,7 @@ def _section(study: Study, arrays: dict) -> list[Item]:
         "`section`."
     )
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
-    items: list[Item] = [Figure(oscillator_section(states, boxes, attracting_orbit(study)), caption, alt)]
+    items = [Figure(oscillator_section(states, boxes, attracting_orbit(study)), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
     if zooms and study.chaotic:  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)

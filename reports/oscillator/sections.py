@@ -121,7 +121,7 @@ def orbit_items(study: Study, arrays: dict) -> list[Item]:
     off = ("product off by", "relative"), ("residual", "")
     columns = heads(("period", ""), "stability", *((name, "") for name in numbers), *off)
     caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
-    return [Text(text), Table(columns, tuple(rows), caption, small=True)]
+    return [Text(text), Table(columns, rows, caption)]
 
 
 def _complex(value: complex) -> str:
@@ -138,6 +138,6 @@ def method_items(study: Study) -> list[Item]:
         source = source if chosen == usual else f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(chosen, 10), source))
     columns = heads("symbol", "what it is", ("value", ""), "source")
-    table = Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`.")
+    table = Table(columns, rows, "The oscillator as run, from `scene.toml`.", small=False)
     first = section_items("oscillator_solved", "Equation and method")
     return [*first, table, *section_items("oscillator_method", "")]

@@ -67,7 +67,7 @@ def _warnings(study: Study) -> Iterator[Item]:
     }
     for title, lines in boxes.items():
         if lines:
-            yield Notice("warning", title, tuple(lines))
+            yield Notice("warning", title, lines)
     if not any(boxes.values()):
         nothing = "No run failed, no loop was released, and every turn is resolved."
         yield Notice("note", "Nothing to warn of", (nothing,))

@@ -28,7 +28,7 @@ def statement_items(study: Study) -> Iterator[Item]:
     if pairs:
         sentences.append(_agreement(pairs))
     yield Heading("The paper's statements on figure 20")
-    yield Bullets(tuple(sentences))
+    yield Bullets(sentences)
     yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
     names = columns_of_bodies(
         "motion", "rate_bits_per_period", "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m"

@@ -36,7 +36,7 @@ SHORT = (
 
 def dependence_items(folder: Folder) -> list[Item]:
     """The section, from the parts of the paper's folder."""
-    items: list[Item] = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
+    items = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
     try:
         rows, columns = _table(folder.directory / "dependence")
     except FolderError:
@@ -73,8 +73,8 @@ def written(name: str, **taken: object) -> Table:
     texts = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
     rows = []
     for row in texts["rows"]:
-        rows.append(tuple(cell.format(**taken) for cell in row))
-    return Table(heads(*texts["heads"]), tuple(rows), texts["caption"], small=True)
+        rows.append([cell.format(**taken) for cell in row])
+    return Table(heads(*texts["heads"]), rows, texts["caption"])
 
 
 def _table(part: Path) -> tuple[list[dict], dict[str, Column]]:
@@ -146,7 +146,7 @@ def _regimes(rows: list[dict], quantities: dict[str, Column], steepness: float) 
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
         "waves above still water and of buoyancy."
     )
-    return Table(heads(*column_heads), tuple(body), caption, small=True)
+    return Table(heads(*column_heads), body, caption)
 
 
 def _cell(row: dict | None, columns: dict[str, Column]) -> str:

@@ -26,7 +26,7 @@ HEADS = {"eq.": ("equation", "what", "code"), "fig.": ("figure", "what", "drawn 
 @cache
 def entries() -> dict[tuple[str, int], tuple[str, tuple[str, ...]]]:
     """("eq." or "fig.", number) -> what it is, and the files that say they hold it; the paper's own form comes last."""
-    places: dict[tuple[str, int], list[tuple[str, str]]] = {}
+    places = {}
     paths = []
     for package in PACKAGES:
         paths += (ROOT / package).rglob("*.py")
@@ -75,9 +75,9 @@ def markdown(kind: str) -> str:
 def index_items() -> list[Item]:
     """The section."""
     text = "To find an equation or a figure in the sources search for it as written here; NOTATION.md has the list too."
-    items: list[Item] = [Heading("Where to find what"), Text(text)]
+    items = [Heading("Where to find what"), Text(text)]
     for kind, caption in CAPTIONS.items():
-        items.append(Table(heads(*HEADS[kind]), tuple(rows_of(kind)), caption, small=True))
+        items.append(Table(heads(*HEADS[kind]), rows_of(kind), caption))
     return items
 
 

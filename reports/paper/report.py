@@ -64,8 +64,8 @@ def report(directory: str | Path) -> Report:
     return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
 
 
-def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
-    items: list[Item] = [
+def _question(folder: Folder, judged: list[Judged]) -> list[Item]:
+    items = [
         *section_items("paper", "Question"),
         Heading("What does not simply hold"),
         Bullets(short_answer(judged)),
@@ -75,14 +75,14 @@ def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
         items.append(Notice("warning", "A quick look", lines))
     missing = [part for part in PARTS if not (folder.directory / part / "table.csv").exists()]
     if missing:
-        lines = tuple(f"`{part}`: {part}/table.csv is missing" for part in missing)
+        lines = [f"`{part}`: {part}/table.csv is missing" for part in missing]
         items.append(Notice("warning", "Parts that are not there", lines))
     return items
 
 
-def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
+def short_answer(judged: list[Judged]) -> list[str]:
     """How many statements hold, and which do not, each once: conclusions repeat what is said before."""
-    first_told: list[Judged] = []
+    first_told = []
     statements = set()
     for row in judged:
         if row["statement"] not in statements:
@@ -94,7 +94,7 @@ def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
             if row["verdict"] == verdict:
                 quoted = f"“{row['statement'].rstrip('.')}” (no. {row['number']}; {row['place']})"
                 lines.append(f"{verdict.capitalize()} {row['condition']}".rstrip() + f": {quoted}.")
-    return tuple(lines)
+    return lines
 
 
 def _parts(folder: Folder) -> list[Item]:
@@ -111,16 +111,16 @@ def _parts(folder: Folder) -> list[Item]:
     jobs = folder.provenance.get("jobs")
     if isinstance(jobs, int):
         time_text += f", {count(jobs, 'run')} at a time"
-    items: list[Item] = [Heading("Parts"), table_of(folder.columns, shown, folder.table, caption)]
+    items = [Heading("Parts"), table_of(folder.columns, shown, folder.table, caption)]
     if not links:
         return [*items, Text(f"{time_text}. The parts' own reports were left out.")]
     reports_text = "Each part has a report of its own, with all runs, grids, warnings and sources:"
-    return [*items, Text(f"{time_text}. {reports_text}"), Links(tuple(links))]
+    return [*items, Text(f"{time_text}. {reports_text}"), Links(links)]
 
 
 def _figures(directory: Path) -> list[Item]:
     drawn, missing = figures_of(directory), left_out(directory)
-    items: list[Item] = [
+    items = [
         Heading("The figures of the paper"),
         Text(PREFACE),
         Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
@@ -130,13 +130,13 @@ def _figures(directory: Path) -> list[Item]:
         if section:
             items += [Heading(heading, 2), *section]
     if missing:
-        lines = tuple(f"Fig. {number} of the paper: {reason}." for number, reason in missing.items())
+        lines = [f"Fig. {number} of the paper: {reason}." for number, reason in missing.items()]
         items.append(Notice("warning", "Figures of the paper that are left out", lines))
     return items
 
 
-def _statements(judged: tuple[Judged, ...]) -> list[Item]:
-    items: list[Item] = [Heading("The statements of the paper"), Text(VERDICTS)]
+def _statements(judged: list[Judged]) -> list[Item]:
+    items = [Heading("The statements of the paper"), Text(VERDICTS)]
     for heading, places in TOPICS.items():
         topic = [row for row in judged if row["place"].startswith(places)]
         if topic:

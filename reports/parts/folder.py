@@ -86,6 +86,10 @@ class Row:
         """An entry: text, or a number that is nan where the table leaves it empty or has no such column."""
         return self.row.get(column, math.nan)
 
+    def get(self, column: str):
+        """An entry; None where the table has no such column."""
+        return self.row.get(column)
+
     @property
     def ok(self) -> bool:
         """Whether the run reached its full length."""

@@ -11,7 +11,7 @@ from .folder import FolderError, read_files
 Judged = dict[str, str]
 
 
-def read_statements(directory: Path) -> tuple[Judged, ...]:
+def read_statements(directory: Path) -> list[Judged]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
     rows = read_files(directory, {STATEMENTS: "the statements of the paper as judged"})[STATEMENTS]
     for row in rows:
@@ -19,7 +19,7 @@ def read_statements(directory: Path) -> tuple[Judged, ...]:
             raise FolderError(
                 directory, [f"{STATEMENTS} cannot be read: its first line is not {','.join(STATEMENT_COLUMNS)}"]
             )
-    return tuple(rows)
+    return rows
 
 
 def counted(rows: Iterable[Judged]) -> str:
@@ -49,4 +49,4 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
             verdict = f"{verdict}: {row['condition']}"
         evidence = f"{row['threshold']}. {row['evidence']}"
         body.append((row["number"], row["place"], row["statement"], verdict, row["found"], evidence))
-    return Table(heads, tuple(body), caption, small=True)
+    return Table(heads, body, caption)

@@ -67,7 +67,7 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
     columns = heads("key", "parameter", ("value", ""), "unit", "source")
     origin = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
-    return Table(columns, tuple(rows), f"{caption} {origin}", small=True)
+    return Table(columns, rows, f"{caption} {origin}")
 
 
 def _key(name: str) -> str:
@@ -84,7 +84,7 @@ def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
             rows.append((part, decimals(time, 2)))
     if rows:
         caption = "Where the time of the campaign went, from `provenance.json`."
-        items.append(Table(heads("part", ("wall time", "s")), tuple(rows), caption))
+        items.append(Table(heads("part", ("wall time", "s")), rows, caption, small=False))
     if not items:
         return []
     return [Heading("Run times"), *items]
@@ -92,7 +92,7 @@ def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
 
 def provenance_items(folder: Folder) -> list[Item]:
     """The command and everything else that provenance.json holds."""
-    items: list[Item] = [Heading("Provenance")]
+    items = [Heading("Provenance")]
     entries = dict(folder.provenance)
     entries.pop("timing", None)
     command = entries.pop("command", None)
@@ -105,7 +105,7 @@ def provenance_items(folder: Folder) -> list[Item]:
         rows.append((f"`{key}`", _shown(entry)))
     if rows:
         caption = "All of `provenance.json` but the command and the times."
-        items.append(Table(heads("entry", "value"), tuple(rows), caption, small=True))
+        items.append(Table(heads("entry", "value"), rows, caption))
     return items
 
 
@@ -121,12 +121,12 @@ def report_page(
     if made is None:
         made = [*timing_items(folder), *scene_items(scene, str(folder.provenance.get("scene") or scene.name), {})]
     subtitle = subtitle or scene.title or scene.name
-    return Report(title, subtitle, (*items, *appendix(*made, *provenance_items(folder))))
+    return Report(title, subtitle, [*items, *appendix(*made, *provenance_items(folder))])
 
 
 def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:
     """The warnings of a report in a box, or a note that says there are none."""
-    lines = tuple(lines)
+    lines = list(lines)
     if not lines:
         return Notice("note", "Nothing to warn of", (nothing,))
     return Notice("warning", title, lines)

@@ -97,7 +97,7 @@ def read_atlas(folder: Folder) -> Atlas | None:
     first = next(iter(part.columns))
     if first not in axes:
         keys.insert(0, part.columns[first])
-    rows_of_pages: dict[object, list] = {}
+    rows_of_pages = {}
     for row in part.table:
         value = row[first] if len(keys) > 2 else ""
         rows_of_pages.setdefault(value, []).append(row)
@@ -198,7 +198,7 @@ def _words_by_colour(atlas: Atlas) -> dict[str, list[str]]:
     words = set()
     for page in atlas.pages:
         words.update(page.cells.kinds[page.area > 0.0])
-    by_colour: dict[str, list[str]] = {}
+    by_colour = {}
     for word in sorted(words, key=_order):
         by_colour.setdefault(colour_of(word), []).append(word)
     by_colour.pop("", None)

@@ -76,7 +76,7 @@ def _figure(atlas: Atlas, maps: Sequence[Map], entries, alt: str, caption: str) 
 
 def _regimes(atlas: Atlas) -> Table:
     """A row a word: how much of the map it takes, where the line pulls hardest in it, what limits that."""
-    cells_of_words: dict[str, list[tuple]] = {}
+    cells_of_words = {}
     for page in atlas.pages:
         for cell in np.flatnonzero(page.on_top(COMPUTED)):
             word = str(page.cells.kinds[cell])
@@ -90,13 +90,13 @@ def _regimes(atlas: Atlas) -> Table:
         for name in LIMITS:
             limited = [cell for cell in cells if cell[0].get(name) == 1]
             cell_texts.append(percent(_area(limited) / share))
-        body.append(tuple(cell_texts))
+        body.append(cell_texts)
     limit_heads = [(reason, "") for reason in LIMITS.values()]
     columns = heads(
         "motion from rest", ("cells", ""), ("share of the map", ""), ("largest T over static", ""), "at", *limit_heads
     )
     caption = "Computed cells by the regime of the motion from rest; the last two columns: shares of their area."
-    return Table(columns, tuple(body), caption, small=True)
+    return Table(columns, body, caption)
 
 
 def _area(cells: Sequence[tuple]) -> float:

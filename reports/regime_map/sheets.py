@@ -26,7 +26,7 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     columns = folder.columns
     keys, cells = {"motion", *(key.name for key in atlas.keys)}, printed_cells(columns)
     names = [name for name in shown_on(columns, folder.table, RUNS, REGIMES, longest=LONGEST_CELL) if name not in keys]
-    motions_of_places: dict[tuple[str, ...], list] = {}
+    motions_of_places = {}
     for row, curves in zip(folder.table, _curves(folder), strict=True):
         facts = [cells[name](row) for name in names]
         motions_of_places.setdefault(_place(row, atlas), []).append((row, facts, curves))
@@ -43,8 +43,8 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
             }
             motions = motions_of_places.get(_place(row, atlas), [])
             sheets.append(sheet | _drawn(motions))
-    fact_heads = tuple((columns[name].head, columns[name].unit) for name in names)
-    return CellSheets(fact_heads, tuple(sheets))
+    fact_heads = [(columns[name].head, columns[name].unit) for name in names]
+    return CellSheets(fact_heads, sheets)
 
 
 def _place(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:

@@ -23,7 +23,7 @@ from ..parts.selecting import entries, having
 def report(directory: str | Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [
+    items = [
         *unexplained_items(study),  # before the first heading: on the first page, after the answer
         *section_items("stability", "Question"),
         *stiffness_items(study),
@@ -32,7 +32,7 @@ def report(directory: str | Path) -> Report:
         *appendix(*timing_items(study), *provenance_items(study)),
     ]
     kind = "quick selection" if study.provenance.get("quick") else "all cases"
-    return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", tuple(items))
+    return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", items)
 
 
 FILES = {
@@ -94,7 +94,7 @@ def case_items(study: Study) -> list[Item]:
 
 def stiffness_items(study: Study) -> Iterator[Item]:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
-    measured: dict[str, list[tuple[float, ...]]] = {}
+    measured = {}
     unit = math.nan
     for row in study.judged("ok"):
         shown = row["group"] == "EA" or row["how"] == "waves in a bar"
@@ -144,5 +144,5 @@ def unexplained_items(study: Study) -> list[Item]:
     for row in study.judged("unexplained"):
         lines.append(f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip())
     if lines:
-        return [Notice("warning", "Unexplained", tuple(lines))]
+        return [Notice("warning", "Unexplained", lines)]
     return [Notice("note", "Nothing unexplained", ("Every case ended as expected, or with a reason given below.",))]

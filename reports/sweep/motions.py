@@ -34,7 +34,7 @@ def ends_of(folder: Folder, key: str) -> list[dict]:
 
 def every_motion(folder: Folder, key: str, title: str) -> list[Item]:
     """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
-    items: list[Item] = []
+    items = []
     ends = ends_of(folder, key)
     if ends:
         items.append(_ends_table(part_of(folder, "ends"), ends, key))
@@ -78,4 +78,4 @@ def _starts_table(rows: Sequence[dict], key: str, title: str) -> Table:
         f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(unsettled / len(rows))} "
         "are unsettled. From `starts/table.csv`, which has every start."
     )
-    return Table(heads(*titles, "into motion"), tuple(body), caption, small=True)
+    return Table(heads(*titles, "into motion"), body, caption)

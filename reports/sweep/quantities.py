@@ -52,7 +52,7 @@ def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
 
     The motion of the largest tension is vermilion; "", of runs that ended before they had one, is grey.
     """
-    peaks: dict[str, float] = {}
+    peaks = {}
     for row in in_order(rows, []):
         letter = row.get("motion") or ""
         peaks[letter] = max(peaks.get(letter, 0.0), number_of(row, PEAK))
@@ -145,11 +145,11 @@ def extremes(
         line = [column.meaning or column.head, column.unit or EMPTY]
         for row in (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))]):
             line += [column.cell(row), at(keys, row)]
-        cells.append(tuple(line))
+        cells.append(line)
     columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
     if not cells:
         return []
-    return [Table(columns, tuple(cells), caption, small=True)]
+    return [Table(columns, cells, caption)]
 
 
 def at(keys: Sequence[Column], row: Mapping[str, object]) -> str:

@@ -74,7 +74,7 @@ def _columns_of(shown: Sequence[Measured]) -> list[Column]:
 
 
 def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
-    items: list[Item] = []
+    items = []
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for column in _columns_of(part))
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
@@ -85,7 +85,7 @@ def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, 
 def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> list[Item]:
     if not motions:
         return _maps(keys, rows, shown, "")
-    items: list[Item] = []
+    items = []
     for letter in motions:
         members = having(rows, motion=letter)
         items += _maps(keys, members, shown, f", motion {letter}")
@@ -108,7 +108,7 @@ def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) 
         drawn.append(Map("", "regime", laid(regimes, "")))
     for column in _columns_of(shown):
         drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
-    items: list[Item] = []
+    items = []
     for part in batched(drawn, _MAPS):
         names = listed(drawn_map.name for drawn_map in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."

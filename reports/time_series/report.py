@@ -35,16 +35,16 @@ def report(directory: str | Path) -> Report:
     figures = _figures(judged, answer["unit_of_time"], source["column"])
     items = [*_verdict(answer), *figures, *_evidence(answer), *_origin(source, judged["answer.txt"])]
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
-    return Report(title, under, tuple(items))
+    return Report(title, under, items)
 
 
 def _verdict(answer: dict) -> list[Item]:
-    rows = tuple(tuple(printed(cell) for cell in row) for row in answer["measures"])
+    rows = [list(map(printed, row)) for row in answer["measures"]]
     caption = "Measures with one standard error; none: no value, for the reason beside it."
     return [
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
         Text(f"{answer['record']}. The section has {answer['section']['how']}."),
-        Table(heads("measure", ("value", ""), "unit", "from"), rows, caption),
+        Table(heads("measure", ("value", ""), "unit", "from"), rows, caption, small=False),
     ]
 
 
@@ -89,7 +89,7 @@ def _evidence(answer: dict) -> list[Item]:
         rows.append((test["name"], PASSED[test["passed"]], value, threshold, printed(test["sentence"])))
     columns = heads("test", "passed", ("value", ""), ("compared with", ""), "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
-    return [Heading("Evidence"), Table(columns, tuple(rows), caption, small=True)]
+    return [Heading("Evidence"), Table(columns, rows, caption)]
 
 
 def _number(value: float | None) -> str:

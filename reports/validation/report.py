@@ -39,14 +39,14 @@ def read_study(directory: str | Path) -> Study:
     judged = files["cases.csv"]
     if not judged or not {"case", *NUMBERS} <= set(judged[0]):
         raise FolderError(folder.directory, ["cases.csv cannot be read: it has no rows, or not those of this campaign"])
-    cases: dict[str, list[dict[str, str]]] = {}
+    cases = {}
     for row in judged:
         cases.setdefault(row["case"], []).append(row)
-    points: dict[str, dict[str, list]] = {}
+    points = {}
     for row in files["curves.csv"]:
         curve_points = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
         curve_points.append([float(row["x"]), float(row["ours"]), float(row["theirs"])])
-    arrays: dict[str, dict[str, np.ndarray]] = {}
+    arrays = {}
     for case, case_curves in points.items():
         arrays[case] = {name: np.array(curve_points).T for name, curve_points in case_curves.items()}
     return Study(folder, cases, arrays)
@@ -55,7 +55,7 @@ def read_study(directory: str | Path) -> Study:
 def report(directory: str | Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [*section_items("validation", "Question"), Heading("All cases"), summary(study)]
+    items = [*section_items("validation", "Question"), Heading("All cases"), summary(study)]
     for case in study.cases:
         items += case_items(study, case)
     items += [
@@ -89,7 +89,7 @@ def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) ->
         words = [row[name] for name in first]
         body.append((*words, number(number_of(row, "error"), 4), number(number_of(row, "bar"), 4), row["unit"]))
     word_heads = ["case" if name == "title" else name for name in first]
-    return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), tuple(body), caption, small=True)
+    return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), body, caption)
 
 
 def case_items(study: Study, case: str) -> Iterator[Item]:
