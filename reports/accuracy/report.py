@@ -6,14 +6,14 @@ from pathlib import Path
 
 from tables import EMPTY, count, decimals, number
 
-from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
+from ..parts.content import Bullets, Heading, Items, Report, Table, Text, heads
 from ..parts.provenance import report_page, timing_items
 from ..parts.sections import section_items
 from . import sections
 from .sections import Study, read_study
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
@@ -45,7 +45,7 @@ def _protocol(study: Study) -> str:
     )
 
 
-def peer_items(study: Study) -> Iterator[Item]:
+def peer_items(study: Study) -> Items:
     """Other codes: what is left different, what they cost beside ours, what is not installed."""
     of_peers = [setting for setting in study.settings if setting.peer]
     if not of_peers:
@@ -69,7 +69,7 @@ def peer_items(study: Study) -> Iterator[Item]:
     missing = dict.fromkeys((setting.method, setting.status, setting.message) for setting in of_peers if setting.failed)
     if missing:
         caption = "Settings of other codes without a result. From `table.csv`."
-        yield Table(heads("code", "outcome", "why"), tuple(missing), caption)
+        yield Table(heads("code", "outcome", "why"), list(missing), caption)
 
 
 def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:

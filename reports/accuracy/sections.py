@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from tables import Column, count, number
 
 from ..figures.work_precision import work_precision
 from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Table, Text, heads
+from ..parts.content import Figure, Heading, Items, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
 
 OURS, PEER = "point", "peer"
@@ -22,8 +22,7 @@ _WORDS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Setting:
+class Setting(NamedTuple):
     """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended
     early, the first of them with status and message.
     """
@@ -50,8 +49,7 @@ class Setting:
         return f"{self.nodes} {elements}, {_WORDS[self.control].format(self.value)}"
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left. works: {name: title, unit, period_s, duration_s, rough} in the order of the report."""
 
     folder: Folder
@@ -75,12 +73,12 @@ class Study:
         return chosen
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     folder = read_folder(directory)
     works = folder.provenance.get("works")
     if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not describe the works")
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     files = read_files(directory, wanted)
     orders, columns = files.values()
@@ -143,7 +141,7 @@ def within(settings: list[Setting], level: float) -> Setting | None:
     return min(accurate, key=lambda setting: setting.wall_s, default=None)
 
 
-def work_items(study: Study, work: str) -> Iterator[Item]:
+def work_items(study: Study, work: str) -> Items:
     """Everything on one work."""
     entry = study.works[work]
     smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
@@ -165,7 +163,7 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
     if failed:
         rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
-        yield Table(heads("method", "setting", "outcome"), rows, caption)
+        yield Table(heads("method", "setting", "outcome"), list(rows), caption)
 
 
 def _diagram(study: Study, work: str) -> Figure:
@@ -197,7 +195,7 @@ def _diagram(study: Study, work: str) -> Figure:
     return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
 
 
-def order_items(study: Study) -> Iterator[Item]:
+def order_items(study: Study) -> Items:
     """Measured orders, work by work."""
     judged, tolerances = [], []
     for row in study.orders:

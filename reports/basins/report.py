@@ -12,7 +12,7 @@ from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
 from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Text
+from ..parts.content import Figure, Heading, Items, Notice, Report, Text
 from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
@@ -35,12 +35,12 @@ _MOST = 14  # columns of one table
 _PERIODS = 8  # of a motion without a period, drawn
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of basins. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, ("motion", "outcome", "status"))
     across = folder.provenance.get("across")
     if not isinstance(across, list) or not set(across) <= set(_AXES):
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
     motion_runs, shock, edge = [part_of(folder, name) for name in ("motions", "shock", "edge")]
     motions = []
     if motion_runs is not None:
@@ -64,7 +64,7 @@ def _value(row, axis: str) -> float:
     return value
 
 
-def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Iterator[Item]:
+def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Items:
     x_axis, y_axis = across
     x, across_place = np.unique([_value(row, x_axis) for row in folder.table], return_inverse=True)
     y, up_place = np.unique([_value(row, y_axis) for row in folder.table], return_inverse=True)
@@ -107,7 +107,7 @@ def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] |
     return [_value(starts[0], axis) for axis in across], f"{number(starts[0]['size'], 2)} {unit}"
 
 
-def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
+def _motions(part: Folder, motions, edge: Folder | None) -> Items:
     yield Heading("Motions")
     shown = shown_on(part.columns, motions, RUNS, REGIMES, longest=LONGEST_CELL)
     for names in batched([name for name in shown if name not in ("steepness", "motion")], _MOST):
@@ -148,14 +148,14 @@ def _loop(run, period: float, name: str, colour: str, line="-") -> Curve:
     return Curve(radius, rate, name, line, "", colour, width=width)
 
 
-def _shock(part: Folder | None) -> Iterator[Item]:
+def _shock(part: Folder | None) -> Items:
     if part is not None:
         yield Heading("The smallest start")
         caption = "The smallest start that leads to the motion of the largest tension, bisected to 1 %, on two grids."
         yield from filled_table(part, caption)
 
 
-def _edge(part: Folder | None) -> Iterator[Item]:
+def _edge(part: Folder | None) -> Items:
     if part is not None:
         yield Heading("The edge state")
         yield Text(

@@ -1,11 +1,9 @@
 """Figures of the breaking line: the paper's 2-7, fronts and characteristics, energy, the animation."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray
 
 from tables import listed, number, percent
 
@@ -14,9 +12,6 @@ from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_pan
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
 from ..parts.content import Figure
 from .runs import FAST, SLOW, Line, of_kind
-
-if TYPE_CHECKING:
-    import xarray
 
 INSTANT_S = 0.010
 FRAME_S = 0.002  # of the animation

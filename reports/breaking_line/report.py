@@ -6,7 +6,7 @@ from pathlib import Path
 from tables import count, decimals, listed, number, percent
 
 from ..figures.line_panels import named
-from ..parts.content import Heading, Item, Notice, Report, Text
+from ..parts.content import Heading, Item, Items, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import counted, read_statements, statements_table
 from ..parts.provenance import report_page, scene_items, timing_items
@@ -32,7 +32,7 @@ BUDGET = (
 )
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
     lines, judged = read_lines(folder), read_statements(folder.directory)
@@ -58,7 +58,7 @@ def report(directory: str | Path) -> Report:
     return report_page(folder, "The breaking synthetic line", items, made)
 
 
-def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
+def _section(heading: str, *items: Item | None, text: str = "") -> Items:
     present = [item for item in items if item is not None]
     if not present:
         return []
@@ -68,7 +68,7 @@ def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
     return first + present
 
 
-def _warnings(lines: list[Line]) -> list[Item]:
+def _warnings(lines: list[Line]) -> Items:
     warnings = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
     for line in lines:
         if line.fault:
@@ -107,7 +107,7 @@ def _fronts(folder: Folder, lines: list[Line]) -> list[Item | None]:
     return [*items, series_table(lines, folder.columns)]
 
 
-def _scene(folder: Folder) -> list[Item]:
+def _scene(folder: Folder) -> Items:
     cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
     varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
     return scene_items(folder.scene, "breaking_line", varied)

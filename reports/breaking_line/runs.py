@@ -2,23 +2,19 @@
 cases, speeds and shocks against theory, energy, grids, stiffness, cost.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+
+import xarray
 
 from tables import Column
 
 from ..figures.line_panels import named
 from ..parts.columns import table_of
 from ..parts.content import Table
-from ..parts.folder import Folder, FolderError, Row, read_files
-
-if TYPE_CHECKING:
-    import xarray
+from ..parts.folder import Folder, FolderError, TableRow, read_files
 
 Columns = dict[str, Column]
 KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}
@@ -80,7 +76,7 @@ FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 
 
 @dataclass(frozen=True, eq=False)
-class Line(Row):
+class Line(TableRow):
     """One row of the table.
 
     `trajectory`: of kind "case", where its file can be read; `fault`: why it cannot, else "".

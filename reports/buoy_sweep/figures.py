@@ -2,9 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -28,9 +26,9 @@ from tables import (
 
 from ..figures.animations import Snap, tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
-from ..figures.orbit_diagram import OrbitDiagram, Range, Strobes
+from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts.columns import shown_on
-from ..parts.content import Figure, Heading, Item, Table, Text, heads
+from ..parts.content import Figure, Heading, Items, Table, Text, heads
 from ..parts.folder import part_of
 from ..parts.selecting import entries
 from ..parts.style import BLUE, INK, REGIME_COLOURS
@@ -76,17 +74,18 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
         static_N = sweep.modes.static_tension_N
         scale, unit = 1.0 / static_N, "over static"
     tension, exponent = _tension(sweep, drawn, scale, unit), _exponent_panel(sweep)
-    motions, ranges, labels = {}, [], ("wave steepness kA (–)", "strobed r (m)")
+    motions, ranges, labels = {}, {}, ("wave steepness kA (–)", "strobed r (m)")
     if sweep.colours:
         below = [tension, *shares_panel(sweep)]
         if exponent is not None:
-            below.append(replace(exponent, height=0.8))
+            below.append(exponent._replace(height=0.8))
         for letter, colour in sweep.colours.items():
             if letter:
                 motions[letter] = (colour, _motion_title(sweep, letter))
     else:
         below = list(filter(None, (_slack(drawn), exponent, tension)))
-        ranges = _ranges(sweep, drawn)
+        for word, holds in _excursions(sweep, drawn).items():
+            ranges[_EXCURSIONS[word]] = holds
     caption = " ".join(filter(None, _caption(sweep, drawn, static_N)))
     alt = f"Orbit diagram over wave steepness: {_described(sweep, motions)}; see text."
     return OrbitDiagram(columns, labels, below, ranges, marks, missing, motions).figure(caption, alt)
@@ -102,51 +101,24 @@ def _described(sweep: Sweep, motions: Mapping[str, tuple[str, str]]) -> str:
     return "; ".join([*parts, ", ".join(regimes)])
 
 
-def _flies(sweep: Sweep, run: Run) -> bool:
-    """Whether all of the sphere leaves the water."""
-    return bool(run["max_buoy_height_above_water_m"] > sweep.folder.scene.buoy.diameter_m)
+_EXCURSIONS = {"flies": "whole sphere above still water", "loops": "loops released"}
 
 
-def _loops(sweep: Sweep, run: Run) -> bool:
-    """Whether loops were released in the plane."""
-    return run["loop_releases"] > 0 and not run.in_space
-
-
-class Excursion(NamedTuple):
-    """What only some runs do: in words, in one word, and whether a run does it."""
-
-    text: str
-    word: str
-    happens: Callable[[Sweep, Run], bool]
-
-    def in_any(self, sweep: Sweep, runs: Iterable[Run]) -> bool:
-        """Whether it happens in any of the runs."""
-        return any(self.happens(sweep, run) for run in runs)
-
-
-_EXCURSIONS = (
-    Excursion("whole sphere above still water", "flies", _flies),
-    Excursion("loops released", "loops", _loops),
-)
-
-
-def _ranges(sweep: Sweep, drawn: Sequence[Run]) -> list[Range]:
-    """Where the excursions happen that some of the runs have."""
-    ranges = []
-    for excursion in _EXCURSIONS:
-        if excursion.in_any(sweep, drawn):
-            ranges.append(Range(excursion.text, [excursion.happens(sweep, run) for run in drawn]))
-    return ranges
+def _excursions(sweep: Sweep, runs: Sequence[Run]) -> dict[str, np.ndarray]:
+    """What only some runs do: for each word of _EXCURSIONS that holds for any of these, (n,) for which it does."""
+    height_m, in_space = series(runs, "max_buoy_height_above_water_m"), series(runs, "dimensions") == 3
+    holds = {
+        "flies": height_m > sweep.folder.scene.buoy.diameter_m,
+        "loops": (series(runs, "loop_releases") > 0) & ~in_space,
+    }
+    return {word: of_runs for word, of_runs in holds.items() if of_runs.any()}
 
 
 def _motion_title(sweep: Sweep, letter: str) -> str:
     """A motion in the legend: its largest tension, and in a word each what else some of its runs do."""
     runs = sweep.motions[letter]
     parts = [f"up to {number(np.nanmax(series(runs, PEAK)) / 1e3, 3)} kN"]
-    for excursion in _EXCURSIONS:
-        if excursion.in_any(sweep, runs):
-            parts.append(excursion.word)
-    return ", ".join(parts)
+    return ", ".join([*parts, *_excursions(sweep, runs)])
 
 
 def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
@@ -154,10 +126,7 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
     yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the"
     if sweep.colours:
         yield "motion. Each has a bar with its regimes (numbers: periods after which it repeats)."
-        words = []
-        for excursion in _EXCURSIONS:
-            if excursion.in_any(sweep, drawn):
-                words.append(f"{excursion.word}: {excursion.text}")
+        words = [f"{word}: {_EXCURSIONS[word]}" for word in _excursions(sweep, drawn)]
         if words:
             yield f"{'; '.join(words).capitalize()}."
     elif sweep.judged:
@@ -255,7 +224,7 @@ def _capped(sweep: Sweep) -> list[Run]:
     return runs
 
 
-def close_up_items(sweep: Sweep) -> list[Item]:
+def close_up_items(sweep: Sweep) -> Items:
     """Heading and figure; nothing where no run was kept with its tether."""
     part = part_of(sweep.folder, "close_up")
     if part is None or not part.completed:
@@ -305,7 +274,7 @@ def _snap(trajectory) -> Snap | None:
     return Snap(times, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface), record)
 
 
-def regime_items(sweep: Sweep) -> list[Item]:
+def regime_items(sweep: Sweep) -> Items:
     """What the words mean, and the exponents of the runs; nothing where no run has a regime."""
     if not sweep.judged:
         return []

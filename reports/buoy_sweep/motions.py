@@ -10,7 +10,7 @@ from tables import EMPTY, PEAK, PERIODIC, decimals, listed, number, of_kicks, ra
 
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
-from ..parts.content import Item, Table, heads
+from ..parts.content import Items, Table, heads
 from ..parts.style import SOFT
 from ..sweep.motions import ends_of
 from ..sweep.quantities import series
@@ -97,7 +97,7 @@ def shares_panel(sweep: Sweep) -> list[Panel]:
     return [Panel([], y_label="starts\n(%)", settings=axis, boxes=boxes, height=0.55)]
 
 
-def motions_items(sweep: Sweep) -> list[Item]:
+def motions_items(sweep: Sweep) -> Items:
     """One row a motion: where it is, what it does, how often it is met; nothing where there is one motion."""
     rows, word_columns = [], []
     for name in ("found_by", "confirmed"):
@@ -150,7 +150,7 @@ def _kicks(runs: Sequence[Run]) -> str:
     if not kicked:
         return EMPTY
     kicked.sort(key=lambda run: run["share"])
-    fewest, most = of_kicks(kicked[0].row), of_kicks(kicked[-1].row)
+    fewest, most = of_kicks(kicked[0]), of_kicks(kicked[-1])
     if fewest == most:
         return fewest
     return f"{fewest} to {most}"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tables import COARSE, OTHER_MOTION, decimals, number, percent
 
-from ..parts.content import Heading, Item, Notice, Report, Text
+from ..parts.content import Heading, Items, Notice, Report, Text
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
 from ..parts.symbols import T_I, TAU_0
@@ -31,7 +31,7 @@ _NO_LIMITS = (
 )
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a buoy sweep's folder. Raises FolderError for a folder that is not one."""
     sweep = read_sweep(directory)
     items = [
@@ -52,7 +52,7 @@ def report(directory: str | Path) -> Report:
     return report_page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
 
 
-def _question(sweep: Sweep) -> list[Item]:
+def _question(sweep: Sweep) -> Items:
     columns = sweep.folder.columns
     shown = [columns[name] for name in _EXTREMES if name in columns]
     keys = [columns["steepness"]]

@@ -1,28 +1,23 @@
 """A buoy sweep as its report sees it: every run's row with what its trajectory adds, read once for all sections."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analysis import Spectrum, spectrum
+from engine import Trajectory
 from engine.natural_frequencies import Modes, natural_frequencies
 from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
 from ..figures.run_sheet import run_sheet
-from ..parts.folder import Folder, Row, part_of, read_folder
+from ..parts.folder import Folder, TableRow, part_of, read_folder
 from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..sweep.quantities import colours_of, in_order, series
-
-if TYPE_CHECKING:
-    from analysis import Spectrum
-    from engine import Trajectory
 
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
@@ -39,7 +34,7 @@ NEEDED = (
 
 
 @dataclass(frozen=True, eq=False)
-class Run(Row):
+class Run(TableRow):
     """One row of the table with what its trajectory adds.
 
     anchor: the place of its sheet in the report. fault: why the trajectory of a run that should have one could not be
@@ -165,7 +160,7 @@ class Sweep:
         return listed(parts)
 
 
-def read_sweep(directory: str | Path) -> Sweep:
+def read_sweep(directory: Path) -> Sweep:
     """The facts of a sweep's folder, runs by steepness; a trajectory that cannot be read leaves a run with a `fault`.
 
     Raises FolderError for a folder that is no finished sweep.
@@ -254,8 +249,6 @@ def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) ->
 
 def _spectrum(run: Run, trajectory: Trajectory) -> Spectrum | None:
     """Eq. (31) of r over `spectrum_window`; None for a record that is too short or not finite."""
-    from analysis import spectrum
-
     window, values, scene = spectrum_window(run.periods_done), trajectory.columns["radius_m"], trajectory.scene
     if window is None or not np.isfinite(values).all():
         return None

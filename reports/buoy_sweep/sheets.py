@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from tables import EMPTY, count, number
 
 from ..parts.columns import printed_cells, shown_on
-from ..parts.content import Explorer, ExplorerColumn, Heading, Item, Sheet, Text, link
+from ..parts.content import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link
 from ..sweep.quantities import series
 from .figures import evidence_table, exponents
 from .runs import END_PERIODS, Run, Sweep
@@ -29,7 +29,7 @@ def explorer(sweep: Sweep) -> Explorer:
     return Explorer("wave steepness kA (–)", "strobed r (m)", tuple(columns), tuple(lower))
 
 
-def sheet_items(sweep: Sweep) -> list[Item]:
+def sheet_items(sweep: Sweep) -> Items:
     """The section with the sheets, and on the page what chooses one of them."""
     introduction = (
         "One sheet for each row of the table of runs. Left: top tension (with its extremes between samples), r and θ "
@@ -90,7 +90,7 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     facts = [("status", status), ("repeats after", period)]
     columns = sweep.folder.columns
     cells = printed_cells(columns)
-    for name in shown_on(columns, [run.row]):
+    for name in shown_on(columns, [run]):
         if name not in _ELSEWHERE:
-            facts.append((columns[name].head, f"{cells[name](run.row)} {columns[name].unit}".strip()))
+            facts.append((columns[name].head, f"{cells[name](run)} {columns[name].unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))

@@ -7,7 +7,7 @@ import numpy as np
 from tables import EMPTY, PLANE, RUNS, decimals, listed, number, of_kicks, percent, ranges
 
 from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
+from ..parts.content import Figure, Heading, Items, Table, Text, heads, link
 from ..parts.provenance import scene_items, timing_items
 from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
 from ..sweep.quantities import batched, over_key, series
@@ -44,7 +44,7 @@ def _period(run: Run) -> str:
     return EMPTY if run.period is None else str(run.period or "none")
 
 
-def runs_items(sweep: Sweep) -> list[Item]:
+def runs_items(sweep: Sweep) -> Items:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = sweep.folder.columns
     names = shown_on(columns, sweep.runs, RUNS, longest=LONGEST_CELL)
@@ -62,7 +62,7 @@ def runs_items(sweep: Sweep) -> list[Item]:
     ]
 
 
-def plane_items(sweep: Sweep) -> list[Item]:
+def plane_items(sweep: Sweep) -> Items:
     """What is known of motion across the plane of the waves, or nothing."""
     growth_name, error_name = "offplane_growth_bits_per_period", "offplane_growth_error"
     columns = sweep.folder.columns
@@ -101,7 +101,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     return items
 
 
-def time_items(sweep: Sweep) -> list[Item]:
+def time_items(sweep: Sweep) -> Items:
     """What each run cost, and the time split of the campaign."""
     return timing_items(sweep.folder, _cost_figure(sweep))
 
@@ -111,7 +111,7 @@ def _cost_figure(sweep: Sweep) -> Figure | None:
     columns, rows, periods = sweep.folder.columns, [], 0.0
     for run in sweep.runs:
         if run.periods_done:
-            rows.append(run.row)
+            rows.append(run)
             periods += run.periods_done
     wall_s = series(rows, "wall_s")
     if not np.isfinite(wall_s).any():
@@ -127,7 +127,7 @@ def _cost_figure(sweep: Sweep) -> Figure | None:
     return Figure(over_key(rows, columns["steepness"], shown, sweep.colours), caption, alt)
 
 
-def scene_and_modes(sweep: Sweep) -> list[Item]:
+def scene_and_modes(sweep: Sweep) -> Items:
     """Every parameter with its source, and the closed forms that follow."""
     modes = sweep.modes
     varied = {"waves.steepness": ranges(sweep.values, [True] * len(sweep.values))}

@@ -1,8 +1,8 @@
 """Curves and marks in panels: the drawing that most figures of a report are, given as records of arrays."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,8 +14,7 @@ from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, pic
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
+class Curve(NamedTuple):
     """One curve: x and y (n,), a name for the legend, and how it looks.
 
     line, mark: matplotlib's style of the line and of the marks, "" for none. error: standard errors (n,) drawn as bars.
@@ -38,8 +37,7 @@ class Curve:
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Panel:
+class Panel(NamedTuple):
     """Curves on one pair of axes.
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
@@ -55,10 +53,10 @@ class Panel:
     title: str = ""
     log: str = ""
     level: float | None = None
-    settings: Mapping[str, object] = field(default_factory=dict)
+    settings: Mapping[str, object] = {}
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
-    beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    beside: Mapping[str, tuple[float, str]] = {}
     boxes: Sequence[tuple[float, float, float, float, str, str]] = ()
     arrows: Sequence[tuple[float, float, float, str]] = ()
     texts: Sequence[tuple[float, float, str, str]] = ()
@@ -176,6 +174,11 @@ def wide_limits(values: np.ndarray, least: float = 1e-9) -> tuple[float, float]:
         low, high = float(finite.min()), float(finite.max())
     middle, half = 0.5 * (low + high), max(0.56 * (high - low), 0.5 * least, 1e-9 * abs(high))
     return middle - half, middle + half
+
+
+def with_gaps(lines: np.ndarray) -> np.ndarray:
+    """The points (m, n) of m lines, one after the other with nan behind each."""
+    return np.pad(lines, ((0, 0), (0, 1)), constant_values=np.nan).ravel()
 
 
 def cells(figure: Figure, panels: Sequence, wide: int, labels: tuple[str, str], **shared) -> Iterator[tuple]:

@@ -1,7 +1,7 @@
 """The paper's figures 2-7: configurations, tension and velocity of a breaking line, one panel a case, 10 ms apart."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,8 +27,7 @@ TENSIONS = (-0.1, 1.06)  # of the largest static tension of the two cases that s
 _WIDTH_IN = 5.6  # of all panels of a row
 
 
-@dataclass(frozen=True, eq=False)
-class LinePanel:
+class LinePanel(NamedTuple):
     """Curves of one case: its name, static force; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
 
     case: str

@@ -1,9 +1,9 @@
 """The orbit diagram: strobed points over a parameter, what they are called above, curves over the same axis below."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from itertools import groupby
 from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,8 +29,7 @@ Motions = Mapping[str, tuple[str, str]]  # letter -> its colour, what the legend
 Span = tuple[str, float, float]  # a word, and where on the axis it begins and ends
 
 
-@dataclass(frozen=True, eq=False)
-class Strobes:
+class Strobes(NamedTuple):
     """The points (n,) of one run over its parameter, and the word for its motion, "" for one that nobody judged.
 
     motion: its letter, where one value may have several motions.
@@ -42,22 +41,13 @@ class Strobes:
     motion: str = ""
 
 
-@dataclass(frozen=True)
-class Range:
-    """What holds in a part of the runs: in words, and for each of the columns whether it does."""
-
-    text: str
-    holds: Sequence[bool]
-
-
-@dataclass(frozen=True, eq=False)
-class OrbitDiagram:
+class OrbitDiagram(NamedTuple):
     """Bars with words and ranges, strobed points in the colours of the words, and panels below, on one axis.
 
     columns   by their parameter, one of them at least with points where there are no orbits
     labels    of parameter and points, with units
     below     panels under the points
-    ranges    each a bar above the points, and a shade over all panels
+    ranges    in words, and for each of the columns whether it holds: a bar above the points, a shade over all panels
     marks     (value, text) of vertical lines
     missing   runs without points (crosses)
     motions   where there are several, by letter; each has the points in its colour, and a bar that tells its words by
@@ -69,10 +59,10 @@ class OrbitDiagram:
     columns: Sequence[Strobes]
     labels: tuple[str, str]
     below: Sequence[Panel]
-    ranges: Sequence[Range] = ()
+    ranges: Mapping[str, Sequence[bool]] = {}
     marks: Sequence[tuple[float, str]] = ()
     missing: Sequence[float] = ()
-    motions: Motions = field(default_factory=dict)
+    motions: Mapping[str, tuple[str, str]] = {}
     orbits: Sequence[Curve] = ()
 
     def figure(self, caption: str, alt: str) -> content.Figure:
@@ -148,7 +138,7 @@ class OrbitDiagram:
 
     def _ranges(self) -> list[list[Span]]:
         at = np.array([column.at for column in self.columns])
-        return [_spans(at, part.holds, part.text) for part in self.ranges]
+        return [_spans(at, holds, text) for text, holds in self.ranges.items()]
 
     def _legend(self, wide: int) -> list[list]:
         """Rows of what colours mean, and hatches where there are motions, `wide` of them a row; that of the orbits, the

@@ -14,7 +14,7 @@ from tables import EMPTY, Column, any_rows, count, decimals, listed, number, num
 from ..buoy_sweep.motions import MARKS
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
+from ..parts.content import Figure, Heading, Items, Notice, Report, Table, heads, plain
 from ..parts.folder import Folder, FolderError, part_of, read_folder
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
@@ -35,7 +35,7 @@ _EVENTS = f"Events along the branches. ‡: error above {number(_ACCURATE)}. †
 _COMPLETE = "Every branch was followed to its end, every event is accurate."
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of orbits. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, _NEEDED)
     key = _varied(folder)
@@ -61,7 +61,7 @@ def _varied(folder: Folder) -> Column:
         for column in (str(name), str(name).rpartition(".")[2]):
             if column in folder.columns:
                 return folder.columns[column]
-    raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+    raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
 
 
 def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
@@ -181,7 +181,7 @@ def _coarse(row: Row, key: str) -> bool:
     return not number_of(row, "error") <= _ACCURATE * max(1.0, abs(number_of(row, key)))
 
 
-def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Iterator[Item]:
+def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Items:
     """The orbits themselves at the value that has most of them, and the multipliers of all that were chosen."""
     rows, plane, pull = rows_of(folder, "orbits"), [], []
     if not rows:
@@ -236,7 +236,7 @@ def _complex(row: Row, k: int) -> complex:
     return complex(number_of(row, f"multiplier_{k}_real"), number_of(row, f"multiplier_{k}_imag"))
 
 
-def _multipliers(key: Column, branches: Sequence[Branch]) -> Iterator[Item]:
+def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
     every_value = np.concatenate([branch.at for branch in branches])
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))

@@ -1,15 +1,15 @@
 """What the report on eq. (33) reads, and what it says of periodic orbits and of the equation itself."""
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from analysis.oscillator import SnapOscillator
 from tables import Column, decimals, number, number_of
 
-from ..parts.content import Item, Table, Text, heads
+from ..parts.content import Items, Table, Text, heads
 from ..parts.folder import PARTS as FILES
 from ..parts.folder import FolderError, read_files
 from ..parts.sections import section_items
@@ -27,8 +27,7 @@ NUMBERS = {  # symbol, what it is, source of the usual value
 PARTS = ("section", "history", "exponents", "orbits", "diagram-force", "diagram-frequency")
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
     numbers of eq. (33), `faults` by part where its arrays are not to be had."""
 
@@ -61,9 +60,8 @@ class Study:
         return number_of(self.rows.get(part, {}), column)
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
-    directory = Path(directory)
     # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
     wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
     files = read_files(directory, wanted)
@@ -72,9 +70,9 @@ def read_study(directory: str | Path) -> Study:
         rows = {row["part"]: row for row in files["table.csv"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
-        raise FolderError(directory, [fault]) from error
+        raise FolderError(directory, fault) from error
     if not rows:
-        raise FolderError(directory, ["table.csv cannot be read: it has no rows"])
+        raise FolderError(directory, "table.csv cannot be read: it has no rows")
     arrays, faults = {}, {}
     for part in PARTS:
         try:
@@ -97,7 +95,7 @@ def attracting_orbit(study: Study) -> np.ndarray | None:
     return None
 
 
-def orbit_items(study: Study, arrays: dict) -> list[Item]:
+def orbit_items(study: Study, arrays: dict) -> Items:
     """The periodic orbits with their multipliers."""
     if "table" not in arrays:
         return [Text("Newton's method met no periodic orbit from any of its starts.")]
@@ -130,7 +128,7 @@ def _complex(value: complex) -> str:
     return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
 
 
-def method_items(study: Study) -> list[Item]:
+def method_items(study: Study) -> Items:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():

@@ -1,24 +1,20 @@
 """What the paper leaves out: the list of it, and how much of the answer of section 4.2 hangs on each choice."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from engine import Scene, load_scene
+from engine.natural_frequencies import natural_frequencies
 from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
 
-from ..figures.depth_exponents import Exponents, depth_exponents
+from ..figures.depth_exponents import depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
 from ..parts.columns import plus_minus, table_of
-from ..parts.content import Figure, Heading, Item, Table, Text, heads
+from ..parts.content import Figure, Heading, Items, Table, Text, heads
 from ..parts.folder import Folder, FolderError, provenance_of, read_files
-from ..parts.selecting import entries
-
-if TYPE_CHECKING:
-    from engine import Scene
+from ..parts.selecting import entries, having
 
 TREATMENTS = {
     "extrapolate": "linear waves continued above still water",
@@ -34,7 +30,7 @@ SHORT = (
 )
 
 
-def dependence_items(folder: Folder) -> list[Item]:
+def dependence_items(folder: Folder) -> Items:
     """The section, from the parts of the paper's folder."""
     items = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
     try:
@@ -48,9 +44,6 @@ def dependence_items(folder: Folder) -> list[Item]:
 
 
 def _gaps(directory: Path, scene: Scene) -> Table:
-    from engine import load_scene
-    from engine.natural_frequencies import natural_frequencies
-
     line, tether = load_scene("breaking_line").tether, scene.tether
     modes, tolerance = natural_frequencies(scene), provenance_of(directory / "buoy").get("strobe_tolerance", math.nan)
     out_m, side = math.nan, "below"  # of the water: the top of the sphere at rest
@@ -94,15 +87,6 @@ def _like(rows: list[dict], **wanted) -> list[dict]:
     return sorted(matching, key=lambda row: (row[DEPTH], row[EI]))
 
 
-def curve(name: str, rows: list[dict], over: str) -> Exponents:
-    """Exponent over a column of the table, of the runs that ended as asked."""
-    points = []
-    for row in rows:
-        if row["status"] == "ok":
-            points.append((row[over], row[TANGENT_EXPONENT], row[TANGENT_ERROR], row["regime"]))
-    return name, points
-
-
 def _depth_figure(rows: list[dict]) -> Figure:
     waves, drowned = _treatments(rows, ABOVE), _treatments(rows, DROWNED)
     panels = []
@@ -112,7 +96,7 @@ def _depth_figure(rows: list[dict]) -> Figure:
             curves = []
             for above in waves:
                 members = _like(rows, steepness=kA, **{ABOVE: above, DROWNED: under})
-                curves.append(curve(f"waves: {above}", members, DEPTH))
+                curves.append((f"waves: {above}", having(members, status="ok")))
             panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
     treatments = "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in (*waves, *drowned))
     caption = (
@@ -121,7 +105,7 @@ def _depth_figure(rows: list[dict]) -> Figure:
         f"(columns); marks tell the regime. {treatments}. From `dependence/table.csv`."
     )
     alt = f"Exponent over water depth in {len(panels)} rows of panels, marked by regime."
-    return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
+    return Figure(depth_exponents(panels, DEPTH, r"$H$ (m)"), caption, alt)
 
 
 def _treatments(rows: list[dict], key: str) -> list[str]:
@@ -160,7 +144,7 @@ def _cell(row: dict | None, columns: dict[str, Column]) -> str:
     return f"{regime}, {plus_minus(columns[TANGENT_EXPONENT], columns[TANGENT_ERROR])(row)}"
 
 
-def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
+def _stiffness(rows: list[dict], columns: dict[str, Column]) -> Items:
     shipped = rows[0]
     usual, varied = {}, set()  # rows with the shipped treatments by (kA, H); those of them with several stiffnesses
     for row in rows:
@@ -175,19 +159,19 @@ def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
     panel, shown = {}, []
     for kA, H in sorted(varied):
         by_stiffness = sorted(usual[kA, H], key=lambda row: row[EI])
-        panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", by_stiffness, EI))
+        panel.setdefault(f"kA = {number(kA)}", []).append((f"H = {number(H)} m", having(by_stiffness, status="ok")))
         shown += by_stiffness
     caption = (
         "Largest exponent over the bending stiffness of the tether, which the paper does not give. A positive exponent "
         "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."
     )
-    picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
+    picture = depth_exponents([list(panel.items())], EI, r"$EI$ (N m$^2$)", log=True)
     names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", TANGENT_EXPONENT)
     table = table_of(columns, names, shown, "What the bending stiffness changes.")
     return [heading, Figure(picture, caption, "Exponent over bending stiffness, at each depth a curve."), table]
 
 
-def _plane(part: Path) -> list[Item]:
+def _plane(part: Path) -> Items:
     heading = Heading("Two dimensions or three", 2)
     try:
         study = read_study(part)

@@ -5,7 +5,7 @@ from pathlib import Path
 from tables import FAILS, HOLDS_IF, count, decimals
 
 from ..parts.columns import table_of
-from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
+from ..parts.content import Bullets, Heading, Items, Links, Notice, Report, Text
 from ..parts.folder import Folder, read_folder
 from ..parts.judged import Judged, counted, read_statements, statements_table
 from ..parts.provenance import report_page
@@ -45,7 +45,7 @@ VERDICTS = (
 )
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of `campaigns.paper`. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
     judged = read_statements(folder.directory)
@@ -64,7 +64,7 @@ def report(directory: str | Path) -> Report:
     return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
 
 
-def _question(folder: Folder, judged: list[Judged]) -> list[Item]:
+def _question(folder: Folder, judged: list[Judged]) -> Items:
     items = [
         *section_items("paper", "Question"),
         Heading("What does not simply hold"),
@@ -97,7 +97,7 @@ def short_answer(judged: list[Judged]) -> list[str]:
     return lines
 
 
-def _parts(folder: Folder) -> list[Item]:
+def _parts(folder: Folder) -> Items:
     shown = ("part", "runs", "failed", "run_s", "total_s")
     descriptions, links = [], []
     for part, words in PARTS.items():
@@ -118,7 +118,7 @@ def _parts(folder: Folder) -> list[Item]:
     return [*items, Text(f"{time_text}. {reports_text}"), Links(links)]
 
 
-def _figures(directory: Path) -> list[Item]:
+def _figures(directory: Path) -> Items:
     drawn, missing = figures_of(directory), left_out(directory)
     items = [
         Heading("The figures of the paper"),
@@ -135,7 +135,7 @@ def _figures(directory: Path) -> list[Item]:
     return items
 
 
-def _statements(judged: list[Judged]) -> list[Item]:
+def _statements(judged: list[Judged]) -> Items:
     items = [Heading("The statements of the paper"), Text(VERDICTS)]
     for heading, places in TOPICS.items():
         topic = [row for row in judged if row["place"].startswith(places)]

@@ -217,6 +217,7 @@ class Links:
 
 
 Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet | CellSheets | Links
+Items = Iterable[Item]
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     """Number, place, statement, verdict, evidence of the rows."""
     heads = (
         Head("no."),
-        Head("place", align="left", share=1),
+        Head("place", align="left"),
         Head("the paper", align="left", share=3),
         Head("verdict", align="left", share=3),
         Head("the runs", align="left", share=5),

@@ -1,19 +1,15 @@
 """How a campaign was made: its scene, each value with its source; where its time went; all of provenance.json."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
+from engine import Scene, list_scenes, load_scene
+from engine.scene.reference import keys, sources
 from tables import EMPTY, decimals, number
 
-from .content import Heading, Item, Listing, Notice, Report, Table, Text, heads, with_subscripts
+from .content import Heading, Item, Items, Listing, Notice, Report, Table, Text, heads, with_subscripts
 from .folder import Folder
-
-if TYPE_CHECKING:
-    from engine import Scene
 
 _TIMES = {
     "compile_s": "compiling the kernels",
@@ -23,7 +19,7 @@ _TIMES = {
 }
 
 
-def scene_items(scene: Scene, shipped: str, varied: dict[str, str], caption: str = "") -> list[Item]:
+def scene_items(scene: Scene, shipped: str, varied: dict[str, str], caption: str = "") -> Items:
     """The section with `scene_table`; caption: "" for that of a scene whose defaults are the shipped one's."""
     usual = f"The scene as run, from `scene.toml`; defaults are those of the scene `{shipped}`."
     return [Heading("Scene"), scene_table(scene, shipped, varied, caption or usual)]
@@ -36,9 +32,6 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
     them in its file, and a value that differs is marked "set by the user", as all values of another file are. varied:
     the keys that the campaign varied, with their values in words.
     """
-    from engine import list_scenes, load_scene
-    from engine.scene.reference import keys, sources
-
     default_sources, defaults = {}, {}
     if shipped in list_scenes():
         default_sources = sources(shipped)
@@ -75,7 +68,7 @@ def _key(name: str) -> str:
     return re.sub(r"\[\d+\]", "", name)
 
 
-def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
+def timing_items(folder: Folder, *costs: Item | None) -> Items:
     """What the runs cost: `costs`, where there are any, and the time split of a campaign; nothing for none of them."""
     items, rows = list(filter(None, costs)), []
     for name, time in _flat(folder.provenance.get("timing")):
@@ -90,7 +83,7 @@ def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
     return [Heading("Run times"), *items]
 
 
-def provenance_items(folder: Folder) -> list[Item]:
+def provenance_items(folder: Folder) -> Items:
     """The command and everything else that provenance.json holds."""
     items = [Heading("Provenance")]
     entries = dict(folder.provenance)
@@ -109,9 +102,7 @@ def provenance_items(folder: Folder) -> list[Item]:
     return items
 
 
-def report_page(
-    folder: Folder, title: str, items: Iterable[Item], made: Iterable[Item] | None = None, subtitle: str = ""
-) -> Report:
+def report_page(folder: Folder, title: str, items: Items, made: Items | None = None, subtitle: str = "") -> Report:
     """A report: its items, and how it was made in an appendix that ends with the provenance.
 
     made: of the appendix, in front of the provenance; None: run times and scene. subtitle: "" for the title of the
@@ -132,7 +123,7 @@ def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:
     return Notice("warning", title, lines)
 
 
-def appendix(*items: Item) -> list[Item]:
+def appendix(*items: Item) -> Items:
     """The last section of a report: how it was made; headings among the items divide it."""
     if not items:
         return []

@@ -21,13 +21,13 @@ from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
 from .sheets import cell_sheets
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of maps. Raises FolderError for a folder that is not one."""
     files = read_files(directory, {name: PARTS[name] for name in ("scene.toml", "provenance.json")})
-    folder = Folder(Path(directory), files["provenance.json"], (), files["scene.toml"], {})
+    folder = Folder(directory, files["provenance.json"], (), files["scene.toml"], {})
     atlas = read_atlas(folder)
     if atlas is None:
-        raise FolderError(folder.directory, ["cells/table.csv cannot be read: it has no cells over two keys"])
+        raise FolderError(folder.directory, "cells/table.csv cannot be read: it has no cells over two keys")
     computed = atlas.of_source(COMPUTED) > 0.0
     if computed:
         folder = read_folder(directory, ("status", "motion", "run_key", "periods", "end_time_s", "message"))

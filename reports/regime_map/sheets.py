@@ -1,13 +1,13 @@
 """The sheet of every cell of a map: a page may have thousands, and a script draws the one that is chosen."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from analysis import read_evidence
 from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts.columns import LONGEST_CELL, printed_cells, shown_on
+from ..parts.columns import LONGEST_CELL, Row, printed_cells, shown_on
 from ..parts.content import CellSheets, plain
 from ..parts.folder import Folder
 from ..sweep.quantities import at, colours_of
@@ -47,7 +47,7 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     return CellSheets(fact_heads, sheets)
 
 
-def _place(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
+def _place(row: Row, atlas: Atlas) -> tuple[str, ...]:
     """What joins a row of `table.csv` to its cell."""
     place = []
     for key in atlas.keys:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,14 +12,14 @@ from tables import Column, count, number, number_of
 
 from ..figures.stability import stiffness
 from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Text
+from ..parts.content import Figure, Heading, Items, Notice, Report, Text
 from ..parts.folder import FolderError, read_files
 from ..parts.provenance import appendix, provenance_items, timing_items
 from ..parts.sections import section_items
 from ..parts.selecting import entries, having
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
@@ -55,8 +54,7 @@ SHOWN = (
 DEFAULT = "EA", "EA = 50000 N, regular wave"  # whose cost is the unit
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left: `cases`, rows of text by column. Older tables have rows of random scenes as well."""
 
     provenance: dict
@@ -68,17 +66,17 @@ class Study:
         return having(self.cases, verdict=verdict)
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     files = read_files(directory, FILES)
     table, columns, provenance = files.values()
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
-        raise FolderError(Path(directory), ["table.csv cannot be read: it has no rows, or not those of this campaign"])
+        raise FolderError(directory, "table.csv cannot be read: it has no rows, or not those of this campaign")
     cases = having(table, part="case")
     return Study(provenance, columns, cases)
 
 
-def case_items(study: Study) -> list[Item]:
+def case_items(study: Study) -> Items:
     """One table of all cases, a row with its title before each group."""
     rows = []
     for about in dict.fromkeys(entries(study.cases, "about")):
@@ -92,7 +90,7 @@ def case_items(study: Study) -> list[Item]:
     return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, cells)]
 
 
-def stiffness_items(study: Study) -> Iterator[Item]:
+def stiffness_items(study: Study) -> Items:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
     measured = {}
     unit = math.nan
@@ -122,7 +120,7 @@ def stiffness_items(study: Study) -> Iterator[Item]:
     )
 
 
-def limit_items(study: Study) -> Iterator[Item]:
+def limit_items(study: Study) -> Items:
     """What ended otherwise than "ok", and what the user is told."""
     cells = {"message": lambda row: row["message"].removeprefix("faulty scene: ")}
     sections = (
@@ -138,7 +136,7 @@ def limit_items(study: Study) -> Iterator[Item]:
             yield Text("None.")
 
 
-def unexplained_items(study: Study) -> list[Item]:
+def unexplained_items(study: Study) -> Items:
     """A warning with all that nobody expected, or a note that there is nothing of the kind."""
     lines = []
     for row in study.judged("unexplained"):

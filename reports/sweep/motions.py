@@ -8,7 +8,7 @@ from operator import itemgetter
 from tables import EMPTY, OUTCOMES, UNSETTLED, number, percent
 
 from ..parts.columns import plus_minus, table_of
-from ..parts.content import Heading, Item, Table, Text, heads
+from ..parts.content import Heading, Items, Table, Text, heads
 from ..parts.folder import Folder, part_of
 from .quantities import in_order
 
@@ -32,7 +32,7 @@ def ends_of(folder: Folder, key: str) -> list[dict]:
     return sorted(part.completed, key=lambda row: (row["motion"], row[f"{key}_with"]))
 
 
-def every_motion(folder: Folder, key: str, title: str) -> list[Item]:
+def every_motion(folder: Folder, key: str, title: str) -> Items:
     """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
     items = []
     ends = ends_of(folder, key)

@@ -10,7 +10,7 @@ from tables import Column, listed, number
 
 from ..figures.maps import Map, maps
 from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
+from ..parts.content import Figure, Heading, Items, Notice, Report, Table, Text, plain
 from ..parts.folder import FolderError, read_folder
 from ..parts.provenance import limits, report_page, scene_items, timing_items
 from ..parts.selecting import having
@@ -29,12 +29,12 @@ _EXCURSIONS = {  # words of a message (`engine.trajectory.excursions`) -> what t
 _COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a sweep's folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, ("status", "run_key", "message"))
     vary = folder.provenance.get("vary")
     if not isinstance(vary, dict) or not 1 <= len(vary) <= 2 or not set(vary) <= set(folder.columns):
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
     keys = [folder.columns[name] for name in vary]
     rows, motions = in_order(folder.table, list(vary)), colours_of(folder.table)
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
@@ -73,7 +73,7 @@ def _columns_of(shown: Sequence[Measured]) -> list[Column]:
     return [column for pairs in shown for column, _ in pairs]
 
 
-def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
+def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> Items:
     items = []
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for column in _columns_of(part))
@@ -82,7 +82,7 @@ def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, 
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
-def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> list[Item]:
+def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> Items:
     if not motions:
         return _maps(keys, rows, shown, "")
     items = []
@@ -92,7 +92,7 @@ def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motio
     return items
 
 
-def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
+def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> Items:
     x, y = series(rows, keys[0].name), series(rows, keys[1].name)
     places = np.unique(x), np.unique(y)
     across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)

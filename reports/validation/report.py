@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from tables import count, number, number_of
 
 from ..figures.curves import Curve, Panel, curves
 from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Report, Table, Text, heads
+from ..parts.content import Figure, Heading, Items, Report, Table, Text, heads
 from ..parts.folder import Folder, FolderError, read_files, read_folder
 from ..parts.provenance import report_page, timing_items
 from ..parts.sections import section_items
@@ -24,8 +23,7 @@ RUNS = ("run", "status", "steps", "wall_s", "run_key")
 MANY = 40  # points of a curve from which on it is a line without marks
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left. cases: rows of cases.csv by case; points: by case and curve, (x, ours, theirs) (3, n)."""
 
     folder: Folder
@@ -33,12 +31,12 @@ class Study:
     points: dict[str, dict[str, np.ndarray]]
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     folder, files = read_folder(directory), read_files(directory, FILES)
     judged = files["cases.csv"]
     if not judged or not {"case", *NUMBERS} <= set(judged[0]):
-        raise FolderError(folder.directory, ["cases.csv cannot be read: it has no rows, or not those of this campaign"])
+        raise FolderError(folder.directory, "cases.csv cannot be read: it has no rows, or not those of this campaign")
     cases = {}
     for row in judged:
         cases.setdefault(row["case"], []).append(row)
@@ -52,7 +50,7 @@ def read_study(directory: str | Path) -> Study:
     return Study(folder, cases, arrays)
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [*section_items("validation", "Question"), Heading("All cases"), summary(study)]
@@ -92,7 +90,7 @@ def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) ->
     return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), body, caption)
 
 
-def case_items(study: Study, case: str) -> Iterator[Item]:
+def case_items(study: Study, case: str) -> Items:
     """The page of a case: source, both curves on one axis, numbers and verdicts."""
     rows = study.cases[case]
     first = rows[0]

@@ -4,7 +4,6 @@ import base64
 import json
 import re
 import zlib
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -192,7 +191,7 @@ def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_ma
         known = {(value, colour) for value, colour in seen if np.isfinite(value)}
         assert len(known) == len(dict(known)) > 1
     first = atlas.pages[0]
-    bare = replace(atlas, pages=[replace(first, rows=[row | {_EXPONENT: None} for row in first.rows])])
+    bare = atlas._replace(pages=[first._replace(rows=[row | {_EXPONENT: None} for row in first.rows])])
     titles, rest = ([shown.title for shown in numbers(pages)[0]] for pages in (atlas, bare))
     assert rest == titles[:3]
 

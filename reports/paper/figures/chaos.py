@@ -8,10 +8,9 @@ In the paper: fig. 14 Lyapunov exponents over time; fig. 19 sections: buoy (a), 
 plane of the waves.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
+
+import xarray
 
 from tables import decimals, number
 
@@ -22,9 +21,6 @@ from ...parts.content import Figure
 from ...parts.style import BLUE, INK, VERMILION
 from ...parts.symbols import L_0, T_I
 from .drawing import DASHED, behind, sources_of, spans, value
-
-if TYPE_CHECKING:
-    import xarray
 
 _STYLES = {"large": (VERMILION, "-"), "small": (BLUE, DASHED)}  # solid and dashed as in the paper's key
 _METHODS = {"wolf": ("Wolf", 1.2, 1.0), "tangent": ("tangent", 2.4, 0.4)}
