@@ -17,7 +17,7 @@ def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
-        *section_items("accuracy", "Question"),
+        *section_items("accuracy"),
         Heading("Error against run time"),
         Text(_protocol(study)),
     ]

@@ -23,7 +23,7 @@ _WORDS = {
 
 
 class Setting(NamedTuple):
-    """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended
+    """One timed setting: medians over its rounds. error: in the unit of the work; failed: rounds that ended
     early, the first of them with status and message.
     """
 
@@ -33,10 +33,8 @@ class Setting(NamedTuple):
     control: str
     value: float
     error: float
-    worst: float
     against_ours: float
     wall_s: float
-    rounds: int
     failed: int
     peer: bool
     status: str
@@ -94,10 +92,7 @@ def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
         good, bad = group[group["status"] == "ok"], group[group["status"] != "ok"]
         first = (bad if len(bad) else group).iloc[0]
         middle = good[["error", "error_against_ours", "wall_s"]].median()
-        yield Setting(
-            *named, middle["error"], good["error"].max(), middle["error_against_ours"], middle["wall_s"], len(group),
-            len(bad), first["kind"] == PEER, first["status"], first["message"],
-        )  # fmt: skip
+        yield Setting(*named, *middle, len(bad), first["kind"] == PEER, first["status"], first["message"])
 
 
 LEVELS = {"mm": (5.0, 2.0, 1.0, 0.1, 0.01), "%": (1.0, 0.3, 0.1, 0.03)}

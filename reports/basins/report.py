@@ -1,7 +1,6 @@
 """The report of `campaigns.basins`: what is said, in which order. Everything comes from the campaign's folder."""
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +30,12 @@ _JUDGED = (
     "One judged run a motion. Share: of the starts of the grid. They are no independent draws: the interval is "
     "too wide where the basins are wider than the steps of the grid."
 )
+_SMALLEST = "The smallest start that leads to the motion of the largest tension, bisected to 1 %, on two grids."
+_EDGE = (
+    "Two states on either side of the border between two basins are bisected until they are near each other, "
+    "run side by side until they part, and bisected again (Skufca, Yorke and Eckhardt, Phys. Rev. Lett. 96, "
+    "174101, 2006). Both settle on the edge state, which no start keeps. Its strobed states: `edge/orbit.csv`."
+)
 _MOST = 14  # columns of one table
 _PERIODS = 8  # of a motion without a period, drawn
 
@@ -45,10 +50,14 @@ def report(directory: Path) -> Report:
     motions = []
     if motion_runs is not None:
         motions = [row for row in motion_runs.table if row["motion"]]
-    items = [*_map(folder, across, motions, shock), *section_items("basins", "Question")]
+    items = [*_map(folder, across, motions, shock), *section_items("basins")]
     if motions:
         items += _motions(motion_runs, motions, edge)
-    items += [*_shock(shock), *_edge(edge), Heading("Warnings"), _warnings(folder, across)]
+    if shock is not None:
+        items += [Heading("The smallest start"), *filled_table(shock, _SMALLEST)]
+    if edge is not None:
+        items += [Heading("The edge state"), Text(_EDGE), *filled_table(edge, "The edge state.")]
+    items += [Heading("Warnings"), _warnings(folder, across)]
     return report_page(folder, "Basins: which start ends in which motion", items)
 
 
@@ -116,54 +125,28 @@ def _motions(part: Folder, motions, edge: Folder | None) -> Items:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")
     colours, lines = _colours(motions), []
-    for row in motions:
-        run, _ = part.trajectory(row)
-        if run is not None:
-            lines.append(_loop(run, row["strobed_period"], f"{row['motion']}", colours[row["motion"]]))
+    looks = [(part, row, f"{row['motion']}", "-", "", colours[row["motion"]]) for row in motions]
     if edge is not None:
-        lines += _edge_loops(edge)
+        looks += [(edge, row, "edge state", (0, (3, 1)), "", INK) for row in edge.table if row["run_key"]]
+    for folder, row, *look in looks:
+        run, _ = folder.trajectory(row)
+        if run is not None:
+            lines.append(_loop(run, row["strobed_period"], look))
     if lines:
         caption = "Radial speed over r, of the last periods of each motion and of the edge state between two of them."
         picture = curves([[Panel(lines, "r (m)", "dr/dt (m/s)")]], 3.4, "right")
         yield Figure(picture, caption, f"Phase portrait of {listed(line.name for line in lines)}.")
 
 
-def _edge_loops(edge: Folder) -> Iterator[Curve]:
-    for row in edge.table:
-        if not row["run_key"]:
-            continue
-        run, _ = edge.trajectory(row)
-        if run is not None:
-            yield _loop(run, row["strobed_period"], "edge state", INK, (0, (3, 1)))
-
-
-def _loop(run, period: float, name: str, colour: str, line="-") -> Curve:
-    """The last periods of a run: one orbit, or a few."""
+def _loop(run, period: float, look: list) -> Curve:
+    """The last periods of a run: one orbit, or a few. look: name, line, mark and colour."""
     samples_per_period = round(run.scene.waves.period_s / run.scene.sample_step_s())
     periods, width = _PERIODS, 0.5
     if math.isfinite(period):
         periods, width = int(period), 1.2
     last = slice(-periods * samples_per_period - 1, None)
     radius, rate = run.columns["radius_m"][last], run.columns["radius_rate_mps"][last]
-    return Curve(radius, rate, name, line, "", colour, width=width)
-
-
-def _shock(part: Folder | None) -> Items:
-    if part is not None:
-        yield Heading("The smallest start")
-        caption = "The smallest start that leads to the motion of the largest tension, bisected to 1 %, on two grids."
-        yield from filled_table(part, caption)
-
-
-def _edge(part: Folder | None) -> Items:
-    if part is not None:
-        yield Heading("The edge state")
-        yield Text(
-            "Two states on either side of the border between two basins are bisected until they are near each other, "
-            "run side by side until they part, and bisected again (Skufca, Yorke and Eckhardt, Phys. Rev. Lett. 96, "
-            "174101, 2006). Both settle on the edge state, which no start keeps. Its strobed states: `edge/orbit.csv`."
-        )
-        yield from filled_table(part, "The edge state.")
+    return Curve(radius, rate, *look, width=width)
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:

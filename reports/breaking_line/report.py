@@ -41,7 +41,7 @@ def report(directory: Path) -> Report:
     of_cases = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
     items = [
-        *section_items("breaking_line", "Question"),
+        *section_items("breaking_line"),
         *_section("The cases", table("cases"), *_warnings(lines), text=ended),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
@@ -53,8 +53,11 @@ def report(directory: Path) -> Report:
         *_section("Bending stiffness", table("stiffness")),
         *_section("Doubled grids", table("doubled")),
     ]
-    solved = section_items("breaking_line_solved", law=folder.scene.tether.tension.law)
-    made = [*timing_items(folder, table("cost")), *_scene(folder), *solved]
+    solved = section_items("breaking_line_solved", "Equations", law=folder.scene.tether.tension.law)
+    cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
+    varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
+    scene = scene_items(folder.scene, "breaking_line", varied)
+    made = [*timing_items(folder, table("cost")), *scene, *solved]
     return report_page(folder, "The breaking synthetic line", items, made)
 
 
@@ -105,9 +108,3 @@ def _fronts(folder: Folder, lines: list[Line]) -> list[Item | None]:
     for kind in ("speeds", "shocks"):
         items.append(table_of_runs(lines, folder.columns, kind))
     return [*items, series_table(lines, folder.columns)]
-
-
-def _scene(folder: Folder) -> Items:
-    cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
-    varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
-    return scene_items(folder.scene, "breaking_line", varied)

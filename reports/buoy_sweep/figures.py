@@ -83,7 +83,8 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
             if letter:
                 motions[letter] = (colour, _motion_title(sweep, letter))
     else:
-        below = list(filter(None, (_slack(drawn), exponent, tension)))
+        slack = Curve(series(drawn, "steepness"), 100.0 * series(drawn, "slack_fraction"), colour=INK)
+        below = list(filter(None, (Panel([slack], y_label="slack (%)"), exponent, tension)))
         for word, holds in _excursions(sweep, drawn).items():
             ranges[_EXCURSIONS[word]] = holds
     caption = " ".join(filter(None, _caption(sweep, drawn, static_N)))
@@ -152,11 +153,6 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
         yield f"Not decided: {sweep.at(undecided)}."
     elif sweep.judged:
         yield "Not decided: no run."
-
-
-def _slack(drawn: Sequence[Run]) -> Panel:
-    slack = 100.0 * series(drawn, "slack_fraction")
-    return Panel([Curve(series(drawn, "steepness"), slack, colour=INK)], y_label="slack (%)")
 
 
 def _exponent_panel(sweep: Sweep) -> Panel | None:

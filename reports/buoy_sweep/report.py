@@ -47,7 +47,7 @@ def report(directory: Path) -> Report:
         *runs_items(sweep),
         *sheet_items(sweep),
     ]
-    solved = section_items("buoy_sweep_solved", law=sweep.folder.scene.tether.tension.law)
+    solved = section_items("buoy_sweep_solved", "Equations", law=sweep.folder.scene.tether.tension.law)
     made = [*time_items(sweep), *scene_and_modes(sweep), *solved]
     return report_page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
 
@@ -59,7 +59,7 @@ def _question(sweep: Sweep) -> Items:
     if sweep.colours:
         keys.append(columns["motion"])
     items = [
-        *section_items("buoy_sweep", "Question"),
+        *section_items("buoy_sweep"),
         *extremes(keys, sweep.good, shown, _EXTREMES_CAPTION),
     ]
     if sweep.judged:

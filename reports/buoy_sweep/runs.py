@@ -14,7 +14,7 @@ from engine.natural_frequencies import Modes, natural_frequencies
 from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
-from ..figures.run_sheet import run_sheet
+from ..figures.run_sheet import NOTHING, run_sheet
 from ..parts.folder import Folder, TableRow, part_of, read_folder
 from ..parts.symbols import OMEGA_I, OMEGA_R
 from ..sweep.quantities import colours_of, in_order, series
@@ -75,11 +75,6 @@ class Run(TableRow):
     @property
     def in_space(self) -> bool:
         return self["dimensions"] == 3
-
-    @property
-    def planar_releases(self) -> float:
-        """Loop releases of the planar run: its own, or those of the run that a run in three dimensions replaces."""
-        return self["planar_loop_releases" if self.in_space else "loop_releases"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,12 +213,12 @@ def _read_run(folder: Folder, row: dict, anchor: str = "", draw: Callable | None
 def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) -> str:
     """All that the sheet of a run shows of its trajectory. bins: columns of its histories."""
     columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
-    wave, shown = 2.0 * math.pi / period_s, {}  # shown: what only some runs have
+    wave, amplitudes, exponent = 2.0 * math.pi / period_s, NOTHING, NOTHING
     spectrum = _spectrum(run, trajectory)
     if spectrum is not None:
         frequency = spectrum.angular_frequency_radps
         part = (frequency > 0.0) & (frequency <= 2.5 * wave)
-        shown["spectrum"] = frequency[part], spectrum.amplitude[part]
+        amplitudes = frequency[part], spectrum.amplitude[part]
     if trajectory.tangent is not None:
         growth = trajectory.tangent.growth_nats[run.transient :, :1]
         carried = np.empty(0, int)
@@ -231,7 +226,7 @@ def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) ->
             carried = np.flatnonzero(np.isfinite(growth).all(axis=1))
         if len(carried):  # perturbations may be carried from a later period on
             so_far = np.cumsum(growth[carried, 0]) / np.arange(1, len(carried) + 1) / math.log(2.0)
-            shown["exponent"] = run.transient + 1.0 + carried, so_far
+            exponent = run.transient + 1.0 + carried, so_far
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
@@ -244,7 +239,9 @@ def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) ->
         f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
     )
     section = run.section[:_MOST_POINTS]
-    return run_sheet(seen, bins, columns["time_s"] / period_s, histories, END_PERIODS, section, marks=marks, **shown)
+    return run_sheet(
+        seen, bins, columns["time_s"] / period_s, histories, END_PERIODS, section, amplitudes, marks, exponent
+    )
 
 
 def _spectrum(run: Run, trajectory: Trajectory) -> Spectrum | None:

@@ -30,13 +30,12 @@ def sweep_table(sweep: Sweep, names: Sequence[str], runs: Sequence[Run], caption
     columns = sweep.folder.columns
     filled = shown_on(columns, runs)
     shown = [name for name in dict.fromkeys(("steepness", "motion", *names)) if name in filled]
-    own_cells = {"steepness": _linked_steepness, "share": of_kicks, "strobed_period": _period}
+    own_cells = {
+        "steepness": lambda run: link(number(run.steepness), run.anchor),
+        "share": of_kicks,
+        "strobed_period": _period,
+    }
     return table_of(columns, shown, runs, caption, own_cells)
-
-
-def _linked_steepness(run: Run) -> str:
-    """The steepness of a run as a link to its sheet."""
-    return link(number(run.steepness), run.anchor)
 
 
 def _period(run: Run) -> str:
@@ -66,7 +65,7 @@ def plane_items(sweep: Sweep) -> Items:
     """What is known of motion across the plane of the waves, or nothing."""
     growth_name, error_name = "offplane_growth_bits_per_period", "offplane_growth_error"
     columns = sweep.folder.columns
-    shown = sweep.runs_with(lambda run: run.in_space or run.planar_releases > 0)
+    shown = sweep.runs_with(lambda run: run.in_space or run["loop_releases"] > 0)
     across = sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name))
     if not shown and not across:
         return []

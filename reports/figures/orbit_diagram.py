@@ -71,7 +71,8 @@ class OrbitDiagram(NamedTuple):
 
     def drawn(self, width_in: float = WIDTH_IN) -> content.Picture:
         """The diagram in this width."""
-        words, ranges = self._words(), self._ranges()
+        at = np.array([column.at for column in self.columns])
+        words, ranges = self._words(), [_spans(at, holds, text) for text, holds in self.ranges.items()]
         bars = len(words) + len(ranges)
         bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if self.motions else (_BAR_IN, _MAIN_IN)
         if self.orbits:
@@ -135,10 +136,6 @@ class OrbitDiagram(NamedTuple):
                     words[column.at] = column.word
             spans[letter] = _spans(np.array(at), list(words.values()))
         return spans
-
-    def _ranges(self) -> list[list[Span]]:
-        at = np.array([column.at for column in self.columns])
-        return [_spans(at, holds, text) for text, holds in self.ranges.items()]
 
     def _legend(self, wide: int) -> list[list]:
         """Rows of what colours mean, and hatches where there are motions, `wide` of them a row; that of the orbits, the

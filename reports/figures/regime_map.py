@@ -72,10 +72,10 @@ class Map(NamedTuple):
 def regime_maps(
     shown: Sequence[Map],
     labels: tuple[str, str],
-    legend: Sequence[tuple[str, str]] = (),
-    marks: tuple[Sequence[float], Sequence[float]] = ((), ()),
+    legend: Sequence[tuple[str, str]],
+    marks: tuple[Sequence[float], Sequence[float]],
+    wide: int,
     width_in: float = WIDTH_IN,
-    wide: int = 1,
     kind: str = "svg",
 ) -> tuple[Picture, tuple[MapPlace, ...]]:
     """Maps over the same two parameters, `wide` a row; (picture, the place of each on it).

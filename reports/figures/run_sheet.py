@@ -35,9 +35,9 @@ def run_sheet(
     histories: Sequence[tuple[str, np.ndarray, np.ndarray]],
     last: float,
     section: np.ndarray,
-    spectrum: tuple[np.ndarray, np.ndarray] = NOTHING,
-    marks: Sequence[tuple[float, str]] = (),
-    exponent: tuple[np.ndarray, np.ndarray] = NOTHING,
+    spectrum: tuple[np.ndarray, np.ndarray],
+    marks: Sequence[tuple[float, str]],
+    exponent: tuple[np.ndarray, np.ndarray],
 ) -> str:
     """The drawing, `label` its text alternative; bins: columns of the whole record, fewer make it smaller.
 

@@ -46,7 +46,7 @@ def report(directory: Path) -> Report:
         items.append(_diagram(folder, key, branches, motions))
     located = {key.name: partial(_located, key=key.name)}
     items += filled_table(part_of(folder, "events"), _EVENTS, ("branch", _EVENT[0], key.name, *_EVENT[1:]), located)
-    items += [*section_items("orbits", "Question"), Heading("Warnings"), _warnings(folder, key, branches)]
+    items += [*section_items("orbits"), Heading("Warnings"), _warnings(folder, key, branches)]
     items += _chosen(folder, key, branches)
     if branches:
         items += _multipliers(key, branches)

@@ -32,7 +32,7 @@ def report(directory: Path) -> Report:
     if study.faults:  # before the first heading: on the first page, after the answer
         missing = [f"`{part}`: {reason}." for part, reason in study.faults.items()]
         items.append(Notice("warning", "Parts without results", missing))
-    items += section_items("oscillator", "Question")
+    items += section_items("oscillator")
     for part, (title, section) in SECTIONS.items():
         arrays = study.arrays.get(part)
         items.append(Heading(title))

@@ -31,7 +31,6 @@ class Study(NamedTuple):
     """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
     numbers of eq. (33), `faults` by part where its arrays are not to be had."""
 
-    directory: Path
     provenance: dict
     columns: dict[str, Column]
     rows: dict[str, dict[str, str]]
@@ -45,14 +44,9 @@ class Study(NamedTuple):
         return 2.0 * math.pi / self.oscillator["frequency"]
 
     @property
-    def exponent(self) -> tuple[float, float]:
-        """The largest exponent and its standard error, nats per unit of time."""
-        return self.number("exponents", "lambda_1_nats_per_time"), self.number("exponents", "lambda_1_error")
-
-    @property
     def chaotic(self) -> bool:
         """Whether the largest exponent is positive by more than two standard errors."""
-        value, error = self.exponent
+        value, error = (self.number("exponents", f"lambda_1_{name}") for name in ("nats_per_time", "error"))
         return value - 2 * error > 0.0
 
     def number(self, part: str, column: str) -> float:
@@ -83,7 +77,7 @@ def read_study(directory: Path) -> Study:
             faults[part] = "it has no row in table.csv"
         except FolderError as error:
             faults[part] = rows[part]["message"] or error.faults[0]
-    return Study(directory, files["provenance.json"], files["columns.csv"], rows, arrays, oscillator, faults)
+    return Study(files["provenance.json"], files["columns.csv"], rows, arrays, oscillator, faults)
 
 
 def attracting_orbit(study: Study) -> np.ndarray | None:

@@ -22,7 +22,7 @@ def report(directory: Path) -> Report:
     """The content of the report on an out-of-plane folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
-        *section_items("out_of_plane", "Question"),
+        *section_items("out_of_plane"),
         *sections.statement_items(study),
         *sections.growth_items(study),
         *sections.dependence_items(study),

@@ -24,6 +24,7 @@ TREATMENTS = {
     "spherical-cap": "of the wetted part",
 }
 ABOVE, DROWNED, EI, DEPTH = "above_still_water", "submergence", "bending_stiffness_Nm2", "depth_m"
+_FILES = {"table.csv": "the runs", "columns.csv": "what its columns are"}
 SHORT = (
     "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the shipped "
     "scenes; the rest of this section shows what becomes of the answer with others."
@@ -34,9 +35,11 @@ def dependence_items(folder: Folder) -> Items:
     """The section, from the parts of the paper's folder."""
     items = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
     try:
-        rows, columns = _table(folder.directory / "dependence")
+        files = read_files(folder.directory / "dependence", _FILES)
     except FolderError:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
+    columns = files["columns.csv"]
+    rows = list(by_columns(files["table.csv"], columns))
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
     for steepness in _values(rows, "steepness"):
         items.append(_regimes(rows, columns, steepness))
@@ -68,11 +71,6 @@ def written(name: str, **taken: object) -> Table:
     for row in texts["rows"]:
         rows.append([cell.format(**taken) for cell in row])
     return Table(heads(*texts["heads"]), rows, texts["caption"])
-
-
-def _table(part: Path) -> tuple[list[dict], dict[str, Column]]:
-    files = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
-    return list(by_columns(files["table.csv"], files["columns.csv"])), files["columns.csv"]
 
 
 def _values(rows: list[dict], key: str) -> list:

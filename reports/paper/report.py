@@ -66,7 +66,7 @@ def report(directory: Path) -> Report:
 
 def _question(folder: Folder, judged: list[Judged]) -> Items:
     items = [
-        *section_items("paper", "Question"),
+        *section_items("paper"),
         Heading("What does not simply hold"),
         Bullets(short_answer(judged)),
     ]

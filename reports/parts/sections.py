@@ -7,7 +7,7 @@ from importlib.resources import files
 from .content import Equation, Heading, Items, Text, with_subscripts
 
 
-def section_items(name: str, heading: str = "Equations", **insertions: str) -> Items:
+def section_items(name: str, heading: str = "Question", **insertions: str) -> Items:
     """The texts and equations of a section below its heading, "" for none; insertions: what stands in braces there."""
     items = [Heading(heading)] if heading else []
     for template in _sections()["sections"][name]:

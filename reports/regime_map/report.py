@@ -15,7 +15,6 @@ from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
 from ..parts.provenance import limits, report_page
 from ..parts.sections import section_items
 from ..parts.selecting import having
-from ..parts.style import WIDTH_IN
 from ..sweep.quantities import at
 from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
 from .sheets import cell_sheets
@@ -38,7 +37,7 @@ def report(directory: Path) -> Report:
     other_figures = [_figure(atlas, maps, (), f"Maps over {over}", _OTHERS) for maps in numbers(atlas)]
     if len(other_figures) == 1:
         items += other_figures
-    items += section_items("regime_map", "Question")
+    items += section_items("regime_map")
     if computed:
         items += [Heading("Regimes"), _regimes(atlas)]
     if len(other_figures) > 1:
@@ -68,8 +67,8 @@ def _figure(atlas: Atlas, maps: Sequence[Map], entries, alt: str, caption: str) 
     entries: of the legend.
     """
     across = min(2, len(maps))
-    picture, places = regime_maps(maps, atlas.labels, entries, atlas.marks, WIDTH_IN, across)
-    narrow, narrow_places = regime_maps(maps, atlas.labels, entries, atlas.marks, NARROW_IN, 1)
+    picture, places = regime_maps(maps, atlas.labels, entries, atlas.marks, across)
+    narrow, narrow_places = regime_maps(maps, atlas.labels, entries, atlas.marks, 1, NARROW_IN)
     titles = "; ".join(regime_map.title.replace("\n", ", ") for regime_map in maps)
     return Figure(picture, caption, f"{alt}: {titles}.", narrow=narrow, places=(places, narrow_places))
 
@@ -130,15 +129,11 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
         share = atlas.limited(reason)
         if share:
             lines.append(f"On {percent(share)} of the map {_LIMIT_SENTENCES[name]}.")
-    verdicts = Counter()
-    for row in having(folder.table, status="ok"):
-        verdicts[row.get("verdict")] += 1
-    verdicts.pop("", None)
-    verdicts.pop(None, None)
-    cheap = verdicts["cheap"]
+    verdicts = [row["verdict"] for row in having(folder.table, status="ok") if row.get("verdict")]
+    cheap = verdicts.count("cheap")
     if cheap:
         lines.append(
-            f"{cheap} of {verdicts.total()} verdicts are cheap: the motion repeats at one look. Sheets say which."
+            f"{cheap} of {len(verdicts)} verdicts are cheap: the motion repeats at one look. Sheets say which."
         )
     return limits("What the maps do not tell", lines, "Every cell was computed and has a full verdict.")
 

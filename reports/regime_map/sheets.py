@@ -1,6 +1,6 @@
 """The sheet of every cell of a map: a page may have thousands, and a script draws the one that is chosen."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -27,8 +27,10 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     keys, cells = {"motion", *(key.name for key in atlas.keys)}, printed_cells(columns)
     names = [name for name in shown_on(columns, folder.table, RUNS, REGIMES, longest=LONGEST_CELL) if name not in keys]
     motions_of_places = {}
-    for row, curves in zip(folder.table, _curves(folder), strict=True):
+    strobes_of_runs, no_strobes = _strobes(folder), [_NOTHING] * len(_STROBES)
+    for row in folder.table:
         facts = [cells[name](row) for name in names]
+        curves = [*_history(folder, row), *strobes_of_runs.get(row["run_key"], no_strobes)]  # r and T, twice
         motions_of_places.setdefault(_place(row, atlas), []).append((row, facts, curves))
     sheets = []
     for page in atlas.pages:
@@ -54,14 +56,6 @@ def _place(row: Row, atlas: Atlas) -> tuple[str, ...]:
         value = row[key.name]
         place.append(str(value) if key.digits is None else f"{value:.9g}")
     return tuple(place)
-
-
-def _curves(folder: Folder) -> Iterator[list[np.ndarray]]:
-    """Of each row: histories of r and T, strobed r and T; empty ones where nothing was kept."""
-    nothing = [_NOTHING] * len(_STROBES)
-    strobes_of_runs = _strobes(folder)
-    for row in folder.table:
-        yield [*_history(folder, row), *strobes_of_runs.get(row["run_key"], nothing)]
 
 
 def _strobes(folder: Folder) -> dict[str, list[np.ndarray]]:

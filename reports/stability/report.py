@@ -24,7 +24,7 @@ def report(directory: Path) -> Report:
     study = read_study(directory)
     items = [
         *unexplained_items(study),  # before the first heading: on the first page, after the answer
-        *section_items("stability", "Question"),
+        *section_items("stability"),
         *stiffness_items(study),
         *case_items(study),
         *limit_items(study),

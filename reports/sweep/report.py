@@ -1,7 +1,6 @@
 """The report of `campaigns.sweep`: built from the table and its dictionary of columns alone, whatever was varied."""
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +43,7 @@ def report(directory: Path) -> Report:
     varied, key_cells = {}, {}
     for key in keys:
         varied[key.name] = listed(map(number, np.unique(series(rows, key.name))))
-        key_cells[key.name] = partial(_key_cell, key.name)
+        key_cells[key.name] = lambda row, name=key.name: number(row[name])  # with the digits that it needs
     shipped = str(folder.provenance.get("scene") or folder.scene.name)
     key_names = listed(f"`{name}`" for name in varied)
     if len(keys) == 1:
@@ -149,8 +148,3 @@ def _tables(columns: Mapping[str, Column], key_cells: Mapping[str, Callable], ro
             caption = f"Every run, columns {place} of {len(parts)}."
         tables.append(table_of(columns, [*key_cells, *part], rows, caption, key_cells))
     return tables
-
-
-def _key_cell(name: str, row: Mapping[str, object]) -> str:
-    """The value of a varied key in a row, with the digits that it needs."""
-    return number(float(row[name]))

@@ -24,11 +24,11 @@ MANY = 40  # points of a curve from which on it is a line without marks
 
 
 class Study(NamedTuple):
-    """What the campaign left. cases: rows of cases.csv by case; points: by case and curve, (x, ours, theirs) (3, n)."""
+    """What the campaign left. cases: rows of cases.csv by case; points: by case and curve, rows of (x, ours, theirs)."""
 
     folder: Folder
     cases: dict[str, list[dict[str, str]]]
-    points: dict[str, dict[str, np.ndarray]]
+    points: dict[str, dict[str, list]]
 
 
 def read_study(directory: Path) -> Study:
@@ -37,23 +37,19 @@ def read_study(directory: Path) -> Study:
     judged = files["cases.csv"]
     if not judged or not {"case", *NUMBERS} <= set(judged[0]):
         raise FolderError(folder.directory, "cases.csv cannot be read: it has no rows, or not those of this campaign")
-    cases = {}
+    cases, points = {}, {}
     for row in judged:
         cases.setdefault(row["case"], []).append(row)
-    points = {}
     for row in files["curves.csv"]:
-        curve_points = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
-        curve_points.append([float(row["x"]), float(row["ours"]), float(row["theirs"])])
-    arrays = {}
-    for case, case_curves in points.items():
-        arrays[case] = {name: np.array(curve_points).T for name, curve_points in case_curves.items()}
-    return Study(folder, cases, arrays)
+        point = [float(row[name]) for name in ("x", "ours", "theirs")]
+        points.setdefault(row["case"], {}).setdefault(row["curve"], []).append(point)
+    return Study(folder, cases, points)
 
 
 def report(directory: Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items = [*section_items("validation", "Question"), Heading("All cases"), summary(study)]
+    items = [*section_items("validation"), Heading("All cases"), summary(study)]
     for case in study.cases:
         items += case_items(study, case)
     items += [
@@ -113,7 +109,8 @@ def figure(study: Study, case: str) -> Figure:
     first, pairs = study.cases[case][0], study.points[case]
     *_, last = pairs
     panels = []
-    for name, (x, ours, theirs) in pairs.items():
+    for name, points in pairs.items():
+        x, ours, theirs = np.array(points).T
         theirs_look, ours_look = {"width": 1.6}, {"width": 0.9, "line": (0, (4, 2))}
         if len(x) < MANY:
             theirs_look = {"mark": "o", "size": 7.0, "line": "", "filled": False}

@@ -8,8 +8,6 @@ In the paper: fig. 14 Lyapunov exponents over time; fig. 19 sections: buoy (a), 
 plane of the waves.
 """
 
-from dataclasses import replace
-
 import xarray
 
 from tables import decimals, number
@@ -67,13 +65,13 @@ def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     early = []
     for curve in full_curves:
         begin = curve.x <= first
-        early.append(replace(curve, x=curve.x[begin], y=curve.y[begin]))
+        early.append(curve._replace(x=curve.x[begin], y=curve.y[begin]))
     limits = {"ylim": settled([curve.y for curve in early]), "xmargin": 0.01}
     x_label, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
     panels = [Panel(early, x_label, sigma, level=0.0, settings=limits)]
     if longest > 1.5 * first:
         later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
-        panels = [replace(panels[0], title=f"first {first:.0f} wave periods"), later]
+        panels = [panels[0]._replace(title=f"first {first:.0f} wave periods"), later]
     return panels
 
 
