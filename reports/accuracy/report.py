@@ -6,9 +6,7 @@ from pathlib import Path
 
 from tables import EMPTY, count, decimals, number
 
-from ..parts.content import Bullets, Heading, Items, Report, Table, Text, heads
-from ..parts.provenance import report_page, timing_items
-from ..parts.sections import section_items
+from ..parts import Bullets, Heading, Items, Report, Table, Text, heads, report_page, section_items, timing_items
 from . import sections
 from .sections import Study, read_study
 

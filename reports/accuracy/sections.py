@@ -12,9 +12,7 @@ import numpy as np
 from tables import Column, count, number
 
 from ..figures.work_precision import work_precision
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Items, Table, Text, heads
-from ..parts.folder import Folder, FolderError, read_files, read_folder
+from ..parts import Figure, Folder, FolderError, Heading, Items, Table, Text, heads, read_files, read_folder, table_of
 
 OURS, PEER = "point", "peer"
 _WORDS = {

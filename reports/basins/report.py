@@ -10,12 +10,25 @@ from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
-from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Items, Notice, Report, Text
-from ..parts.folder import Folder, FolderError, part_of, read_folder
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.selecting import having
+from ..parts import (
+    LONGEST_CELL,
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    having,
+    limits,
+    part_of,
+    read_folder,
+    report_page,
+    section_items,
+    shown_on,
+    table_of,
+)
 from ..parts.style import BLUE, INK
 from ..sweep.quantities import batched, colours_of, filled_table
 

@@ -10,7 +10,7 @@ from tables import listed, number, percent
 from ..figures.animations import line_animation, line_strip
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, named, seen
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
-from ..parts.content import Figure
+from ..parts import Figure
 from .runs import FAST, SLOW, Line, of_kind
 
 INSTANT_S = 0.010

@@ -6,11 +6,23 @@ from pathlib import Path
 from tables import count, decimals, listed, number, percent
 
 from ..figures.line_panels import named
-from ..parts.content import Heading, Item, Items, Notice, Report, Text
-from ..parts.folder import Folder, read_folder
-from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import report_page, scene_items, timing_items
-from ..parts.sections import section_items
+from ..parts import (
+    Folder,
+    Heading,
+    Item,
+    Items,
+    Notice,
+    Report,
+    Text,
+    counted,
+    read_folder,
+    read_statements,
+    report_page,
+    scene_items,
+    section_items,
+    statements_table,
+    timing_items,
+)
 from . import figures
 from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, series_table, table_of_runs
 

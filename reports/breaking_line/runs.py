@@ -12,9 +12,7 @@ import xarray
 from tables import Column
 
 from ..figures.line_panels import named
-from ..parts.columns import table_of
-from ..parts.content import Table
-from ..parts.folder import Folder, FolderError, TableRow, read_files
+from ..parts import Folder, FolderError, Table, TableRow, read_files, table_of
 
 Columns = dict[str, Column]
 KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}

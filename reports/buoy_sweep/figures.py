@@ -27,12 +27,8 @@ from tables import (
 from ..figures.animations import Snap, tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts.columns import shown_on
-from ..parts.content import Figure, Heading, Items, Table, Text, heads
-from ..parts.folder import part_of
-from ..parts.selecting import entries
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, shown_on
 from ..parts.style import BLUE, INK, REGIME_COLOURS
-from ..parts.symbols import T_I, T_S
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import Run, Sweep

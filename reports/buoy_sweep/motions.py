@@ -10,7 +10,7 @@ from tables import EMPTY, PEAK, PERIODIC, decimals, listed, number, of_kicks, ra
 
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
-from ..parts.content import Items, Table, heads
+from ..parts import Items, Table, heads
 from ..parts.style import SOFT
 from ..sweep.motions import ends_of
 from ..sweep.quantities import series

@@ -6,10 +6,7 @@ from pathlib import Path
 
 from tables import COARSE, OTHER_MOTION, decimals, number, percent
 
-from ..parts.content import Heading, Items, Notice, Report, Text
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.symbols import T_I, TAU_0
+from ..parts import T_I, TAU_0, Heading, Items, Notice, Report, Text, limits, report_page, section_items
 from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes, series
 from .figures import close_up_items, orbit_figure, regime_items

@@ -15,8 +15,7 @@ from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
 from ..figures.run_sheet import NOTHING, run_sheet
-from ..parts.folder import Folder, TableRow, part_of, read_folder
-from ..parts.symbols import OMEGA_I, OMEGA_R
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, part_of, read_folder
 from ..sweep.quantities import colours_of, in_order, series
 
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper

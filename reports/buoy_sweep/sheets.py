@@ -5,8 +5,7 @@ from collections.abc import Sequence
 
 from tables import EMPTY, count, number
 
-from ..parts.columns import printed_cells, shown_on
-from ..parts.content import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link
+from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, shown_on
 from ..sweep.quantities import series
 from .figures import evidence_table, exponents
 from .runs import END_PERIODS, Run, Sweep

@@ -6,10 +6,24 @@ import numpy as np
 
 from tables import EMPTY, PLANE, RUNS, decimals, listed, number, of_kicks, percent, ranges
 
-from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Items, Table, Text, heads, link
-from ..parts.provenance import scene_items, timing_items
-from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
+from ..parts import (
+    LONGEST_CELL,
+    OMEGA_I,
+    OMEGA_R,
+    OMEGA_THETA,
+    T_S,
+    Figure,
+    Heading,
+    Items,
+    Table,
+    Text,
+    heads,
+    link,
+    scene_items,
+    shown_on,
+    table_of,
+    timing_items,
+)
 from ..sweep.quantities import batched, over_key, series
 from .runs import Run, Sweep
 

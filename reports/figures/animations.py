@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, WIDTH_IN, moving_picture, picture_of, sheet
 from .curves import Curve, Panel, curves, draw
 

@@ -6,9 +6,7 @@ import numpy as np
 
 from tables import TANGENT_ERROR, TANGENT_EXPONENT, number
 
-from ..parts.columns import Row
-from ..parts.content import Picture
-from ..parts.selecting import entries
+from ..parts import Picture, Row, entries
 from ..parts.style import INK
 from ..sweep.quantities import series
 from .curves import COLOURS, Curve, Panel, curves

@@ -7,7 +7,7 @@ import numpy as np
 
 from tables import number
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import SOFT, VERMILION, picture_of, sheet
 from .curves import Curve, Panel, cells, curves
 

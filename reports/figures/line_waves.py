@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
 from .curves import Curve, Panel, cells, curves
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GRID, ORANGE, REGIME_COLOURS, SKY, VERMILION, picture_of, sheet
 from .curves import cells
 

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from .curves import Curve, Panel, curves
 
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre

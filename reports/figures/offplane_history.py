@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, VERMILION
 from .curves import COLOURS, Curve, Panel, curves
 from .motion import envelope

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import MapPlace, Picture
+from ..parts import MapPlace, Picture
 from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .basins import widest
 from .curves import with_gaps

@@ -13,8 +13,7 @@ import numpy as np
 
 from tables import number, sub
 
-from ..parts.content import spans
-from ..parts.symbols import T_I
+from ..parts import T_I, spans
 from .curves import Curve, Panel, wide_limits
 
 _FINE = 5  # units of a path to a pixel

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, VERMILION, picture_of, sheet
 
 _LEAST = 1e-8

@@ -10,9 +10,7 @@ import numpy as np
 from tables import PEAK, any_rows, number_of
 
 from ..figures.curves import COLOURS, Curve, with_gaps
-from ..parts.columns import Row
-from ..parts.folder import Folder, part_of
-from ..parts.selecting import having
+from ..parts import Folder, Row, having, part_of
 from ..parts.style import INK
 from ..sweep.quantities import colours_of, series
 

@@ -14,11 +14,25 @@ from tables import EMPTY, Column, any_rows, count, decimals, listed, number, num
 from ..buoy_sweep.motions import MARKS
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts.content import Figure, Heading, Items, Notice, Report, Table, heads, plain
-from ..parts.folder import Folder, FolderError, part_of, read_folder
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.selecting import entries, having
+from ..parts import (
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Table,
+    entries,
+    having,
+    heads,
+    limits,
+    part_of,
+    plain,
+    read_folder,
+    report_page,
+    section_items,
+)
 from ..parts.style import INK, SOFT
 from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of

@@ -16,10 +16,7 @@ from ..figures.oscillator import (
     oscillator_section,
     oscillator_zooms,
 )
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Items, Notice, Report, Text
-from ..parts.provenance import appendix, provenance_items
-from ..parts.sections import section_items
+from ..parts import Figure, Heading, Items, Notice, Report, Text, appendix, provenance_items, section_items, table_of
 from .sections import NUMBERS, Study, attracting_orbit, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")

@@ -9,10 +9,8 @@ import numpy as np
 from analysis.oscillator import SnapOscillator
 from tables import Column, decimals, number, number_of
 
-from ..parts.content import Items, Table, Text, heads
-from ..parts.folder import PARTS as FILES
-from ..parts.folder import FolderError, read_files
-from ..parts.sections import section_items
+from ..parts import PARTS as FILES
+from ..parts import FolderError, Items, Table, Text, heads, read_files, section_items
 
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
 NUMBERS = {  # symbol, what it is, source of the usual value

@@ -5,11 +5,19 @@ from pathlib import Path
 
 from tables import COST, RUNS, count, listed, number
 
-from ..parts.columns import LONGEST_CELL, shown_on
-from ..parts.content import Heading, Items, Notice, Report
-from ..parts.provenance import report_page, scene_items, timing_items
-from ..parts.sections import section_items
-from ..parts.selecting import entries
+from ..parts import (
+    LONGEST_CELL,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    entries,
+    report_page,
+    scene_items,
+    section_items,
+    shown_on,
+    timing_items,
+)
 from ..sweep.quantities import batched
 from . import sections
 from .runs import VARIED, Run, Study, columns_of_bodies, read_study

@@ -8,10 +8,7 @@ import numpy as np
 
 from tables import BODIES, number
 
-from ..parts.columns import table_of
-from ..parts.content import Table
-from ..parts.folder import Folder, FolderError, TableRow, read_folder
-from ..parts.selecting import having
+from ..parts import Folder, FolderError, Table, TableRow, having, read_folder, table_of
 
 VARIED = (
     "steepness", "depth_m", "bending_stiffness_Nm2", "nodes", "dimensions", "seed_mps", "seed_direction", "profiles",

@@ -9,11 +9,21 @@ from tables import BODIES, PAIRS, PLANE, any_rows, errors_of, number, number_of
 
 from ..figures.motion import section_pairs
 from ..figures.offplane_history import History, dependence, lateral_histories
-from ..parts.columns import shown_on, table_of
-from ..parts.content import Bullets, Figure, Heading, Items, Text
-from ..parts.folder import read_columns
-from ..parts.judged import counted, read_statements, statements_table
-from ..parts.selecting import entries, having
+from ..parts import (
+    Bullets,
+    Figure,
+    Heading,
+    Items,
+    Text,
+    counted,
+    entries,
+    having,
+    read_columns,
+    read_statements,
+    shown_on,
+    statements_table,
+    table_of,
+)
 from .runs import Study, columns_of_bodies, envelope
 
 _PAIRS = "pairs.csv"

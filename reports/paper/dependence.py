@@ -11,10 +11,22 @@ from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, n
 from ..figures.depth_exponents import depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import plus_minus, table_of
-from ..parts.content import Figure, Heading, Items, Table, Text, heads
-from ..parts.folder import Folder, FolderError, provenance_of, read_files
-from ..parts.selecting import entries, having
+from ..parts import (
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Table,
+    Text,
+    entries,
+    having,
+    heads,
+    plus_minus,
+    provenance_of,
+    read_files,
+    table_of,
+)
 
 TREATMENTS = {
     "extrapolate": "linear waves continued above still water",

@@ -9,7 +9,7 @@ import re
 from functools import cache
 from pathlib import Path
 
-from ..parts.content import Heading, Items, Table, Text, heads
+from ..parts import Heading, Items, Table, Text, heads
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("engine", "analysis", "reports")

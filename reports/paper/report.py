@@ -4,12 +4,24 @@ from pathlib import Path
 
 from tables import FAILS, HOLDS_IF, count, decimals
 
-from ..parts.columns import table_of
-from ..parts.content import Bullets, Heading, Items, Links, Notice, Report, Text
-from ..parts.folder import Folder, read_folder
-from ..parts.judged import Judged, counted, read_statements, statements_table
-from ..parts.provenance import report_page
-from ..parts.sections import section_items
+from ..parts import (
+    Bullets,
+    Folder,
+    Heading,
+    Items,
+    Judged,
+    Links,
+    Notice,
+    Report,
+    Text,
+    counted,
+    read_folder,
+    read_statements,
+    report_page,
+    section_items,
+    statements_table,
+    table_of,
+)
 from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside

@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from tables import Column, Row, by_columns, read_columns, read_rows
+from tables import Column, by_columns, read_columns, read_rows
+
+from .columns import Row
 
 if TYPE_CHECKING:
     import xarray

@@ -1,15 +1,19 @@
 """How a campaign was made: its scene, each value with its source; where its time went; all of provenance.json."""
 
+from __future__ import annotations
+
 import re
 import shlex
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
-from engine import Scene, list_scenes, load_scene
-from engine.scene.reference import keys, sources
 from tables import EMPTY, decimals, number
 
 from .content import Heading, Item, Items, Listing, Notice, Report, Table, Text, heads, with_subscripts
 from .folder import Folder
+
+if TYPE_CHECKING:
+    from engine import Scene
 
 _TIMES = {
     "compile_s": "compiling the kernels",
@@ -32,6 +36,9 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
     them in its file, and a value that differs is marked "set by the user", as all values of another file are. varied:
     the keys that the campaign varied, with their values in words.
     """
+    from engine import list_scenes, load_scene
+    from engine.scene.reference import keys, sources
+
     default_sources, defaults = {}, {}
     if shipped in list_scenes():
         default_sources = sources(shipped)

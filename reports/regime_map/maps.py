@@ -9,9 +9,7 @@ import numpy as np
 from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENED, Column, listed, number
 
 from ..figures.regime_map import HATCHES, Cells, Map
-from ..parts.columns import Row
-from ..parts.folder import Folder, part_of
-from ..parts.selecting import entries
+from ..parts import Folder, Row, entries, part_of
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
 from ..sweep.quantities import at, series
 

@@ -10,11 +10,24 @@ from tables import COMPUTED, FAILED, SCREENED, listed, number, percent
 
 from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
-from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
-from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.selecting import having
+from ..parts import (
+    PARTS,
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Notice,
+    Report,
+    Table,
+    having,
+    heads,
+    limits,
+    plain,
+    read_files,
+    read_folder,
+    report_page,
+    section_items,
+)
 from ..sweep.quantities import at
 from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
 from .sheets import cell_sheets

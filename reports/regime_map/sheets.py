@@ -7,9 +7,7 @@ import numpy as np
 from analysis import read_evidence
 from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts.columns import LONGEST_CELL, Row, printed_cells, shown_on
-from ..parts.content import CellSheets, plain
-from ..parts.folder import Folder
+from ..parts import LONGEST_CELL, CellSheets, Folder, Row, plain, printed_cells, shown_on
 from ..sweep.quantities import at, colours_of
 from .maps import LIMITS, PULL, Atlas
 

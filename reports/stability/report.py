@@ -11,12 +11,23 @@ import numpy as np
 from tables import Column, count, number, number_of
 
 from ..figures.stability import stiffness
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Items, Notice, Report, Text
-from ..parts.folder import FolderError, read_files
-from ..parts.provenance import appendix, provenance_items, timing_items
-from ..parts.sections import section_items
-from ..parts.selecting import entries, having
+from ..parts import (
+    Figure,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    appendix,
+    entries,
+    having,
+    provenance_items,
+    read_files,
+    section_items,
+    table_of,
+    timing_items,
+)
 
 
 def report(directory: Path) -> Report:

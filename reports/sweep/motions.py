@@ -7,9 +7,7 @@ from operator import itemgetter
 
 from tables import EMPTY, OUTCOMES, UNSETTLED, number, percent
 
-from ..parts.columns import plus_minus, table_of
-from ..parts.content import Heading, Items, Table, Text, heads
-from ..parts.folder import Folder, part_of
+from ..parts import Folder, Heading, Items, Table, Text, heads, part_of, plus_minus, table_of
 from .quantities import in_order
 
 _METHOD = (

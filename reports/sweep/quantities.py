@@ -8,9 +8,7 @@ import numpy as np
 from tables import EMPTY, PEAK, Column, errors_of, number, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts.columns import Row, shown_on, table_of
-from ..parts.content import Picture, Table, heads
-from ..parts.folder import Folder
+from ..parts import Folder, Picture, Row, Table, heads, shown_on, table_of
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION
 
 PER_ROW = 2

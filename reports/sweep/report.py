@@ -8,11 +8,26 @@ import numpy as np
 from tables import Column, listed, number
 
 from ..figures.maps import Map, maps
-from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Items, Notice, Report, Table, Text, plain
-from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import limits, report_page, scene_items, timing_items
-from ..parts.selecting import having
+from ..parts import (
+    LONGEST_CELL,
+    Figure,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Table,
+    Text,
+    having,
+    limits,
+    plain,
+    read_folder,
+    report_page,
+    scene_items,
+    shown_on,
+    table_of,
+    timing_items,
+)
 from .motions import every_motion
 from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
 
@@ -43,7 +58,7 @@ def report(directory: Path) -> Report:
     varied, key_cells = {}, {}
     for key in keys:
         varied[key.name] = listed(map(number, np.unique(series(rows, key.name))))
-        key_cells[key.name] = lambda row, name=key.name: number(row[name])  # with the digits that it needs
+        key_cells[key.name] = lambda row, name=key.name: number(float(row[name]))  # with the digits that it needs
     shipped = str(folder.provenance.get("scene") or folder.scene.name)
     key_names = listed(f"`{name}`" for name in varied)
     if len(keys) == 1:

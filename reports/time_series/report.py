@@ -6,8 +6,7 @@ from pathlib import Path
 from tables import printed
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
-from ..parts.content import Figure, Heading, Items, Listing, Report, Table, Text, heads
-from ..parts.folder import FolderError, read_files
+from ..parts import Figure, FolderError, Heading, Items, Listing, Report, Table, Text, heads, read_files
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
 PASSED = {True: "yes", False: "no", None: "not asked"}

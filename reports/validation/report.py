@@ -10,11 +10,23 @@ import numpy as np
 from tables import count, number, number_of
 
 from ..figures.curves import Curve, Panel, curves
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Items, Report, Table, Text, heads
-from ..parts.folder import Folder, FolderError, read_files, read_folder
-from ..parts.provenance import report_page, timing_items
-from ..parts.sections import section_items
+from ..parts import (
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Report,
+    Table,
+    Text,
+    heads,
+    read_files,
+    read_folder,
+    report_page,
+    section_items,
+    table_of,
+    timing_items,
+)
 from ..parts.style import BLUE, VERMILION
 
 FILES = {"cases.csv": "cases and verdicts", "curves.csv": "both curves of each case"}
@@ -24,7 +36,7 @@ MANY = 40  # points of a curve from which on it is a line without marks
 
 
 class Study(NamedTuple):
-    """What the campaign left. cases: rows of cases.csv by case; points: by case and curve, rows of (x, ours, theirs)."""
+    """What the campaign left. cases: rows of cases.csv by case; points: (x, ours, theirs) by case and curve."""
 
     folder: Folder
     cases: dict[str, list[dict[str, str]]]

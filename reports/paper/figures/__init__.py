@@ -12,8 +12,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from ...parts.content import Figure
-from ...parts.folder import read_arrays
+from ...parts import Figure, read_arrays
 from .breaking import breaking
 from .buoy import history, spectra
 from .chaos import offplane_histories, running_exponents, sections

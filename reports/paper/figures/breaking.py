@@ -10,7 +10,7 @@ import xarray
 from tables import number, sub
 
 from ...figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, seen
-from ...parts.content import Figure
+from ...parts import Figure
 from .drawing import behind, value
 
 F_HS = "F" + sub("h,s")

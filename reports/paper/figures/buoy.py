@@ -16,9 +16,8 @@ from tables import decimals, listed, number, sub
 
 from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import envelope, spectrum_panels
-from ...parts.content import Figure
+from ...parts import L_0, OMEGA_I, T_I, T_S, TAU_0, Figure
 from ...parts.style import BLUE, GREEN, INK, VERMILION
-from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
 from .drawing import DASHED, behind, sources_of, spans, value
 
 DETAIL_PERIODS = 10

@@ -15,9 +15,8 @@ from tables import decimals, number
 from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import settled
 from ...figures.offplane_history import History, lateral_histories
-from ...parts.content import Figure
+from ...parts import L_0, T_I, Figure
 from ...parts.style import BLUE, INK, VERMILION
-from ...parts.symbols import L_0, T_I
 from .drawing import DASHED, behind, sources_of, spans, value
 
 _STYLES = {"large": (VERMILION, "-"), "small": (BLUE, DASHED)}  # solid and dashed as in the paper's key

@@ -10,7 +10,7 @@ import xarray
 
 from tables import decimals, number
 
-from ...parts.symbols import RHO_W
+from ...parts import RHO_W
 
 DASHED = (0, (4, 1.5))  # the second of two lines of the paper's keys
 
