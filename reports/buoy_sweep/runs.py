@@ -121,22 +121,15 @@ class Sweep:
         return colours_of(self.runs)
 
     @cached_property
-    def chosen(self) -> frozenset[Run]:
+    def chosen(self) -> list[Run]:
         """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
         drawable = self.runs_with(lambda run: run.drawing)
         good = [run for run in drawable if run.ok] or drawable
-        if not good:
-            return frozenset()
-        places, several = set(), None  # several: the first run that repeats after several periods
+        chosen = [run for run in good if (run.period or 0) > 1][:1]
         for kA in PAPER_STEEPNESS:
-            places.add(min(good, key=lambda run: abs(run.steepness - kA)).steepness)
-        chosen = set()
-        for run in good:
-            if several is None and (run.period or 0) > 1:
-                several = run
-            if run is several or run.steepness in places:
-                chosen.add(run)
-        return frozenset(chosen)
+            nearest = min((run.steepness for run in good), key=lambda steepness: abs(steepness - kA), default=None)
+            chosen += [run for run in good if run.steepness == nearest]
+        return chosen
 
     def runs_with(self, condition: Callable[[Run], object]) -> list[Run]:
         """The runs of the table for which the condition holds."""

@@ -95,7 +95,9 @@ class OrbitDiagram(NamedTuple):
                 panels.append(figure.add_subplot(grid[place], sharex=top))
             enlarged = None if self.orbits else _small(self.columns, bool(self.motions))
             inch = self._set_span(top, width_in, _NUMBERS_IN if enlarged else _EDGE_IN)
-            above = [figure.add_subplot(grid[place], sharex=top) for place in range(bars)]
+            above = [figure.add_subplot(grid[place], sharex=top, ylim=(0.0, 1.0)) for place in range(bars)]
+            for axes in above:
+                axes.axis("off")
             for axes, (letter, spans) in zip(above, words.items(), strict=False):
                 colour = self.motions[letter][0] if self.motions else ""
                 _word_bar(axes, spans, inch, letter, colour)
@@ -232,8 +234,6 @@ def _hatched(kind: str, colour: str) -> dict[str, object]:
 
 def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str) -> None:
     """Words as a bar with numbers of periods: in their colours, or hatched in that of a motion, its letter beside."""
-    axes.axis("off")
-    axes.set_ylim(0.0, 1.0)
     look = {"va": "center", "fontsize": 7.0}
     for word, low, high in spans:
         kind, number_text = _kind(word), word.removeprefix(_PERIOD)
@@ -249,8 +249,6 @@ def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str
 
 def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     """Spans as a bar of one shade, with its text once."""
-    axes.axis("off")
-    axes.set_ylim(0.0, 1.0)
     look = {"va": "center", "fontsize": 7.0}
     for _, low, high in spans:
         axes.axvspan(low, high, facecolor=SHADES[-1], linewidth=0.0)
@@ -259,14 +257,13 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     text, low, high = max(spans, key=lambda span: span[2] - span[1])
     x_min, x_max = axes.get_xlim()
     wide = _LETTER_IN * len(text) / inch
+    place, side = x_min, "left"
     if high - low > wide:
         place, side = 0.5 * (low + high), "center"
     elif low - x_min >= wide:
         place, side = low, "right"
     elif x_max - high > wide:
-        place, side = high, "left"
-    else:
-        place, side = x_min, "left"
+        place = high
     axes.text(place, 0.45, text, ha=side, **look)
 
 
@@ -278,10 +275,8 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
     for column in columns:
         groups.setdefault((column.word, column.motion), []).append(column)
     for (word, motion), members in sorted(groups.items()):
-        x, y = [], []
-        for column in members:
-            x.append(np.full(len(column.points), column.at))
-            y.append(column.points)
+        points = [column.points for column in members]
+        x = np.repeat([column.at for column in members], list(map(len, points)))
         wide, thick, alpha = 1.6, 0.45, 0.8
         if word.startswith(_PERIOD):
             thick = 1.1
@@ -296,7 +291,7 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
         else:
             colour = _NEUTRAL
         look = {"markersize": min(max(wide * room, 1.2), 6.0), "markeredgewidth": thick, "rasterized": True}
-        axes.plot(np.concatenate(x), np.concatenate(y), "_", color=colour, alpha=alpha, **look)
+        axes.plot(x, np.concatenate(points), "_", color=colour, alpha=alpha, **look)
 
 
 def _small(columns: Sequence[Strobes], several: bool) -> tuple[list[Strobes], tuple[float, float], float] | None:

@@ -83,6 +83,8 @@ def regime_maps(
     labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
     and on y with a small triangle at the edge.
     """
+    from matplotlib.cm import ScalarMappable
+
     rows, entries = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
     height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // entries) + 0.2
     with sheet(height_in, width_in) as figure:
@@ -93,7 +95,10 @@ def regime_maps(
         for axes, regime_map in zip(grid.flat, shown, strict=False):
             _drawn(axes, regime_map, marks)
             if regime_map.scale is not None:
-                _scale(figure, axes, *regime_map.scale)
+                colours, norm, ticks = regime_map.scale
+                bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, ticks=ticks, pad=0.02, aspect=24)
+                bar.outline.set_linewidth(0.4)
+                bar.ax.minorticks_off()
         for axes in grid.flat[max(len(shown) - wide, 0) : len(shown)]:
             axes.set_xlabel(labels[0])
             axes.tick_params(labelbottom=True)
@@ -180,14 +185,6 @@ def _written(axes, regime_map: Map, x: np.ndarray, y: np.ndarray, top: np.ndarra
 def _middles(edges: np.ndarray) -> np.ndarray:
     """The middles of `_FINE` equal spans between the first and the last edge."""
     return np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2]
-
-
-def _scale(figure, axes, colours, norm, ticks) -> None:
-    from matplotlib.cm import ScalarMappable
-
-    bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, ticks=ticks, pad=0.02, aspect=24)
-    bar.outline.set_linewidth(0.4)
-    bar.ax.minorticks_off()
 
 
 def _handle(look: str, text: str):

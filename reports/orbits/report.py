@@ -84,16 +84,18 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     simulated, named = _simulated(key, motions, colours)
     met = Counter()
     for branch in branches:
-        met.update(str(kind) for kind in branch.kinds if kind)
+        met.update(branch.kinds.tolist())
+    met.pop("", None)
     lines = {}
     for quantity in branches[0].seen:
         lines[quantity] = []
-        for branch in branches:
-            lines[quantity] += branch.lines(quantity)
-        for branch in branches:  # marks stand over all lines
-            lines[quantity] += branch.marks(quantity)
+        for drawn in (Branch.lines, Branch.marks):  # marks stand over all lines
+            for branch in branches:
+                lines[quantity] += drawn(branch, quantity)
     for branch in branches:
-        lines["modulus"].append(_scatter(branch, key))
+        at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
+        bars = series(branch.orbits, "multiplier_1_error")
+        lines["modulus"].append(Curve(at, modulus, line="", colour=branch.colour, error=bars))
     top, far = _largest(branches, "peak"), _largest(branches, "modulus")
     for curve in simulated:
         top = max(top, float(np.nanmax(curve.y, initial=0.0)))
@@ -162,12 +164,6 @@ def _legend(kinds: Sequence[str]) -> list[Curve]:
     for kind in kinds:
         looks.append((kind, "", EVENTS[kind]))
     return [Curve(_NOWHERE, _NOWHERE, *look, INK, size=3.4) for look in looks]
-
-
-def _scatter(branch: Branch, key: Strobes) -> Curve:
-    """The errors of the modulus along a branch, as bars."""
-    at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
-    return Curve(at, modulus, line="", colour=branch.colour, error=series(branch.orbits, "multiplier_1_error"))
 
 
 def _texts(branches: Sequence[Branch], offset: float) -> Iterator[tuple[float, float, str, str]]:
