@@ -12,7 +12,7 @@ import xarray
 from tables import Column
 
 from ..figures.line_panels import named
-from ..parts import Folder, FolderError, Table, TableRow, read_files, table_of
+from ..parts import Folder, FolderError, Table, TableRow, having, read_files, table_of
 
 Columns = dict[str, Column]
 KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}
@@ -116,7 +116,7 @@ def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     """The runs that ended as asked, kind by kind."""
     runs = []
     for kind in kinds:
-        runs += [line for line in lines if line["kind"] == kind and line.ok]
+        runs += having(lines, kind=kind, status="ok")
     return runs
 
 

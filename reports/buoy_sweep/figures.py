@@ -173,7 +173,7 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
         return None
     names, colours = np.array(words), REGIME_COLOURS
     if sweep.colours:
-        names, colours = np.array([run.motion for run in sweep.judged]), sweep.colours
+        names, colours = np.array(entries(sweep.judged, "motion")), sweep.colours
     marks = dict(zip(sweep.colours, MARKS, strict=False))
     lines = []
     for name in dict.fromkeys(names[known]):

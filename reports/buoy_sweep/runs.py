@@ -15,7 +15,7 @@ from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
 from ..figures.run_sheet import NOTHING, run_sheet
-from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, part_of, read_folder
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, entries, having, part_of, read_folder
 from ..sweep.quantities import colours_of, in_order, series
 
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
@@ -95,7 +95,7 @@ class Sweep:
     @cached_property
     def good(self) -> list[Run]:
         """The runs that reached their full length."""
-        return self.runs_with(lambda run: run.ok)
+        return having(self.runs, status="ok")
 
     @cached_property
     def judged(self) -> list[Run]:
@@ -124,11 +124,11 @@ class Sweep:
     def chosen(self) -> list[Run]:
         """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
         drawable = self.runs_with(lambda run: run.drawing)
-        good = [run for run in drawable if run.ok] or drawable
+        good = having(drawable, status="ok") or drawable
         chosen = [run for run in good if (run.period or 0) > 1][:1]
         for kA in PAPER_STEEPNESS:
-            nearest = min((run.steepness for run in good), key=lambda steepness: abs(steepness - kA), default=None)
-            chosen += [run for run in good if run.steepness == nearest]
+            nearest = min(entries(good, "steepness"), key=lambda steepness: abs(steepness - kA), default=None)
+            chosen += having(good, steepness=nearest)
         return chosen
 
     def runs_with(self, condition: Callable[[Run], object]) -> list[Run]:

@@ -143,8 +143,8 @@ def dependence_items(study: Study) -> Items:
 def _curve(runs, body: str, stiffness: float) -> tuple:
     chosen = having(runs, bending_stiffness_Nm2=stiffness)
     depth_m = np.array(entries(chosen, "depth_m"))
-    late_m = np.array([run[f"{body}_lateral_late_m"] for run in chosen])
-    decays = np.array([run[f"{body}_motion"] == "decay" for run in chosen])
+    late_m = np.array(entries(chosen, f"{body}_lateral_late_m"))
+    decays = np.array(entries(chosen, f"{body}_motion")) == "decay"
     return f"EI = {number(stiffness)} N m²", depth_m, late_m, decays
 
 

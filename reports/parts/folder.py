@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from tables import Column, by_columns, read_columns, read_rows
 
 from .columns import Row
+from .selecting import having
 
 if TYPE_CHECKING:
     import xarray
@@ -56,7 +57,7 @@ class Folder(NamedTuple):
     @property
     def completed(self) -> list[Row]:
         """The rows of the runs that reached their full length."""
-        return [row for row in self.table if row["status"] == "ok"]
+        return having(self.table, status="ok")
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"

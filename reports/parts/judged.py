@@ -7,6 +7,7 @@ from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS
 
 from .content import Head, Table
 from .folder import FolderError, read_files
+from .selecting import entries
 
 Judged = dict[str, str]
 
@@ -24,7 +25,7 @@ def read_statements(directory: Path) -> list[Judged]:
 
 def counted(rows: Iterable[Judged]) -> str:
     """How many hold, and so on: "3 hold, 1 do not hold"."""
-    verdicts = [row["verdict"] for row in rows]
+    verdicts = entries(rows, "verdict")
     counts = []
     for word, phrase in VERDICTS.items():
         if word in verdicts:
