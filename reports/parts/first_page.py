@@ -19,7 +19,7 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
     if path.exists() and "timing" in provenance:
         lines = path.read_text(encoding="utf-8").splitlines()
         if lines:
-            first_page.append(Bullets(list(map(printed, lines))))
+            first_page.append(Bullets(tuple(map(printed, lines))))
     duration = how_long(provenance, any_rows(directory / "table.csv"))
     if duration:
         first_page.append(Text(duration))

@@ -116,7 +116,7 @@ def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(d
 
 def test_curves_of_a_validation_are_called_whose_they_are(drawn):
     case = dict.fromkeys(("title", "verdict", "quantity", "x_label", "y_label", "ours", "theirs"), "told")
-    figure(Study(None, {"a": [case]}, {"a": {"b": np.array([[0.0, 1.0], [3.0, 3.0], [5.0, 5.0]])}}), "a")
+    figure(Study(None, {"a": [case]}, {"a": {"b": [[0.0, 3.0, 5.0], [1.0, 3.0, 5.0]]}}), "a")
     seen = {line.get_label(): line.get_ydata()[0] for line in drawn[0].axes[0].lines}
     assert seen == {"ours": 3.0, "theirs": 5.0}
 
