@@ -114,7 +114,7 @@ def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_mo
 
 def test_the_tests_behind_a_regime_are_told_with_its_reason(sweep):
     tables = [evidence_table(run) for run in read_sweep(sweep).judged]
-    assert [table.rows for table in tables] == [(("halves", "−0.5", "0.01", "no"),)] * 3
+    assert [table.rows for table in tables] == [[("halves", "−0.5", "0.01", "no")]] * 3
     assert tables[2].caption == "Evidence at kA = 0.13, in the order of the tests: it drifts."
 
 

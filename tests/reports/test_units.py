@@ -55,7 +55,9 @@ def test_a_spectrum_is_linear_with_its_peak_in_sight_and_logarithmic_over_four_d
 def test_a_sheet_has_tensions_in_kN_and_exponents_in_bits(monkeypatch):
     """A perturbation that doubles each wave period grows by one bit."""
     shown = {}
-    monkeypatch.setattr(runs, "run_sheet", lambda *given, **panels: shown.update(panels, pull=given[3][0]))
+    monkeypatch.setattr(
+        runs, "run_sheet", lambda *given: shown.update(pull=given[3][0], spectrum=given[6], exponent=given[8])
+    )
     tangent = SimpleNamespace(growth_nats=np.full((60, 1), math.log(2.0)))
     runs.drawing(Run(SOUND, transient=40, periods_done=60.0), replace(sines(SCENE, 60), tangent=tangent), 80, None)
     at, bits = shown["exponent"]
