@@ -14,7 +14,7 @@ from campaigns.explore.rows import COLUMNS
 from reports import build, content_of
 from reports.buoy_sweep.figures import evidence_table, orbit_figure
 from reports.buoy_sweep.runs import read_sweep
-from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Range, Strobes
+from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Strobes
 from reports.parts.content import Bullets, Figure, Heading, Text, plain
 from reports.parts.first_page import how_long
 from reports.parts.html import render_html
@@ -44,8 +44,8 @@ def bar_of(axes):
 def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_it_holds(drawn):
     between = [Strobes(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
     columns = sorted(columns_of() + between, key=lambda one: one.at)
-    loops = Range("loops released", [column.at > 0.12 for column in columns])
-    OrbitDiagram(columns, LABELS, [], [loops], [(0.13, "paper")]).drawn()
+    loops = {"loops released": [column.at > 0.12 for column in columns]}
+    OrbitDiagram(columns, LABELS, [], loops, [(0.13, "paper")]).drawn()
     top, bar, released = drawn[0].axes
     points = points_of(top)
     assert sum(map(len, points.values())) == len(columns)
@@ -114,7 +114,7 @@ def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_mo
 
 def test_the_tests_behind_a_regime_are_told_with_its_reason(sweep):
     tables = [evidence_table(run) for run in read_sweep(sweep).judged]
-    assert [table.rows for table in tables] == [(("halves", "−0.5", "0.01", "no"),)] * 3
+    assert [table.rows for table in tables] == [[("halves", "−0.5", "0.01", "no")]] * 3
     assert tables[2].caption == "Evidence at kA = 0.13, in the order of the tests: it drifts."
 
 

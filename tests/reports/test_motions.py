@@ -123,9 +123,9 @@ def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
     motions, *_ = tables = [item for item in items if isinstance(item, Table)]
     assert [row[0] for row in motions.rows] == ["A", "B"]
-    assert motions.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
+    assert motions.rows[1][5:7] == ["2 of 8 to 8 of 8", "kick and rest"]
     (starts,) = (table for table in tables if "Starts at" in table.caption)
-    assert starts.rows == (("0.03", "4", "0", "3", "1", "A 2, B 1"),)
+    assert starts.rows == [("0.03", "4", "0", "3", "1", "A 2, B 1")]
 
 
 def test_a_run_between_takes_the_colour_of_the_motion_that_it_is_like(several):

@@ -4,7 +4,6 @@ import base64
 import json
 import re
 import zlib
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -144,7 +143,7 @@ def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
     nothing = np.zeros(12, bool)
     for kinds, length in (((i + j) % 2, 3 * 3 + 4 * 2), (i > 1.5, 3), (0 * i, 0)):
         cells = Cells(np.column_stack([i, i + 1, j, j + 1]), kinds.astype(str), nothing, nothing)
-        (picture, places) = regime_maps([Map(cells, "", np.full(12, "#a0a0a0"))], ("x", "y"))
+        (picture, places) = regime_maps([Map(cells, "", np.full(12, "#a0a0a0"))], ("x", "y"), (), ((), ()), 1)
         line = drawn[-1].axes[0].lines[0]
         steps = np.diff(np.column_stack(line.get_data()).reshape(-1, 3, 2)[:, :2], axis=1)
         assert np.abs(steps).sum() == pytest.approx(length)
@@ -192,7 +191,7 @@ def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_ma
         known = {(value, colour) for value, colour in seen if np.isfinite(value)}
         assert len(known) == len(dict(known)) > 1
     first = atlas.pages[0]
-    bare = replace(atlas, pages=[replace(first, rows=[row | {_EXPONENT: None} for row in first.rows])])
+    bare = atlas._replace(pages=[first._replace(rows=[row | {_EXPONENT: None} for row in first.rows])])
     titles, rest = ([shown.title for shown in numbers(pages)[0]] for pages in (atlas, bare))
     assert rest == titles[:3]
 
