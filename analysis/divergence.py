@@ -11,7 +11,6 @@ distances are small, and ends at the size of the attractor. Only the middle is a
 a straight middle has none to give, however well a line may be put through it.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +19,7 @@ from numpy.typing import ArrayLike
 from analysis.embedding import choose_embedding, delay_vectors
 from analysis.exponents import Exponent, no_exponent
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_count, checked_positive, checked_series, locked, record_of_numbers
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 LEAST_SAMPLES = 200
@@ -33,7 +32,7 @@ PIECES = 4
 MOST_CURVATURE = 0.25
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class ScalingRegion:
     """A straight part of y(t).
 
@@ -126,7 +125,7 @@ def _slope_of(growth, step_s, period, details):
     for block in np.array_split(growth, BLOCKS, axis=1):
         slopes.append(np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0])
     scatter = np.std(slopes, ddof=1) / np.sqrt(BLOCKS)
-    error = float(np.hypot(region.error, scatter))
+    error = np.hypot(region.error, scatter)
     return Exponent(region.slope, error, "nats/time", ROSENSTEIN, region.reason, details)
 
 
@@ -157,7 +156,7 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
             if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:
                 straight = True
                 if span >= LEAST_SPAN_NATS and (best is None or span > best[0]):
-                    best = span, slope, float(np.std(pieces)), begin, end - 1
+                    best = span, slope, np.std(pieces), begin, end - 1
     if best is None:
         why = "no straight rising part"
         if straight:
@@ -165,7 +164,7 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
         return ScalingRegion(np.nan, np.nan, -1, -1, np.nan, f"{why}; the curve rises by {np.ptp(y):.2g} nats in all")
     span, slope, error, begin, end = best
     reason = f"straight from {t[begin]:.4g} to {t[end]:.4g}, rising by {span:.2g} nats"
-    return ScalingRegion(float(slope), error, begin + cut, end + cut, float(span), reason)
+    return ScalingRegion(slope, error, begin + cut, end + cut, span, reason)
 
 
 def _line(t, y):

@@ -16,14 +16,13 @@ its nearest neighbour in m dimensions and z the distance in coordinate m + 1,
     E2(m) = mean z at m + 1 / mean z at m:   1 for every m when the future does not depend on the past (noise)
 """
 
-from dataclasses import dataclass
 from math import comb
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_count, checked_series, record
 
 LEAST_SAMPLES_PER_PERIOD = 6.0
 PERIODS_SEARCHED = 3.0
@@ -39,14 +38,13 @@ NOISE_CENTRES = 400
 NOISE_REACH = 3
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class DelayChoice:
     """A delay and the curve from which it was read.
 
     delay                    [samples]
     reason                   one sentence: first minimum, or what was taken for want of one
     information (k + 1,)     I(L) at L = 0 ... k [nats]; I(0) is the entropy of the cells
-    bias                     what independent samples would show on average, (cells - 1)^2/(2 pairs) [nats]
     cells                    cells per axis, equally filled
     mean_period              mean period of the series [samples]
     """
@@ -54,12 +52,11 @@ class DelayChoice:
     delay: int
     reason: str
     information: np.ndarray
-    bias: float
     cells: int
     mean_period: float
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class EmbeddingChoice:
     """Delay and dimension of an embedding with the curves from which they were read; index m - 1 belongs to m.
 
@@ -190,7 +187,7 @@ def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice
             if minimum:
                 minimum_text = f"at {minimum}"
             reason = f"a quarter of the mean period; first minimum of the mutual information: {minimum_text} samples"
-    return DelayChoice(delay, reason, locked(information), (cells - 1) ** 2 / (2.0 * len(x)), cells, period)
+    return DelayChoice(delay, reason, information, cells, period)
 
 
 def _first_minimum(information, reach):
@@ -245,9 +242,8 @@ def choose_embedding(
     words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {max_dimension}"
     if not (kennel or cao):
         words += ": noise, or a motion of higher dimension"
-    curves = locked(share), locked(e1), locked(e2)
     dimension = kennel or cao or max_dimension
-    return EmbeddingChoice(dimension, kennel, cao, words, lag, chosen.mean_period, chosen, theiler, *curves)
+    return EmbeddingChoice(dimension, kennel, cao, words, lag, chosen.mean_period, chosen, theiler, share, e1, e2)
 
 
 def _first(holds):

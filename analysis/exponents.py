@@ -72,17 +72,10 @@ class Exponent:
     def in_bits_per_period(self, period: float) -> Exponent:
         """The same estimate per forcing period, sigma = lambda T_i/ln 2 of eq. (32); `period` in the unit of time of
         the sampling step. `details` stay in the units in which the estimator wrote them."""
-        return self._in_unit(BITS_PER_PERIOD, lambda: checked_positive(period, "period") / np.log(2.0))
-
-    def in_nats_per_time(self, period: float) -> Exponent:
-        """The same estimate per unit of time, lambda = sigma ln 2/T_i; `period` is the forcing period it was stated for
-        (in the unit of time wanted)."""
-        return self._in_unit(NATS_PER_TIME, lambda: np.log(2.0) / checked_positive(period, "period"))
-
-    def _in_unit(self, unit, factor):
-        if self.unit == unit:
+        if self.unit == BITS_PER_PERIOD:
             return self
-        return replace(self, value=self.value * factor(), error=self.error * factor(), unit=unit)
+        factor = checked_positive(period, "period") / np.log(2.0)
+        return replace(self, value=self.value * factor, error=self.error * factor, unit=BITS_PER_PERIOD)
 
 
 def no_exponent(

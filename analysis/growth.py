@@ -19,14 +19,13 @@ dips on both of their sides (prominence), as far as they reach LEAST_SHARE of th
 What it cannot tell: luck. Where ln|y| is a random walk, three in ten records of 250 periods have such a part.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_count, checked_positive, checked_series, record
 
 METHOD = "straight part of the logarithm of the envelope"
 LEAST_SPAN_NATS = 3.0
@@ -38,7 +37,7 @@ LEAST_SHARE = 0.01
 _ENDS = 64  # candidates for each end of the straight part: enough to find it to two per cent of the record
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Growth:
     """What a record of magnitudes does.
 
@@ -107,7 +106,7 @@ def envelope_of(magnitude: ArrayLike, step: float, span: float) -> tuple[np.ndar
 
 
 def _without_rate(kind, reason, time=(), size=()):
-    bursts = locked(np.array(time, dtype=float)), locked(np.array(size, dtype=float))
+    bursts = np.array(time, dtype=float), np.array(size, dtype=float)
     return Growth(kind, reason, no_exponent(METHOD, reason), np.nan, np.nan, np.nan, *bursts)
 
 
@@ -131,11 +130,11 @@ def _straight_part(time, size, least_span):
                 continue
             straight = True
             if _separates(y, begin, end, slope):
-                error = max(error, float(np.std(quarters, ddof=1)) / np.sqrt(QUARTERS))
+                error = max(error, np.std(quarters, ddof=1) / np.sqrt(QUARTERS))
                 best = span, slope, error, t[begin], t[end - 1]
     if best is not None:
-        span, slope, error, begin, end = map(float, best)
-        reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", locked(np.empty(0))
+        span, slope, error, begin, end = best
+        reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", np.empty(0)
         rate = Exponent(slope, error, NATS_PER_TIME, METHOD, reason)
         return Growth("growth" if slope > 0 else "decay", reason, rate, begin, end, span, none, none)
     if straight:
@@ -177,7 +176,7 @@ def _separates(y, begin, end, slope):
     earlier, later = y[:begin], y[end:]
     if slope < 0.0:
         earlier, later = later, earlier
-    return bool(np.all(earlier < middle) and np.all(later > middle))
+    return np.all(earlier < middle) and np.all(later > middle)
 
 
 def _bursts(size, least_span):

@@ -5,13 +5,11 @@ and below their lines. Lines are found one at a time, largest above its surround
 all fitted together after each (as CLEAN does, so that side lobes of a strong line do not pass for weaker ones).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
-from analysis.sampling import checked_columns, checked_count, locked
+from analysis.sampling import checked_columns, checked_count, record
 
 # Noise exceeds this many times its local mean once in e^12 bins.
 LINE_ABOVE_FLOOR = 12.0
@@ -23,7 +21,7 @@ _PADDING = 8
 _NEGLIGIBLE = 1e-12
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class LineSpectrum:
     """Lines of a record and what they leave.
 
@@ -76,9 +74,7 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     variance = z.var(axis=0)
     unexplained = np.mean((z - fitted) ** 2, axis=0) / np.where(variance > 0.0, variance, 1.0)
     reconstructed = reconstructed[:, 0] if np.ndim(series) == 1 else reconstructed
-    return LineSpectrum(
-        locked(np.array(frequency)), locked(amplitude * unit), locked(reconstructed), locked(unexplained)
-    )
+    return LineSpectrum(np.array(frequency), amplitude * unit, reconstructed, unexplained)
 
 
 def _next_line(rest, known):

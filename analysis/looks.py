@@ -186,7 +186,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     def look(word: str, reason: str) -> _Look:
         return _Look(word, reason + repeats, evidence, estimate, start, end)
 
-    rising = bool(later.value > LATER * later.error)
+    rising = later.value > LATER * later.error
     if later.found:
         sentence = "bits per period in the later half, which have to be positive by two errors for chaos"
         evidence.append(Evidence("later half", later.value, LATER * later.error, rising, sentence, later.error))
@@ -203,7 +203,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         too_few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
         return look("transient" if _comes_nearer(estimate) else "undecided", too_few)
     exponent, bits = full.value, full.value * len(known)
-    positive, grown = bool(exponent > POSITIVE * full.error), bool(bits > LEAST_BITS)
+    positive, grown = exponent > POSITIVE * full.error, bits > LEAST_BITS
     sentence = f"bits per period, of the tangent dynamics over {len(known)} periods"
     evidence += [
         Evidence("exponent", exponent, POSITIVE * full.error, positive, sentence, full.error),
@@ -215,7 +215,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     if repeats:
         return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
     bound = abs(exponent) + 2.0 * full.error
-    about_zero = bool(bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * full.error))
+    about_zero = bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * full.error)
     sentence = f"|exponent| and two errors, bits per period; if it is positive, less than {SHEAR:g} bits in all"
     evidence.append(Evidence("about zero", bound, ABOUT_ZERO, about_zero, sentence))
     neighbours = growth_evidence(section, tolerance)
@@ -244,10 +244,10 @@ def _confirmation(estimate: PeriodEstimate, full: Exponent, later: Exponent) -> 
         largest = min(full.value + LATER * full.error, later.value + LATER * later.error)
         rising = later.value > LATER * later.error
         sentence = "bits per period by which perturbations grow at most, two errors included"
-        return Evidence(NO_GROWTH, largest, SEEN, bool(largest < SEEN and not rising), sentence)
-    residual, bound = float(estimate.residual[estimate.period - 1]), CLOSELY * estimate.tolerance
+        return Evidence(NO_GROWTH, largest, SEEN, largest < SEEN and not rising, sentence)
+    residual, bound = estimate.residual[estimate.period - 1], CLOSELY * estimate.tolerance
     sentence = "share of the scale by which the period is missed, where perturbations do not tell"
-    return Evidence(CLOSE, residual, bound, bool(residual <= bound), sentence)
+    return Evidence(CLOSE, residual, bound, residual <= bound, sentence)
 
 
 def _comes_nearer(estimate: PeriodEstimate):
@@ -279,7 +279,7 @@ def _tighter(exponent):
         return Evidence(
             "tighter tolerance", np.nan, 0.0, False, f"no exponent at a tighter tolerance: {exponent.reason}"
         )
-    passed = bool(exponent.value > LATER * exponent.error)
+    passed = exponent.value > LATER * exponent.error
     grows = "grow too" if passed else "do not grow for certain"
     sentence = (
         f"at a tighter tolerance perturbations {grows}: {exponent.value:.3f} ± {exponent.error:.3f} bits per period"

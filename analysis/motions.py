@@ -16,14 +16,13 @@ How often each is wrong, and after how many periods it answers: docs/motions.md#
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.periods import PeriodEstimate, detect_period
-from analysis.sampling import checked_columns, checked_count, checked_positive, locked
+from analysis.sampling import checked_columns, checked_count, checked_positive, record, record_of_numbers
 from analysis.stationarity import record_drift
 
 LEAST_WINDOW = 30  # periods of each of two windows of a motion without a period
@@ -38,7 +37,7 @@ OF_CLOUD = 0.3  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Settled:
     """A motion that has settled.
 
@@ -56,7 +55,7 @@ class Settled:
     reason: str
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class Share:
     """The share of starts that end in one motion, and the ends of its confidence interval."""
 
@@ -191,7 +190,7 @@ def share_of(count: int, of: int, confidence: float = 0.95) -> Share:
 
     count, of = checked_count(count, "count", least=0), checked_count(of, "of")
     interval = binomtest(count, of).proportion_ci(confidence, method="wilson")
-    return Share(count / of, float(interval.low), float(interval.high))
+    return Share(count / of, interval.low, interval.high)
 
 
 def _checked(strobed, measures, scale):
@@ -205,7 +204,7 @@ def _checked(strobed, measures, scale):
 
 
 def _kept(period, points, measures, scale, reason):
-    return Settled(period, *map(locked, map(np.array, (points, measures, scale))), reason)
+    return Settled(period, *map(np.array, (points, measures, scale)), reason)
 
 
 def _size(measures):

@@ -13,12 +13,10 @@ size at once. Noise of a record on a torus lifts d at n = 1, since the nearest p
 further: growth is counted from the mean over n = 1, 2, 3.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, checked_count, in_deviations, locked, states_of
+from analysis.sampling import checked_columns, checked_count, in_deviations, record, states_of
 
 LEAST_POINTS = 40
 EARLY = slice(1, 4)
@@ -58,7 +56,7 @@ def nearest_outside(
     return index, distance
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class NeighbourGrowth:
     """How far pairs of neighbours part.
 
@@ -94,15 +92,15 @@ def neighbour_growth(section: ArrayLike, delays: int | None = None, theiler: int
     if len(x) < LEAST_POINTS:
         why_not = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
     if why_not:
-        return NeighbourGrowth(np.nan, np.nan, np.nan, locked(np.zeros(0)), why_not)
+        return NeighbourGrowth(np.nan, np.nan, np.nan, np.zeros(0), why_not)
     state = states_of(z, x.shape[1], delays)
     horizon = len(state) // 4
     distance = _distance(state, horizon, theiler) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
     early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
     later = f"are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
     reason = f"neighbours {np.exp(early):.2g} of the section apart {later}"
-    rate = float((late - early) / (0.75 * horizon - 2.0))
-    return NeighbourGrowth(float(late - early), float(np.exp(late)), rate, locked(distance), reason)
+    rate = (late - early) / (0.75 * horizon - 2.0)
+    return NeighbourGrowth(late - early, np.exp(late), rate, distance, reason)
 
 
 def _distance(state, horizon, theiler):

@@ -1,4 +1,8 @@
-"""What every measure needs of an evenly sampled record: checked arrays, and its value at a given time."""
+"""What every measure needs: checked arrays, the value of a series at a given time, and the records of results."""
+
+from dataclasses import dataclass
+from functools import partial
+from typing import dataclass_transform
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -91,3 +95,24 @@ def locked(array: ArrayLike) -> np.ndarray:
     array = np.asarray(array)
     array.flags.writeable = False
     return array
+
+
+@dataclass_transform(frozen_default=True, eq_default=False)
+def record(fields: type, eq: bool = False) -> type:
+    """A frozen dataclass of these fields: its arrays are read-only, its numbers are Python's and not NumPy's.
+
+    eq: whether two of them are equal that have equal entries. Arrays have no such answer.
+    """
+
+    def finish(self):
+        for name, entry in vars(self).items():
+            if isinstance(entry, np.ndarray):
+                object.__setattr__(self, name, locked(entry.view()))
+            elif isinstance(entry, np.generic):
+                object.__setattr__(self, name, entry.item())
+
+    fields.__post_init__ = finish
+    return dataclass(frozen=True, eq=eq)(fields)
+
+
+record_of_numbers = partial(record, eq=True)

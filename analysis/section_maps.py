@@ -24,14 +24,14 @@ No pair of neighbours has to be followed past the reach of noise, which is why 2
 Noise on the record flattens the slopes: the exponent comes out too small, and below 0 for a noisy cycle.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import BITS_PER_PERIOD, Exponent, no_exponent
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_columns, checked_count, in_deviations, states_of
+from analysis.sampling import checked_columns, checked_count, in_deviations, record, states_of
 from analysis.tangent_growth import tangent_lyapunov
 
 METHOD = "derivative of the section's map, Eckmann & Ruelle 1985"
@@ -42,7 +42,7 @@ _RIDGE = 1e-3
 _LEAST_GROWTH = 1e-12
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class PredictionGain:
     """Errors of two predictors of the next point, and their ratio.
 
@@ -107,7 +107,7 @@ def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int 
             if error < local:
                 local, best = error, (rows, neighbours, slopes)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
-    gain = float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
+    gain = np.log(max(linear, 1e-9) / max(local, 1e-9))
     reason = f"errors {linear:.3g} linear and {local:.3g} local, of a standard deviation: a gain of {gain:.2f} nats"
     return PredictionGain(gain, linear, local, reason, *(best or ()))
 
@@ -137,7 +137,7 @@ def _linear_error(state, target):
     u = u[:, s > 1e-9 * s[0]]
     residual = target - u @ (u.T @ target)
     leverage = np.minimum(np.sum(u**2, axis=1, keepdims=True), 1.0 - 1e-6)
-    return float(np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2)))
+    return np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2))
 
 
 def _local_maps(state, target, theiler):
@@ -156,4 +156,4 @@ def _local_maps(state, target, theiler):
         square = square + (_RIDGE * trace / size + 1e-24) * np.eye(size)
         slope = np.linalg.solve(square, spread @ (aim[:, :count] - mean))
         predicted = mean[:, 0] - (centre @ slope)[:, 0]
-        yield float(np.sqrt(np.mean((predicted - target) ** 2))), count, slope
+        yield np.sqrt(np.mean((predicted - target) ** 2)), count, slope

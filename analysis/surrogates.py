@@ -18,13 +18,12 @@ The statistic is the gain of prediction (`section_maps`). A rank test that can n
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.line_spectra import spectral_lines
-from analysis.sampling import checked_columns, checked_count, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, checked_series, record
 from analysis.section_maps import prediction_gain
 
 LEAST_POINTS = 32
@@ -38,7 +37,7 @@ NULL_POINTS = 1000
 AT_ONCE = 4  # surrogates made together
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class NullRank:
     """Where a record stands among its surrogates.
 
@@ -130,8 +129,8 @@ def rank_among(statistic: float, surrogates: ArrayLike, share: float = SHARE) ->
         raise ValueError(f"surrogates: {needed} at least are needed for a share of {share:g}, given {len(drawn)}")
     below = (np.sum(drawn < value) + 0.5 * np.sum(drawn == value)) / len(drawn)
     # Of s + 1 equally likely places the record must hold one of the best (1 - share)(s + 1); a tie counts against it.
-    above = bool(np.sum(drawn >= value) + 1 <= (1.0 - share) * (len(drawn) + 1) + 1e-9)
-    return NullRank(above, float(below), value - float(np.median(drawn)), value, locked(drawn))
+    above = np.sum(drawn >= value) + 1 <= (1.0 - share) * (len(drawn) + 1) + 1e-9
+    return NullRank(above, below, value - np.median(drawn), value, drawn)
 
 
 def null_ranks(section: np.ndarray, surrogates: int, seed: Seed) -> list[NullRank]:
@@ -173,7 +172,7 @@ def rank_until_lost(statistic: float, drawn: Iterator[float], surrogates: int, s
     if len(values) == surrogates:
         return rank_among(statistic, values, share)
     below = np.mean(np.array(values) < statistic)
-    return NullRank(False, float(below), float(statistic - np.median(values)), statistic, locked(np.array(values)))
+    return NullRank(False, below, statistic - np.median(values), statistic, np.array(values))
 
 
 def _drawn(series, count, seed, fitted):

@@ -1,6 +1,6 @@
 """Both Lyapunov exponents of eq. (33) with errors one may believe, at its parameters and over one of them."""
 
-from dataclasses import astuple, dataclass, replace
+from dataclasses import astuple, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,14 +10,14 @@ from analysis.oscillator.attractors import PAPER_BOX, settled_periods
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.strobing import growth_over_values
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_count, checked_series, record
 
 METHOD = "tangent map of eq. (33), QR every period (Benettin et al. 1980)"
 PARAMETERS = ("damping", "frequency", "force", "lift")
 _WATCHED = 640  # periods after the averages in which a start may show that it was on a periodic orbit
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class SnapExponents:
     """Both exponents of one attractor, averaged over independent starts.
 
@@ -150,7 +150,7 @@ def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     return SnapExponents(*exponents, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class SnapDiagram:
     """An orbit diagram with exponents; p values, n starts each.
 

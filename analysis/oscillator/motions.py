@@ -1,7 +1,5 @@
 """Motions of eq. (33): the strobed states, and the motion between them with its switching times."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -10,7 +8,7 @@ from analysis.oscillator.crossings import state_at
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.pieces import tables
 from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbits
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_count, checked_series, record
 
 
 def checked_start(start: ArrayLike) -> tuple[float, float]:
@@ -68,7 +66,7 @@ def strobed_states_within(
     return tuple(states[i, : counts[i]].copy() for i in range(len(boxes))), int(seen)
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class SnapMotion:
     """A motion of eq. (33) between strobes; time in units of 1/omega_r.
 
