@@ -44,10 +44,13 @@ def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
     return (moving - moving.mean(axis=0) if centred else moving) / size[moves]
 
 
-def states_of(z: np.ndarray, coordinates: int, rows: int | None = None) -> np.ndarray:
-    """Consecutive rows of z (n, c) side by side, the last one first: (n - rows + 1, c rows). None: as many rows as make
-    3 or more of a state's numbers, where a row has this many coordinates, unmoved ones counted."""
-    rows = -(-3 // coordinates) if rows is None else checked_count(rows, "delays")
+def rows_of_state(coordinates: int) -> int:
+    """As few rows of a section with so many coordinates, unmoved ones counted, as make a state of 3 or more numbers."""
+    return -(-3 // coordinates)
+
+
+def states_of(z: np.ndarray, rows: int) -> np.ndarray:
+    """Consecutive rows of z (n, c) side by side, the last one first: (n - rows + 1, c rows)."""
     return np.hstack([z[rows - 1 - lag : len(z) - lag] for lag in range(rows)])
 
 

@@ -30,8 +30,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import BITS_PER_PERIOD, Exponent, no_exponent
-from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_columns, checked_count, in_deviations, record, states_of
+from analysis.neighbours import THEILER, nearest_outside
+from analysis.sampling import checked_columns, in_deviations, record, rows_of_state, states_of
 from analysis.tangent_growth import tangent_lyapunov
 
 METHOD = "derivative of the section's map, Eckmann & Ruelle 1985"
@@ -76,34 +76,32 @@ class PredictionGain:
         return growth
 
 
-def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> PredictionGain:
+def prediction_gain(section: ArrayLike) -> PredictionGain:
     """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
 
     section (m,) or (m, d)   one row a forcing period
-    delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: from one to as few as make
-                             a state of 3 or more numbers, whichever predicts best
-    theiler                  points within this many periods of the one predicted are no neighbours of it
     Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
-    takes eight states per number in a state, and the window.
+    takes eight states per number in a state, and the window. Rows taken together as one state, (x_k, x_{k-1}, ...), are
+    from one to as few as make a state of 3 or more numbers, whichever predict best.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
     """
-    x, theiler = checked_columns(section, "section"), checked_count(theiler, "theiler", least=0)
+    x = checked_columns(section, "section")
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
         return PredictionGain(np.nan, np.nan, np.nan, "no motion: the section is one point to the last digits")
-    longest = -(-3 // x.shape[1]) if delays is None else checked_count(delays, "delays")
+    longest = rows_of_state(x.shape[1])
     size, points = longest * z.shape[1], len(z) - longest
-    needed = LEAST_PER_COORDINATE * (size + 1) + 2 * theiler
+    needed = LEAST_PER_COORDINATE * (size + 1) + 2 * THEILER
     if points < needed:
         wanted = f"{needed + longest} points are needed for a state of {size} numbers"
         return PredictionGain(np.nan, np.nan, np.nan, f"too short: {wanted}, given {len(x)}")
     target, linear, local, best = z[longest:], np.inf, np.inf, None
-    for rows in range(1 if delays is None else longest, longest + 1):
-        state = states_of(z, x.shape[1], rows)[:-1][-points:]
+    for rows in range(1, longest + 1):
+        state = states_of(z, rows)[:-1][-points:]
         linear = min(linear, _linear_error(state, target))
-        for error, neighbours, slopes in _local_maps(state, target, theiler):
+        for error, neighbours, slopes in _local_maps(state, target):
             if error < local:
                 local, best = error, (rows, neighbours, slopes)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
@@ -112,16 +110,16 @@ def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int 
     return PredictionGain(gain, linear, local, reason, *(best or ()))
 
 
-def section_lyapunov(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> tuple[Exponent, ...]:
+def section_lyapunov(section: ArrayLike) -> tuple[Exponent, ...]:
     """The largest exponent of a section's map, of the whole record and of each half, in bits per row of the section.
 
-    section, delays, theiler   as in `prediction_gain`
+    section   as in `prediction_gain`
     Returns three Exponents, NaN with the reason where the section is too short or does not move. The error is that of
     the mean growth; what noise does to the slopes is not in it.
     Source: J.-P. Eckmann & D. Ruelle, Rev. Mod. Phys. 57 (1985) 617; in noise: D. Nychka, S. Ellner, D. McCaffrey &
     A. R. Gallant, J. R. Stat. Soc. B 54 (1992) 399; error: `analysis.tangent_growth`.
     """
-    gain = prediction_gain(section, delays, theiler)
+    gain = prediction_gain(section)
     if not np.isfinite(gain.gain):
         return (no_exponent(METHOD, gain.reason, BITS_PER_PERIOD),) * 3
     growth = gain.growth_nats()
@@ -140,13 +138,13 @@ def _linear_error(state, target):
     return np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2))
 
 
-def _local_maps(state, target, theiler):
+def _local_maps(state, target):
     """(rms error, neighbours, slopes (points, s, c)) of affine maps fitted to the nearest neighbours of each state,
     itself not among them, for each number of neighbours."""
     points, size = state.shape
-    largest = points - 2 * theiler - 1
+    largest = points - 2 * THEILER - 1
     counts = sorted({min(per_coefficient * (size + 1), largest) for per_coefficient in NEIGHBOURS_PER_COEFFICIENT})
-    near, _ = nearest_outside(state, theiler, count=counts[-1])
+    near, _ = nearest_outside(state, THEILER, count=counts[-1])
     offset, aim = state[near] - state[:, None, :], target[near]
     for count in counts:
         centre, mean = offset[:, :count].mean(axis=1, keepdims=True), aim[:, :count].mean(axis=1, keepdims=True)
