@@ -154,13 +154,10 @@ def _alone(look: _Look, goes_on: bool) -> bool:
     if look.word.startswith("period"):
         bits = look.evidence[-1].value * (look.end - look.start)  # a slow torus repeats too, and hardly shrinks
         return look.start == look.end // 3 and look.evidence[-1].name == NO_GROWTH and bits < -SHEAR
-    return (look.word == "chaotic" and goes_on) or _clear(look)
-
-
-def _clear(look: _Look) -> bool:
-    """A torus whose exponent is below its bound with more than two errors."""
-    exponent = next((item for item in look.evidence if item.name == "exponent"), None)
-    return look.word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+    if look.word == "quasi-periodic":
+        (exponent,) = (item for item in look.evidence if item.name == "exponent")
+        return abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+    return look.word == "chaotic" and goes_on
 
 
 def _look(x, growth, end, scale, tolerance, max_period) -> _Look:
@@ -276,9 +273,8 @@ def _on_the_way(growth):
 
 def _tighter(exponent):
     if not exponent.found:
-        return Evidence(
-            "tighter tolerance", np.nan, 0.0, False, f"no exponent at a tighter tolerance: {exponent.reason}"
-        )
+        sentence = f"no exponent at a tighter tolerance: {exponent.reason}"
+        return Evidence("tighter tolerance", np.nan, 0.0, False, sentence)
     passed = exponent.value > LATER * exponent.error
     grows = "grow too" if passed else "do not grow for certain"
     sentence = (

@@ -88,7 +88,7 @@ def settled(
         rounds = max(len(late) // 2 // period, 1)
         mean = e[-rounds * period :].reshape(rounds, period, -1).mean(axis=0)
         # The orbit ends with the last state, the measures with the period before it.
-        return _kept(period, np.roll(estimate.orbit, 1, axis=0), mean, scale, estimate.reason)
+        return Settled(period, np.roll(estimate.orbit, 1, axis=0), mean, scale, estimate.reason)
     window = (len(e) - len(e) // 3) // 2
     if window < LEAST_WINDOW or _comes_nearer(late, estimate):
         return None
@@ -100,7 +100,7 @@ def settled(
         return None
     distances = f"lie {across:.2g} of the scale apart, neighbours within them {within:.2g}"
     reason = f"no period up to {max_period}; two windows of {window} periods {distances}"
-    return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
+    return Settled(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
 
 
 def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.2) -> int | None:
@@ -197,14 +197,10 @@ def _checked(strobed, measures, scale):
     x, e = checked_columns(strobed, "strobed"), checked_columns(measures, "measures")
     if len(x) != len(e) + 1:
         raise ValueError(f"measures: {len(x) - 1} rows are needed for {len(x)} states, given {len(e)}")
-    scale = np.broadcast_to(np.asarray(scale, dtype=float), x.shape[1])
+    scale = np.broadcast_to(np.array(scale, dtype=float), x.shape[1])
     for entry in scale:
         checked_positive(entry, "scale")
     return x, e, scale
-
-
-def _kept(period, points, measures, scale, reason):
-    return Settled(period, *map(np.array, (points, measures, scale)), reason)
 
 
 def _size(measures):

@@ -100,10 +100,7 @@ def outlying(series: ArrayLike) -> np.ndarray:
 
 def _line(values):
     """Change along the least-squares line over the blocks, first to last, and the correlation with time."""
-    time = np.arange(len(values)) - 0.5 * (len(values) - 1)
-    deviation = values - values.mean()
-    total = np.sqrt(np.sum(deviation**2))
-    if total <= 1e-12 * max(1.0, np.abs(values).max()):
+    if np.std(values) <= 1e-12 * max(1.0, np.abs(values).max()):
         return 0.0, 0.0
-    slope = np.sum(time * deviation) / np.sum(time**2)
-    return slope * (len(values) - 1), np.sum(time * deviation) / (np.sqrt(np.sum(time**2)) * total)
+    time = np.arange(len(values))
+    return np.polyfit(time, values, 1)[0] * time[-1], np.corrcoef(time, values)[0, 1]

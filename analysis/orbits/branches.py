@@ -31,14 +31,12 @@ class Branch:
     """Orbits along a branch, in order.
 
     orbits    tuple of Orbit; of an island, the last is the first again
-    rates     (m,) change of the parameter along the branch, in parameter_size a unit of arclength: 0 at a fold
     closed    whether it is an island
     ends      why it ends where it begins, and where it ends: two sentences
     events    tuple of Event, in order
     """
 
     orbits: tuple[Orbit, ...]
-    rates: np.ndarray
     closed: bool
     ends: tuple[str, str]
     events: tuple[Event, ...]
@@ -85,8 +83,7 @@ def follow_branch(
     if not closed:
         back, earlier_events, begin, _ = follower.one_way(_reversed(first), step)
         places, events = [*map(_reversed, back[::-1]), *places], earlier_events[::-1] + events
-    rates = np.array([place.rate for place in places])
-    return Branch(tuple(place.orbit for place in places), rates, closed, (begin, end), tuple(events))
+    return Branch(tuple(place.orbit for place in places), closed, (begin, end), tuple(events))
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,7 +28,6 @@ class SnapExponents:
     dimension_error
     of_start (n, 2)      exponents of each start on the attractor
     of_block (n, b, 2)   and of each block of each start
-    periods_of_start     forcing periods of each start's average
     starts, elsewhere    starts that count, and starts left out because they settled on a periodic orbit
     slack_fraction       share of the time without tension
     convergence (b, 3)   running mean of first over the blocks: time, mean over starts, standard error of that mean
@@ -41,7 +40,6 @@ class SnapExponents:
     dimension_error: float
     of_start: np.ndarray
     of_block: np.ndarray
-    periods_of_start: int
     starts: int
     elsewhere: int
     slack_fraction: float
@@ -147,7 +145,7 @@ def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     )
     uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
     measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
-    return SnapExponents(*exponents, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
+    return SnapExponents(*exponents, *measures, starts, elsewhere, float(slack.mean()), convergence)
 
 
 @record

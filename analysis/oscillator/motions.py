@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 from analysis.compiled import kernel
 from analysis.oscillator.crossings import state_at
 from analysis.oscillator.equation import SnapOscillator
-from analysis.oscillator.pieces import tables
+from analysis.oscillator.pieces import Piece, tables
 from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbits
 from analysis.sampling import checked_count, checked_series, record
 
@@ -129,10 +129,8 @@ def _sampled(x, v, periods, samples, period, table):
                 piece += 1
             window, a = int(log[piece, 0]), int(log[piece, 2])
             steady = table.steady[window, a]
-            g, u = state_at(
-                a, time - window * span, log[piece, 3], log[piece, 4], table.theta[window], table.constants,
-                steady[0], steady[1],
-            )  # fmt: skip
+            shown = Piece(a, log[piece, 3], log[piece, 4], table.theta[window], table.constants, steady[0], steady[1])
+            g, u = state_at(shown, time - window * span)
             motion[n * samples + j, 0], motion[n * samples + j, 1] = g, u
         if pieces == 0:
             motion[n * samples + 1 :] = np.nan

@@ -60,7 +60,6 @@ def test_settings_of_ones_own_are_used_and_told():
     details, run = exponent.details, exponent.details["run"]
     assert details["values"].shape == details["qualified"].shape == (2, 3) and details["noise"] == 0.0
     assert (run.delay, run.theiler) == (10, 70) and run.dimension in (3, 4) and run.evolution in (20, 30, 40)
-    assert run.gaps == np.sum(np.isnan(run.growth))
     settings = [(m, e) for m in settings_given["dimensions"] for e in settings_given["evolutions"]]
     doubled = np.array([wolf_run(ROSSLER, STEP, 10, m, e, 70, 0.0, 2.0).value for m, e in settings])
     assert details["qualified"].all()
