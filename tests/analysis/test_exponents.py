@@ -44,11 +44,6 @@ def test_columns_are_exponents_in_their_order_after_the_transient():
     assert [item.details["periods"] for item in result] == [90, 90]
 
 
-def test_a_short_record_gives_no_number_but_the_reason():
-    (result,) = tangent_lyapunov(np.zeros(40), transient_periods=9)
-    assert np.isnan(result.value) and "32 periods" in result.reason
-
-
 @pytest.mark.parametrize("coupling", [0.0, 0.1, 0.25, 0.4])
 def test_coupled_maps_leave_their_diagonal_or_keep_to_it(coupling):
     """x' = (1 - c) f(x) + c f(y), y' = c f(x) + (1 - c) f(y), f(x) = 4 x (1 - x): across x = y the growth of a step is
@@ -65,8 +60,6 @@ def test_loops_released_leave_no_exponent_across_the_plane():
     assert transverse_lyapunov(growth, 41, released).found
     lost = transverse_lyapunov(growth, 40, released)
     assert not lost.found and "released in 1 of" in lost.reason
-    with pytest.raises(ValueError, match="released"):
-        transverse_lyapunov(growth, 0, released[1:])
 
 
 def test_one_bit_a_period_is_ln_2_nats_over_the_period():
@@ -79,14 +72,6 @@ def test_without_a_value_there_is_a_reason_and_no_error():
     none = no_exponent("method", "nothing qualified")
     assert np.isnan(none.value) and np.isnan(none.error) and not none.found
     assert none.in_bits_per_period(5.0).reason == "nothing qualified"
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "unit"), [(1.0, -0.1, "nats/time"), (1.0, 0.1, "nats"), (np.nan, 0.1, "nats/time")]
-)
-def test_nonsense_is_refused(value, error, unit):
-    with pytest.raises(ValueError):
-        Exponent(value, error, unit, "method")
 
 
 def test_details_travel_between_processes():

@@ -49,19 +49,3 @@ def test_the_angles_follow_from_the_seed():
     first, repeated, reseeded = (zero_one_test(logistic(3.6, 300), seed=seed) for seed in (3, 3, 4))
     assert np.array_equal(first.growth, repeated.growth) and not np.array_equal(first.growth, reseeded.growth)
     assert first.angles_rad.min() > np.pi / 5 and first.angles_rad.max() < 4 * np.pi / 5
-
-
-TIME = np.arange(4000) / 100.0
-
-
-@pytest.mark.parametrize(
-    ("series", "why"),
-    [
-        (np.zeros(500), "no motion"),
-        (np.arange(99.0), "too short"),
-        (np.cos(2 * np.pi * TIME) + 0.5 * np.cos(2 * np.pi * 0.31 * TIME), "oversampled"),
-    ],
-)
-def test_where_it_does_not_apply_it_says_why(series, why):
-    test = zero_one_test(series)
-    assert np.isnan(test.value) and why in test.reason

@@ -75,13 +75,6 @@ def test_diagram_agrees_with_single_runs():
     assert (diagram.exponents.sum(axis=2) + 0.025 < 1e-12).all()
 
 
-def test_faults_are_named():
-    with pytest.raises(ValueError, match="over"):
-        snap_diagram(PAPER, "mass", [1.0])
-    with pytest.raises(ValueError, match="periods"):
-        snap_exponents(PAPER, periods=101, blocks=20)
-
-
 def test_some_starts_end_on_the_orbit_of_period_8_which_attracts_as_its_multiplier_says():
     starts, share = random_starts(150, 8), 0.06
     periods, ends = settled_periods(PAPER, starts, 1500)
