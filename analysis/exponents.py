@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -32,7 +31,7 @@ class Exponent:
     unit       "nats/time" (per unit of the sampling step) or "bits/period" (per forcing period, eq. 32)
     method     which estimator, with its reference, e.g. "Wolf et al. 1985"
     reason     one sentence: why this value, or, if it is NaN, why there is none
-    details    what the estimator wants shown: settings, curves, plateau (read-only mapping, names by the estimator)
+    details    what the estimator wants shown: settings, curves, plateau (names by the estimator)
 
     ValueError for another unit, a negative error, or a NaN without a reason.
     """
@@ -53,16 +52,11 @@ class Exponent:
             raise ValueError("reason: an exponent that is NaN must say why")
         object.__setattr__(self, "value", float(self.value))
         object.__setattr__(self, "error", float(self.error) if np.isfinite(self.value) else np.nan)
-        object.__setattr__(self, "details", MappingProxyType(dict(self.details)))
 
     def __str__(self) -> str:
         if not self.found:
             return f"none: {self.reason}"
         return f"{self.value:.3f} ± {self.error:.3f} {self.unit}, by {self.method}"
-
-    def __reduce__(self):
-        # Read-only mappings do not pickle, and records travel between processes.
-        return Exponent, (self.value, self.error, self.unit, self.method, self.reason, dict(self.details))
 
     @property
     def found(self) -> bool:

@@ -25,10 +25,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_positive, checked_series, record
+from analysis.sampling import checked_positive, checked_series, record
 
 METHOD = "straight part of the logarithm of the envelope"
 LEAST_SPAN_NATS = 3.0
+WINDOW_PERIODS = 4  # in a span of the envelope that is fitted: half a swing of y has to fit in
 LEAST_POINTS = 9  # three to a quarter, which share their ends
 QUARTERS = 4
 MOST_CURVATURE = 0.25
@@ -59,27 +60,23 @@ class Growth:
     burst_size: np.ndarray
 
 
-def growth_or_bursts(
-    magnitude: ArrayLike, step: float, period: float, window_periods: int = 4, least_span: float = LEAST_SPAN_NATS
-) -> Growth:
+def growth_or_bursts(magnitude: ArrayLike, step: float, period: float, least_span: float = LEAST_SPAN_NATS) -> Growth:
     """Growth, decay, bursts or neither of a record of magnitudes (rules at the head of this file).
 
     magnitude (n,)     |y| or y from t = 0, evenly sampled, any unit
     step, period       sampling step and forcing period, in one unit of time
-    window_periods     periods in a span of the envelope that is fitted; half a swing of y has to fit in
     least_span         nats below which neither a rate nor a burst is spoken of
     Returns a Growth. Raises ValueError for values that are not finite, or a period below two steps.
     """
     y = np.abs(checked_series(magnitude, "magnitude"))
     step, period = checked_positive(step, "step"), checked_positive(period, "period")
-    window_periods = checked_count(window_periods, "window_periods")
     least_span = checked_positive(least_span, "least_span")
     if period < 2.0 * step:
         raise ValueError(f"period: at least two steps are needed, given {period!r} with steps of {step!r}")
-    if not envelope_of(y, step, window_periods * period)[1].any():
+    if not envelope_of(y, step, WINDOW_PERIODS * period)[1].any():
         return _without_rate("neither", "every value is zero" if len(y) else "there are no values")
     lacking = []
-    for span in (window_periods * period, period):
+    for span in (WINDOW_PERIODS * period, period):
         time, size = envelope_of(y, step, span)
         bursts = _straight_part(time, size, least_span)
         if isinstance(bursts, Growth):

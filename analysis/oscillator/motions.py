@@ -11,14 +11,6 @@ from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbits
 from analysis.sampling import checked_count, checked_series, record
 
 
-def checked_start(start: ArrayLike) -> tuple[float, float]:
-    """(g, g') as two finite floats; ValueError otherwise."""
-    state = checked_series(start, "start")
-    if state.shape != (2,):
-        raise ValueError(f"start: a pair (g, g') is needed, given shape {state.shape}")
-    return float(state[0]), float(state[1])
-
-
 def checked_starts(starts: ArrayLike) -> np.ndarray:
     """Finite states (n, 2), from these or from a single pair; ValueError otherwise."""
     return np.atleast_2d(checked_series(starts, "starts", (1, 2)))
@@ -36,9 +28,11 @@ def strobed_states(oscillator: SnapOscillator, start: ArrayLike, points: int, tr
     NaN from the first state on that could not be computed (more than 4096 pieces in a period).
     Source: Tjavaras et al. 1998, eq. (33).
     """
-    state = np.array([checked_start(start)])
+    state = checked_series(start, "start")
+    if state.shape != (2,):
+        raise ValueError(f"start: a pair (g, g') is needed, given shape {state.shape}")
     points, transient = checked_count(points, "points"), checked_count(transient_periods, "transient_periods", 0)
-    return strobed_orbits(state, transient, points, tables(oscillator))[0]
+    return strobed_orbits(state[None], transient, points, tables(oscillator))[0]
 
 
 def strobed_states_within(
@@ -87,18 +81,17 @@ def snap_motion(
     start: ArrayLike,
     periods: int,
     samples_per_period: int = 64,
-    transient_periods: int = 0,
 ) -> SnapMotion:
     """The motion of eq. (33) evaluated from its closed form, with the switching times between taut and slack.
 
-    start                (g, g') at time 0;  transient_periods  left out in front
+    start                (g, g') at time 0
     periods              length of the record in forcing periods
     samples_per_period   samples are not steps: their number changes neither states nor switching times
     Returns SnapMotion with periods*samples_per_period + 1 samples. ValueError for a start that is not finite; NaN from
     the first period on that could not be computed.
     """
     periods, samples = checked_count(periods, "periods"), checked_count(samples_per_period, "samples_per_period")
-    x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
+    x, v = strobed_states(oscillator, start, 1)[0]
     motion, switches, slack = _sampled(x, v, periods, samples, oscillator.period, tables(oscillator))
     time = np.arange(periods * samples + 1) * (oscillator.period / samples)
     return SnapMotion(time, motion[:, 0], motion[:, 1], switches, slack / (periods * oscillator.period))

@@ -1,7 +1,5 @@
 """Exponents of a tangent map: means of growth per period, with errors that hold for correlated growth; their record."""
 
-import pickle
-
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -72,9 +70,3 @@ def test_without_a_value_there_is_a_reason_and_no_error():
     none = no_exponent("method", "nothing qualified")
     assert np.isnan(none.value) and np.isnan(none.error) and not none.found
     assert none.in_bits_per_period(5.0).reason == "nothing qualified"
-
-
-def test_details_travel_between_processes():
-    record = Exponent(1.0, 0.1, "nats/time", "method", details={"curve": np.arange(3.0)})
-    copy = pickle.loads(pickle.dumps(record))
-    assert copy.value == 1.0 and np.array_equal(copy.details["curve"], np.arange(3.0))
