@@ -31,6 +31,7 @@ FALSE_SIZE = 2.0
 FALSE_SHARE = 0.01
 FALSE_AT_MOST = 0.2
 CAO_LEVEL = 0.9
+MOST_DIMENSIONS = 8
 # Points asked about where a statistic over the attractor is enough; drawn with a fixed seed, so that the same record
 # gives the same answer.
 CENTRES = 2000
@@ -67,7 +68,7 @@ class EmbeddingChoice:
     reason                   one sentence: what each rule says
     lag                      delay used [samples]
     mean_period              mean period of the series [samples]
-    delay                    DelayChoice: what mutual information says, whether it was used or not
+    delay                    DelayChoice: what mutual information says
     theiler                  Theiler window, one mean period [samples]
     false_share (k,)         share of false neighbours, m = 1 ... k
     e1, e2 (k - 1,)          Cao's ratios, m = 1 ... k - 1; e2 differs from 1 at some m for a deterministic series and
@@ -198,15 +199,15 @@ def _first_minimum(information, reach):
     return None
 
 
-def choose_embedding(series: ArrayLike, delay: int | None = None, max_dimension: int = 8) -> EmbeddingChoice:
+def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     """Delay and embedding dimension of a series, with every curve that led to them.
 
     Noise makes false neighbours in every dimension: their share levels off above zero, and rises again. E1 rises to 1
     and stays where the embedding is large enough.
 
     series (n,)       any unit
-    delay             [samples]; None: choose_delay
-    max_dimension     largest m looked at, 2 or more; it is the answer, and `reason` says so, where neither rule speaks
+    The delay is that of choose_delay. The largest m looked at is 8. It is the answer, and `reason` says so, where
+    neither rule speaks.
     Returns an EmbeddingChoice. The dimension is the smallest that unfolds the motion; it is not the dimension of the
     attractor, and twice that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
     Raises ValueError for values that are not finite or a series too short.
@@ -215,10 +216,9 @@ def choose_embedding(series: ArrayLike, delay: int | None = None, max_dimension:
     """
     x = checked_series(series)
     chosen = choose_delay(x)
-    lag = chosen.delay if delay is None else checked_count(delay, "delay")
-    theiler = round(chosen.mean_period)
-    share, growth, change = np.full((3, checked_count(max_dimension, "max_dimension", least=2)), np.nan)
-    for m in range(1, max_dimension + 1):
+    lag, theiler = chosen.delay, round(chosen.mean_period)
+    share, growth, change = np.full((3, MOST_DIMENSIONS), np.nan)
+    for m in range(1, MOST_DIMENSIONS + 1):
         separation, radius, next_coordinate = _next_coordinate(x, lag, m, theiler)
         if len(separation):
             driven_away = next_coordinate > FALSE_RATIO * separation
@@ -234,10 +234,10 @@ def choose_embedding(series: ArrayLike, delay: int | None = None, max_dimension:
     if np.nanmin(share) <= FALSE_AT_MOST:
         kennel = _first(share <= np.nanmin(share) + FALSE_SHARE)
     cao = _first(e1 >= CAO_LEVEL)
-    words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {max_dimension}"
+    words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {MOST_DIMENSIONS}"
     if not (kennel or cao):
         words += ": noise, or a motion of higher dimension"
-    dimension = kennel or cao or max_dimension
+    dimension = kennel or cao or MOST_DIMENSIONS
     return EmbeddingChoice(dimension, kennel, cao, words, lag, chosen.mean_period, chosen, theiler, share, e1, e2)
 
 

@@ -43,16 +43,13 @@ def nearest_outside(
     tree, missing = cKDTree(points, balanced_tree=False), np.arange(len(rows))
     width = min(count + min(2 * theiler + 1, 7), n)
     while len(missing):
-        d, j = tree.query(points[rows[missing]], width)
-        d, j = d.reshape(len(missing), -1), j.reshape(len(missing), -1)
-        fine = np.abs(j - rows[missing, None]) > theiler
-        enough = np.sum(fine, axis=1) >= count if width < n else np.ones(len(missing), dtype=bool)
-        order = np.argsort(~fine[enough], axis=1, kind="stable")[:, :count]
-        nearest = np.take_along_axis(fine[enough], order, axis=1)
-        index[missing[enough], : order.shape[1]] = np.where(nearest, np.take_along_axis(j[enough], order, axis=1), -1)
-        distance[missing[enough], : order.shape[1]] = np.where(
-            nearest, np.take_along_axis(d[enough], order, axis=1), np.inf
-        )
+        d, j = tree.query(points[rows[missing]], range(1, width + 1))
+        near_in_time = np.abs(j - rows[missing, None]) <= theiler
+        d[near_in_time], j[near_in_time] = np.inf, -1
+        order = np.argsort(d, axis=1, kind="stable")[:, :count]
+        d, j = np.take_along_axis(d, order, axis=1), np.take_along_axis(j, order, axis=1)
+        enough = (np.sum(j >= 0, axis=1) >= count) | (width == n)
+        index[missing[enough], : j.shape[1]], distance[missing[enough], : j.shape[1]] = j[enough], d[enough]
         missing, width = missing[~enough], min(2 * width, n)
     return index, distance
 

@@ -97,8 +97,7 @@ def spectrum(
         wanted = f"eq. (31) needs {start_periods + periods:g} forcing periods ({parts}) of record"
         raise ValueError(f"{wanted}, given {given_s / forcing_period_s:.4g} ({given_s:g} s)")
     # As sampled where the window fits, else the next whole number above (never coarser).
-    fit = window_s / step_s
-    intervals = max(round(fit) if abs(fit - round(fit)) <= ON_SAMPLE else int(np.ceil(fit)), 2)
+    intervals = max(int(np.ceil(window_s / step_s - ON_SAMPLE)), 2)
     window, interpolated = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
     folded = window[:-1].copy()
     folded[0] = 0.5 * (window[0] + window[-1])  # both ends carry weight 1/2 and the same e^{i w_j t}

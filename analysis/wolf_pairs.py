@@ -133,12 +133,12 @@ def _candidates(points, evolution, count, floor, longest):
     remaining, k = np.arange(len(points)), min(NEIGHBOURS, len(points))
     while True:
         tree = cKDTree(points[remaining], balanced_tree=False, compact_nodes=False)
-        reach = np.median(tree.query(points[probe], k)[0].reshape(len(probe), -1)[:, -1])
+        reach = np.median(tree.query(points[probe], [k])[0])
         if reach >= min(2.0 * floor, 0.75 * longest) or len(remaining) < 4 * NEIGHBOURS:
             break
         remaining = np.sort(rng.choice(remaining, len(remaining) // 2, replace=False))
-    distance, near = tree.query(points[stops], k)
-    return remaining[near.reshape(count, -1)], np.ascontiguousarray(distance.reshape(count, -1))
+    distance, near = tree.query(points[stops], range(1, k + 1))
+    return remaining[near], np.ascontiguousarray(distance)
 
 
 def _mean_growth(growth, time, room, floor, size):

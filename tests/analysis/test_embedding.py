@@ -51,13 +51,6 @@ def test_the_dimension_that_unfolds(name, dimension):
     assert (scaled.lag, scaled.dimension) == (choice.lag, choice.dimension)
 
 
-def test_a_delay_and_dimensions_of_ones_own_are_used_and_their_curves_kept():
-    x = record("rossler", 3000)[0]
-    choice = choose_embedding(x, delay=5, max_dimension=4)
-    assert (choice.lag, len(choice.false_share), len(choice.e1)) == (5, 4, 3)
-    assert choice.delay.delay == choose_delay(x).delay != 5
-
-
 def test_noise_is_told_from_motion_by_caos_second_average():
     noise = choose_embedding(np.random.default_rng(0).normal(size=5000))
     assert np.all(np.abs(noise.e2[1:] - 1.0) < 0.1)

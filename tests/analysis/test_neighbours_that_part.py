@@ -3,6 +3,8 @@
 Rosenstein's exponent, and the scaling region without which there is none.
 """
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -54,16 +56,19 @@ def test_units_of_the_series_do_not_matter_and_units_of_time_scale(estimate):
     assert (scaled.value, scaled.error) == pytest.approx((0.5 * base.value, 0.5 * base.error), rel=1e-9)
 
 
-def test_settings_of_ones_own_are_used_and_told():
-    settings_given = {"delay": 10, "dimensions": [3, 4], "evolutions": [20, 30, 40], "theiler": 70, "noise": 0.0}
-    exponent = wolf_lyapunov(ROSSLER, STEP, **settings_given)
+def test_the_error_joins_four_parts_and_vectors_twice_as_long_are_one_of_them():
+    exponent = wolf_lyapunov(ROSSLER, STEP)
     details, run = exponent.details, exponent.details["run"]
-    assert details["values"].shape == details["qualified"].shape == (2, 3) and details["noise"] == 0.0
-    assert (run.delay, run.theiler) == (10, 70) and run.dimension in (3, 4) and run.evolution in (20, 30, 40)
-    settings = [(m, e) for m in settings_given["dimensions"] for e in settings_given["evolutions"]]
-    doubled = np.array([wolf_run(ROSSLER, STEP, 10, m, e, 70, 0.0, 2.0).value for m, e in settings])
-    assert details["qualified"].all()
-    assert details["length_change"] == pytest.approx(np.sqrt(np.mean((doubled - details["values"].ravel()) ** 2)))
+    settings = list(product(details["dimensions"], details["evolutions"]))
+    assert (run.dimension, run.evolution) in settings and details["qualified"].all()
+    delay, period = details["embedding"].lag, round(details["embedding"].mean_period)
+
+    def value(m, e, lengths):
+        return wolf_run(ROSSLER, STEP, delay, m, e, max(period, (m - 1) * delay), details["noise"], lengths).value
+
+    values, doubled = (np.array([value(m, e, lengths) for m, e in settings]) for lengths in (1.0, 2.0))
+    assert np.array_equal(values, details["values"].ravel())
+    assert details["length_change"] == pytest.approx(np.sqrt(np.mean((doubled - values) ** 2)))
     parts = [details[name] for name in ("block_error", "spread", "length_change", "noise_bias")]
     assert exponent.error == pytest.approx(np.linalg.norm(parts))
 

@@ -37,12 +37,6 @@ def test_a_quasi_periodic_rotation_is_never_a_period(rotation, points, max_perio
     assert detect_period(orbit, max_period=max_period, scale=2.0).period is None
 
 
-def test_close_returns_fool_the_residual_but_not_the_answer():
-    estimate = detect_period(circle((np.pi - 3) * np.arange(1000)), max_period=128)
-    assert estimate.residual[112] < estimate.tolerance < estimate.projected[112]
-    assert "drift" in estimate.reason
-
-
 @pytest.mark.parametrize("length", [60, 61, 62])
 def test_a_record_need_not_be_whole_rounds_and_its_orbit_ends_where_it_ends(length):
     record = np.resize([0.3, 5.0, -2.0], length)
