@@ -15,7 +15,6 @@ two tones                      0           exact
 from functools import cache
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from benchmarks.known_flows import FLOWS, march
 
@@ -43,12 +42,18 @@ def wells(starts, periods):
     largest x of each period (p, n, 2)."""
 
     def rate(t, y):
-        x, speed = np.split(y, 2)
-        return np.append(speed, x - x**3 - 0.25 * speed + 0.26 * np.cos(t))
+        x, speed = y.T
+        return np.column_stack([speed, x - x**3 - 0.25 * speed + 0.26 * np.cos(t)])
 
-    times = np.pi / 24 * np.arange(48 * periods + 1)
-    path = solve_ivp(rate, times[[0, -1]], starts.T.ravel(), "DOP853", times, rtol=1e-8, atol=1e-8).y
-    path = path.T.reshape(len(times), 2, -1).swapaxes(1, 2)
+    h, path = np.pi / 24, [starts]
+    for t in h * np.arange(48 * periods):
+        y = path[-1]
+        k1 = rate(t, y)
+        k2 = rate(t + 0.5 * h, y + 0.5 * h * k1)
+        k3 = rate(t + 0.5 * h, y + 0.5 * h * k2)
+        k4 = rate(t + h, y + h * k3)
+        path.append(y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4))
+    path = np.array(path)
     within = [path[48 * k : 48 * k + 49, :, 0] for k in range(periods)]
     return path[::48], np.stack([np.min(within, axis=1), np.max(within, axis=1)], axis=-1)
 
