@@ -41,7 +41,7 @@ from analysis.evidence import (
 )
 from analysis.exponents import Exponent
 from analysis.periods import PeriodEstimate, detect_period
-from analysis.sampling import checked_columns, checked_count, checked_series
+from analysis.sampling import checked_columns, checked_count
 from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov, turned
 from analysis.verdicts import Verdict
 
@@ -95,7 +95,6 @@ def motion_regime(
     growth = np.full(periods, np.nan) if growth_nats is None else np.asarray(growth_nats, dtype=float)
     if growth.shape != (periods,):
         raise ValueError(f"growth_nats: {periods} values are needed for {periods + 1} states, given {growth.shape}")
-    checked_series(growth[np.isfinite(growth)], "growth_nats")
     checked_count(max_period, "max_period")
     if periods < FIRST_LOOK:
         reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"

@@ -46,7 +46,7 @@ def tangent_lyapunov(growth_nats: ArrayLike, transient_periods: int = 0) -> tupl
     periods = len(bits)
     if periods < LEAST_PERIODS:
         reason = f"too short: {LEAST_PERIODS} periods of growth are needed, given {periods}"
-        return tuple(no_exponent(METHOD, reason, BITS_PER_PERIOD) for _ in range(growth.shape[1]))
+        return (no_exponent(METHOD, reason, BITS_PER_PERIOD),) * growth.shape[1]
     values, errors = _tapered_mean(bits)
     reason = f"tapered mean growth over {periods} forcing periods, error from this one run's slowest fluctuations"
     return tuple(
