@@ -6,12 +6,12 @@ and not to another motion, its distance from the orbit says. Near an orbit of pe
 periods. So the last two thirds of a record are cut into three windows, with distances d_1, d_2, d_3 (rms over a window
 of the largest difference of a coordinate, in its scale):
 
-    near        d_3 <= NEAR
-    shrinks     d_3 <= LEFT d_1
-    as it must  ln(d_1/d_2) and ln(d_2/d_3) are within a factor AGREES of what |mu| says
+    near        d_3 <= near
+    shrinks     d_3 <= left d_1
+    as it must  ln(d_1/d_2) and ln(d_2/d_3) are within a factor `agrees` of what |mu| says
 
 A run that stops at a saddle or at a torus beside the orbit, or decays towards another motion, has another rate. A run
-on an orbit that attracts (d_3 <= ARRIVED, what the steps of a run scatter) need not come nearer.
+on an orbit that attracts (d_3 <= arrived, what the steps of a run scatter) need not come nearer.
 """
 
 import numpy as np
@@ -20,20 +20,22 @@ from numpy.typing import ArrayLike
 from analysis.evidence import Evidence
 from analysis.sampling import checked_columns
 
-LEFT, AGREES = 0.65, 1.5  # what is left of the first distance at most; the factor by which rates may differ
-NEAR, ARRIVED = 0.2, 0.002  # distance of the last window, in the scale: of an orbit that counts, of a run on it
+LEFT, AGREES = 0.65, 1.5
 
 
-def approached_period(strobed: ArrayLike, scale: ArrayLike, max_period: int = 16) -> int | None:
+def approached_period(
+    strobed: ArrayLike, scale: ArrayLike, max_period: int = 16, *, left: float = LEFT, agrees: float = AGREES
+) -> int | None:
     """The least N for which the steps over N periods shrink, and alike over both pairs of windows.
 
     strobed (m + 1, d), scale (d,)   as in `detect_period`
-    At most LEFT of the steps is left, and their rates differ at most by the square of AGREES.
+    left                             what is left at most of the steps
+    agrees                           the rates differ at most by the square of this factor
     """
     x = checked_columns(strobed, "strobed") / np.asarray(scale)
     for period in range(1, min(max_period, len(x) // 9) + 1):
         distances, rates = _in_windows(x[period:] - x[:-period])
-        if distances[2] <= LEFT * distances[0] and 0.0 < rates.max() <= AGREES**2 * rates.min():
+        if distances[2] <= left * distances[0] and 0.0 < rates.max() <= agrees**2 * rates.min():
             return period
     return None
 
@@ -44,6 +46,11 @@ def approach_evidence(
     multipliers: ArrayLike,
     errors: ArrayLike,
     scale: ArrayLike,
+    *,
+    near: float = 0.2,
+    left: float = LEFT,
+    agrees: float = AGREES,
+    arrived: float = 0.002,
 ) -> Evidence:
     """Whether a record comes nearer to a periodic orbit that attracts (head of this file).
 
@@ -51,6 +58,9 @@ def approach_evidence(
     orbit (N, d)                  the strobed states of the orbit, in order
     multipliers, errors (k,)      of the orbit, the largest first
     scale (d,)                    size of the motion in each coordinate
+    near, arrived                 distance of the last window, in that scale: of an orbit that counts, of a run on it
+    left                          what is left of the distance of the first window at most
+    agrees                        factor by which the rates may differ from that of the orbit
     The value of the Evidence is the multiplier that the distances show, the threshold that of the orbit.
     """
     x, points = checked_columns(strobed, "strobed"), checked_columns(orbit, "orbit")
@@ -60,9 +70,9 @@ def approach_evidence(
     moduli = np.abs(multipliers)
     expected = -np.log(moduli[0]) / period
     attracts = (moduli + errors).max() < 1.0
-    alike = (expected / AGREES <= rates) & (rates <= AGREES * expected)
-    comes_nearer = alike.all() and distances[2] <= min(NEAR, LEFT * distances[0])
-    on_it = distances[2] <= ARRIVED
+    alike = (expected / agrees <= rates) & (rates <= agrees * expected)
+    comes_nearer = alike.all() and distances[2] <= min(near, left * distances[0])
+    on_it = distances[2] <= arrived
     passed = attracts and (comes_nearer or on_it)
     shown = np.exp(-rates.mean() * period)
     attraction = "attracts" if attracts else "is not known to attract"
