@@ -107,7 +107,7 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> I
         return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
     values, largest, errors = arrays["values"], arrays["exponents"][..., 0], arrays["errors"]
     marks = [(study.oscillator[key], "as run")]
-    grazing = grazing_force(SnapOscillator(**study.oscillator)).force
+    grazing = grazing_force(SnapOscillator(**study.oscillator))
     if key == "force" and math.isfinite(grazing):
         marks.append((grazing, "grazing"))
     curves = (arrays[name] for name in ("section", "exponents", "errors", "slack_fraction"))
