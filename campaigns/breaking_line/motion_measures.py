@@ -32,10 +32,10 @@ def contour(profiles: Profiles, values: np.ndarray, level: float) -> np.ndarray:
     above = values > level
     falls = above[:, :-1] & ~above[:, 1:]
     places = np.full(len(values), math.nan)
-    for row in np.flatnonzero(falls.any(axis=1)):
-        k = int(np.argmax(falls[row]))
-        a, b = values[row, k] - level, values[row, k + 1] - level
-        places[row] = profiles.s_m[k] + (profiles.s_m[k + 1] - profiles.s_m[k]) * a / (a - b)
+    rows, s = np.flatnonzero(falls.any(axis=1)), profiles.s_m
+    k = np.argmax(falls[rows], axis=1)
+    a, b = values[rows, k] - level, values[rows, k + 1] - level
+    places[rows] = s[k] + (s[k + 1] - s[k]) * a / (a - b)
     return places
 
 

@@ -72,7 +72,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         words = getattr(options, option[2:])
         if words is not None:
             words = [words]
-        return cli.value(words, option, None, kind, faults)
+        return cli.Option("", "", kind).value(option, words, faults)
 
     step = value("--step", number("a finite number above 0 [s]", lambda step: 0.0 < step < math.inf))
     period = value("--period", number(SECONDS, lambda period: 0.0 < period < math.inf))

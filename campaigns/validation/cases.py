@@ -161,7 +161,7 @@ def jobs(cases: Iterable[Case]) -> list[Job]:
 
 def size_of(job: Job) -> float:
     """About how long a run takes: its length times its nodes, and by these again where they shorten the steps."""
-    return job.length_s * job.scene.tether.nodes ** (2 if job.scene.solver.courant else 1)
+    return job.duration_s * job.scene.tether.nodes ** (2 if job.scene.solver.courant else 1)
 
 
 def run_row(trajectory) -> dict[str, object]:

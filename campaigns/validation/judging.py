@@ -31,8 +31,9 @@ def judged(out: Path, cases: Iterable[Case]) -> tuple[list[dict], list[dict]]:
         runs = [run_of(out, {"run_key": key, "status": "ok"}) for key in keys]
         fault = _fault(runs)
         if fault:
-            for quantity in case.bars:
-                rows.append(base | verdict(case, quantity, None) | {"note": fault})
+            for quantity, (bar, unit) in case.bars.items():  # without a number they are missed
+                missed = {"quantity": quantity, "bar": bar, "unit": unit, "verdict": MISSES}
+                rows.append(base | missed | {"note": fault})
             continue
         outcome = getattr(families, case.family)(case, runs)
         for quantity, number in outcome.numbers.items():
@@ -53,11 +54,8 @@ def _fault(runs: Iterable[Trajectory | None]) -> str:
     return ""
 
 
-def verdict(case: Case, quantity: str, number: "families.Number | None") -> dict[str, object]:
-    """Numbers of a quantity, and its verdict; None: there is no number, and a bar is missed."""
-    if number is None:
-        bar, unit = case.bars.get(quantity, (None, ""))
-        return {"quantity": quantity, "bar": bar, "unit": unit, "verdict": MISSES}
+def verdict(case: Case, quantity: str, number: families.Number) -> dict[str, object]:
+    """Numbers of a quantity, and its verdict."""
     bar, unit = case.bars.get(quantity, (None, number.unit))
     word = MISSES
     if bar is None:
