@@ -34,12 +34,12 @@ from campaigns.machinery.progress import stage
 from campaigns.oscillator.options import Options
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column
+from tables import MESSAGE, RUN_KEY, STATUS, Column, of_words
 
 SEED = 0
 Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
 COLUMNS = (
-    Column("part", symbol="part", meaning="what is computed"),
+    of_words("part", "what is computed"),
     STATUS,
     Column("lambda_1_nats_per_time", "nats/time", "λ_1", "largest exponent, mean over the starts", 6),
     Column("lambda_1_error", "nats/time", "± λ_1", "its standard error", 6),

@@ -7,11 +7,11 @@ from campaigns.machinery.folder import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
 from engine import Trajectory
-from tables import Column
+from tables import Column, of_words
 
 POINTS = (
-    Column("case", symbol="case", meaning="name of the case"),
-    Column("curve", symbol="curve", meaning="name of the pair of curves, where there are several"),
+    of_words("case", "name of the case"),
+    of_words("curve", "name of the pair of curves, where there are several"),
     Column("x", "", "x", "place on the axis that cases.csv names", 6),
     Column("ours", "", "ours", "our number", 6),
     Column("theirs", "", "theirs", "that of the source", 6),
