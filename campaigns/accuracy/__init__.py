@@ -126,4 +126,4 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 
 
 STUDY = Study(name="accuracy", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer)
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

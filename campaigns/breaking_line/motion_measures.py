@@ -125,7 +125,7 @@ def shock_track(profiles: Profiles, theory: Theory) -> tuple[np.ndarray, np.ndar
 
     The run's is where the strain passes the mean of the exact strains on the two sides.
     """
-    exact, ahead, behind, _ = theory.motion.shock.at(profiles.time_s)
+    exact, ahead, behind = theory.motion.shock.at(profiles.time_s)
     places = np.full(len(exact), math.nan)
     for row in np.flatnonzero(np.isfinite(exact)):
         places[row] = contour(profiles, profiles.strain[row : row + 1], 0.5 * (ahead[row] + behind[row]))[0]
