@@ -30,12 +30,14 @@ class Part(NamedTuple):
     """The next part of a run: scene, wave periods, and the Trajectory or state in which it begins (None: rest).
 
     check: this part is a check of chaos, at a tighter tolerance. It goes into `checks` and does not lengthen the run.
+    duration_s: its length where it is not given in wave periods.
     """
 
     scene: object
     periods: float
     start: object = None
     check: bool = False
+    duration_s: float | None = None
 
 
 @dataclass(eq=False)
@@ -54,8 +56,14 @@ class LongRun:
     part: Part | None = None
 
     def next_part(self) -> Part | None:
-        """The next part of the run; None when the run is finished."""
-        self.part = self.job.going(self.job.scene, self.trajectory, self.row, self.checks)
+        """The next part of the run; None when the run is finished. A job without `going` is one part."""
+        job = self.job
+        if job.going is not None:
+            self.part = job.going(job.scene, self.trajectory, self.row, self.checks)
+        elif self.row is None:
+            self.part = Part(job.scene, job.periods, duration_s=job.duration_s)
+        else:
+            self.part = None
         return self.part
 
     def take(self, result) -> None:

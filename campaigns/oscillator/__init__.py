@@ -50,4 +50,4 @@ STUDY = Study(
     answer=answer,
     places=(),
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

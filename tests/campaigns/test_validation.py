@@ -83,7 +83,6 @@ def test_the_peak_of_a_sine_is_found_between_the_lines_of_a_spectrum():
         (Number("1", "2", 1.0), "rms", HOLDS),
         (Number("1", "2", 1.0 + 1e-9), "rms", MISSES),
         (Number("1", "2", np.nan), "rms", MISSES),
-        (None, "rms", MISSES),
         (Number("1", "2", 9.0, "N"), "another", TOLD),
     ],
 )
