@@ -71,10 +71,10 @@ def test_each_motion_gets_its_word(tmp_path, capsys, name):
     assert result["regime"] == word
     assert ["VERDICT", f"{word}:"] in [line.split()[:2] for line in capsys.readouterr().out.splitlines()]
     bits_per_nat = result["section"]["cycle"] / np.log(2.0)
-    for (_, nats, *_), (name, bits, *_) in pairwise(result["measures"]):
-        if name == "the same" and bits != "none":  # values and errors, rounded to two digits of these
+    for (_, nats, *_), (measure, bits, *_) in pairwise(result["measures"]):
+        if measure == "the same" and bits != "none":  # values and errors, both rounded to two digits of the errors
             wanted = [float(number) * bits_per_nat for number in nats.split(" +- ")]
-            assert [float(number) for number in bits.split(" +- ")] == pytest.approx(wanted, rel=0.12)
+            assert [float(number) for number in bits.split(" +- ")] == pytest.approx(wanted, abs=0.12 * wanted[-1])
 
 
 @pytest.mark.slow

@@ -73,10 +73,10 @@ SINKING_M = 20.0 * (1.0 + MODES.static_strain) + 0.5 * DIAMETER_M  # depth at wh
     ("below", "above", "phrase"),
     [
         ({"tension_top_max_error_N": 49.9}, {"tension_top_max_error_N": 50.1}, "no better than 5 %"),
-        ({}, {"tension_top_max_error_N": math.nan}, "nothing is known of the error"),
+        ({}, {"tension_top_max_error_N": math.nan}, "the error of the largest tension is not known"),
         ({}, {"loop_releases": 1}, "loops were released"),
         ({"max_turn_rad": 1.57}, {"max_turn_rad": 1.58}, "turns by more than π/2"),
-        ({}, {"message": "becomes another motion"}, "the motion becomes another one"),
+        ({}, {"message": "becomes another motion"}, "the run ends in another motion"),
         ({}, {"message": "ringing is not resolved"}, "ringing of the line is not resolved"),
         ({HEIGHT: DIAMETER_M - 0.01}, {HEIGHT: DIAMETER_M + 0.12}, "its lowest point by up to 0.12 m"),
         ({}, {"status": "newton-failed", "message": "no end"}, "newton-failed; the first after 60 periods: no end"),
