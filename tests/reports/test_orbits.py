@@ -13,7 +13,8 @@ from reports.orbits.branches import read_branches
 from reports.orbits.report import report
 from reports.parts.content import Figure, Notice, Table
 from reports.parts.folder import FolderError, read_folder
-from tests.reports.conftest import columns_of, rows_in, write
+from tests.campaigns.conftest import rows_of
+from tests.reports.conftest import columns_of, write
 from tests.reports.test_words_apart import crowded
 
 WORDS = ("branch", "kind", "motion", "begins", "ends", "leads_to", "found_by", "status", "message")
@@ -70,7 +71,7 @@ def orbits(folder, tmp_path):
     for row in chosen:
         history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"
         (place / "orbits" / f"1_{row['place']}.csv").write_text(history)
-    runs = [row | {"motion": "AB"[float(row["steepness"]) > 0.09]} for row in rows_in(folder) if row["status"] == "ok"]
+    runs = [row | {"motion": "AB"[float(row["steepness"]) > 0.09]} for row in rows_of(folder) if row["status"] == "ok"]
     write(place / "motions", runs, (*COLUMNS, replace(COLUMNS[2], name="motion")))
     (place / "motions" / "trajectories").symlink_to(folder / "trajectories")
     return place
@@ -99,7 +100,7 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     caveats = " ".join(notice.lines)
     assert "Branch 2 was not followed to its end: at 0.15" in caveats and "flip of branch 1 at 0.1100" in caveats
     multipliers = next(item for item in items if isinstance(item, Table) and item.columns[2].title == "μ1")
-    known = [float(row["multiplier_1_real"]) for row in rows_in(orbits / "orbits")]
+    known = [float(row["multiplier_1_real"]) for row in rows_of(orbits / "orbits")]
     assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]
 
 
