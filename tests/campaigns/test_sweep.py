@@ -15,15 +15,14 @@ import pytest
 
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
-from campaigns.machinery.folder import write_json
 from campaigns.sweep import read_order
-from engine import load_scene
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
-from tables import Column, write_table
+from tables import Column
 from tests.campaigns.conftest import ROOT, built_twice, ran, rows_of
 from tests.campaigns.fake_engine import FakeEngine
+from tests.reports.conftest import folder_at
 
 PAGE = "developing"
 SHORT = ["--periods", "6", "--transient", "2"]
@@ -147,18 +146,11 @@ def table_of(keys):
     return rows
 
 
-def folder(place, keys):
-    write_table(place / "table.csv", (*(KEYS[key] for key in keys), *COLUMNS), table_of(keys))
-    (place / "trajectories").mkdir()
-    (place / "scene.toml").write_text(load_scene("tethered_buoy").to_toml(), encoding="utf-8")
-    vary = {key: [1.0, 2.0, 3.0] for key in keys}
-    write_json(place / "provenance.json", {"campaign": "sweep", "scene": "tethered_buoy", "vary": vary})
-    return place
-
-
 @pytest.mark.parametrize("keys", [[DEPTH], pytest.param([DEPTH, MASS], marks=pytest.mark.slow)])
 def test_the_report_of_a_sweep_of_any_key(tmp_path, keys):
-    items = report(folder(tmp_path, keys)).items
+    columns, vary = [*map(KEYS.get, keys), *COLUMNS], {key: [1.0, 2.0, 3.0] for key in keys}
+    place = folder_at(tmp_path / "out", "sweep", table_of(keys), columns, scene="tethered_buoy", vary=vary)
+    items = report(place).items
     tables = [item for item in items if isinstance(item, Table)]
     runs = next(table for table in tables[1:] if len(table.rows) == 3 ** len(keys))
     heads = [plain(column.title) for column in runs.columns]
@@ -168,7 +160,7 @@ def test_the_report_of_a_sweep_of_any_key(tmp_path, keys):
     assert extremes["greatest pull"][1:3] == ("N", f"{200 * len(keys)}")
     figures = [item for item in items if isinstance(item, Figure)]
     assert figures and all("σ" in figure.caption for figure in figures)
-    page, _ = built_twice(tmp_path)
+    page, _ = built_twice(place)
     assert b"newton-failed" in page
 
 

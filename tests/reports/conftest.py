@@ -20,6 +20,7 @@ from matplotlib.figure import Figure as Drawing
 
 from campaigns import buoy_sweep
 from campaigns.explore.rows import COLUMNS, STEEPNESS
+from campaigns.machinery.folder import write_json
 from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (
@@ -196,6 +197,15 @@ def drawn(monkeypatch):
 
     monkeypatch.setattr(Drawing, "savefig", keep)
     return figures
+
+
+def folder_at(place, campaign, rows, columns, **provenance):
+    """The folder of a campaign of the shipped buoy, without its runs."""
+    (place / "trajectories").mkdir(parents=True)
+    (place / "scene.toml").write_text(load_scene("tethered_buoy").to_toml(), encoding="utf-8")
+    write_json(place / "provenance.json", {"campaign": campaign, **provenance})
+    write_table(place / "table.csv", columns, rows)
+    return place
 
 
 def write(place, rows, columns=COLUMNS):

@@ -1,6 +1,5 @@
 """The report on the paper from a folder that lacks parts, and what it says of other depths and treatments."""
 
-import json
 import re
 from itertools import product
 
@@ -12,7 +11,6 @@ from campaigns.paper.measured import Results
 from campaigns.paper.parts import COLUMNS
 from campaigns.paper.statements import claims
 from campaigns.statements import write_statements
-from engine import load_scene
 from reports.figures.line_panels import LinePanel, limits
 from reports.paper.index import entries, markdown, named_in
 from reports.paper.report import report, short_answer
@@ -22,19 +20,17 @@ from reports.parts.judged import read_statements, statements_table
 from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
-from tests.reports.conftest import write
+from tests.reports.conftest import folder_at, write
 
 
 @pytest.fixture(scope="module")
 def content(tmp_path_factory):
     """Of a folder as the campaign leaves it where the dependence study was done, and of another part the page alone."""
-    folder = tmp_path_factory.mktemp("paper")
-    (folder / "trajectories").mkdir()
-    (folder / "provenance.json").write_text(json.dumps({"campaign": "paper", "command": ["python"], "quick": False}))
-    (folder / "scene.toml").write_text(load_scene("tethered_buoy").to_toml())
-    write_statements(folder, claims(), Results())
     row = {"part": "dependence", "status": "ok", "runs": 8, "failed": 0, "run_s": 1.5, "total_s": 90.0}
-    write(folder, [row], COLUMNS)
+    folder = folder_at(
+        tmp_path_factory.mktemp("paper") / "out", "paper", [row], COLUMNS, command=["python"], quick=False
+    )
+    write_statements(folder, claims(), Results())
     rows = []
     for kA, H, (under, EI) in product(
         (0.13, 0.016), (21.0, 22.5), (("full", 0.4), ("full", 4.0), ("spherical-cap", 0.4))
