@@ -147,14 +147,6 @@ def test_a_disk_that_fills_up(small_disk, campaign):
     campaign.complete()
 
 
-@pytest.mark.slow
-def test_a_disk_that_is_full_from_the_start(small_disk, campaign):
-    with open(small_disk / "filling", "wb", buffering=0) as file, pytest.raises(OSError):
-        while True:
-            file.write(bytes(4096))
-    assert "is full" in campaign.done(campaign.start(), code=1)
-
-
 def test_no_space_within_a_run_stops_the_campaign(sweep, capfd):
     code, rows, _ = sweep("--steepness", *VALUES, no_space=(0.06,), jobs=1)
     assert code == 1

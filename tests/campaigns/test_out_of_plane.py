@@ -16,17 +16,13 @@ from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
 from reports.parts.content import Figure, Notice
 from tables import names
-from tests.campaigns.conftest import rows_of
+from tests.campaigns.conftest import chosen, ran, rows_of
 from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
-
-USUAL = ["--backend", "threading", "--jobs", "2", "--no-report"]
 
 
 def made(place, periods, **engine):
     """The rows of a campaign of the fake engine."""
-    words = ["--periods", str(periods), *USUAL, "--out", str(place)]
-    assert out_of_plane.main(words, simulate=SpaceEngine(**engine)) == 0
-    return rows_of(place)
+    return ran(out_of_plane, place, "--periods", periods, simulate=SpaceEngine(**engine))
 
 
 @pytest.fixture(scope="module")
@@ -37,12 +33,6 @@ def place(tmp_path_factory):
 @pytest.fixture(scope="module")
 def rows(place):
     return made(place, 60)
-
-
-def chosen(rows, **wanted):
-    chosen_rows = [row for row in rows if all(row[key] == str(value) for key, value in wanted.items())]
-    assert chosen_rows
-    return chosen_rows
 
 
 def test_everything_the_question_needs_is_run_once():

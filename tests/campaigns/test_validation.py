@@ -125,11 +125,6 @@ def test_a_small_campaign_judges_its_cases_and_is_not_done_twice(tmp_path, capsy
     assert ": 0 computed, 2 found" in capsys.readouterr().out
 
 
-def test_a_case_that_cannot_be_run_is_refused_where_it_is_all_that_is_asked_for(tmp_path, capsys):
-    assert validation.main(["--only", "whoi-waves", "--out", str(tmp_path / "out")]) == 2
-    assert "a case that can be run here" in capsys.readouterr().err and not (tmp_path / "out").exists()
-
-
 def test_a_run_that_ends_early_misses_its_bar_and_a_folder_without_cases_is_refused(tmp_path):
     def stopped(scene, periods=None, duration_s=None):
         raise RuntimeError("no such run")

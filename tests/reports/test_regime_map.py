@@ -22,7 +22,7 @@ from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, Map, legend, 
 from reports.regime_map.report import _regimes, _warnings
 from reports.regime_map.sheets import cell_sheets
 from tests.campaigns.fake_engine import sines
-from tests.reports.conftest import columns_of, write
+from tests.reports.conftest import columns_of, folder_at, write
 from tests.reports.test_browser import violations
 from tests.reports.test_words_apart import crowded
 
@@ -82,10 +82,7 @@ def folder_of(tmp_path):
     """`folder_of(pages)`: a folder of maps over steepness and depth."""
 
     def made(pages=("",), counts=(NX, NY)):
-        place, cells = tmp_path / f"maps{len(pages)}{counts[0]}", []
-        (place / "trajectories").mkdir(parents=True)
-        (place / "scene.toml").write_text(load_scene("tethered_buoy").to_toml())
-        (place / "provenance.json").write_text(json.dumps({"campaign": "regime_map", "vary": {X: [], Y: []}}))
+        cells = []
         for page in pages:
             for j, i in np.ndindex(counts[::-1]):
                 x, y = round(0.02 + WIDE * i, 9), round(21.0 + HIGH * j, 9)
@@ -94,8 +91,9 @@ def folder_of(tmp_path):
                     quarter = [(x + a * WIDE / 4, y + b * HIGH / 4) for a in (-1, 1) for b in (-1, 1)]
                     cells += [cell(*at, 1, page) for at in quarter]
         rows = [motion for row in cells for motion in motions_of(row)]
+        place, vary = tmp_path / f"maps{len(pages)}{counts[0]}", {X: [], Y: []}
+        folder_at(place, "regime_map", rows, columns_of(rows, WORDS, SYMBOLS), vary=vary)
         write(place / "cells", cells, columns_of(cells, WORDS, SYMBOLS))
-        write(place, rows, columns_of(rows, WORDS, SYMBOLS))
         sines(load_scene("tethered_buoy"), 8).save(place / "trajectories" / "0.nc", {"run_key": "0"})
         strobes = {"radius_m": np.linspace(19.0, 21.0, 64)[None], "tension_N": np.full((1, 64), 2400.0)}
         np.savez(place / "strobes.npz", run_key=np.array(["0"]), **strobes)
