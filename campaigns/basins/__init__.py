@@ -13,7 +13,7 @@ searched over its direction, and bisected in size to 1 %, on both grids. The edg
 from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -88,33 +88,28 @@ def measures(order: Order) -> Measures:
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
+    from campaigns.basins.edge import edge_state
+    from campaigns.basins.exploration import COLUMNS, Exploration
+    from campaigns.basins.shocks import shocks
+    from campaigns.explore.ends import confirm
+    from campaigns.explore.motions import Search
 
-    def every_start(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.basins.edge import edge_state
-        from campaigns.basins.exploration import COLUMNS, Exploration
-        from campaigns.basins.shocks import shocks
-        from campaigns.explore.ends import confirm
-        from campaigns.explore.motions import Search
-
-        grid = order.options.grid
-        search = Search(order, kicks=0, speed_mps=order.options.kick_speed, seed=order.options.seed)
-        exploration = Exploration(plan, jobs[0], grid, search)
-        exploration.find()
-        rest, *kicked = exploration.motions or [None]
-        if kicked:
-            worst = max(kicked, key=lambda motion: motion.tension_N)
-            shocks(exploration, worst)
-            edge_state(exploration, rest, worst)
-        confirm(exploration.places)
-        exploration.places.write()
-        rows = [*exploration.rows()]
-        write_table(plan.how.out / "table.csv", COLUMNS, rows)
-        computed, timing = exploration.computed, exploration.places.timing()
-        return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
-
-    return every_start
+    search = Search(order, 0, order.options.kick_speed, order.options.seed)
+    exploration = Exploration(plan, jobs[0], order.options.grid, search)
+    exploration.find()
+    rest, *kicked = exploration.motions or [None]
+    if kicked:
+        worst = max(kicked, key=lambda motion: motion.tension_N)
+        shocks(exploration, worst)
+        edge_state(exploration, rest, worst)
+    confirm(exploration.places)
+    exploration.places.write()
+    rows = exploration.rows()
+    write_table(plan.how.out / "table.csv", COLUMNS, rows)
+    computed, timing = exploration.computed, exploration.places.timing()
+    return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
 
 
 def parameters(order: Order) -> dict[str, object]:

@@ -3,18 +3,19 @@
 Each takes the `Line` first and returns plain numbers, words and lists, `reason` among them, and arrays of points.
 """
 
-import math
 from dataclasses import replace
 
 import numpy as np
 
 import engine
+from analysis.orbits import doubled_orbit, find_orbit, follow_branch, middle_of
 from campaigns.explore.multipliers import COUNT
 from campaigns.explore.tracing import Line
+from tables import finite
 
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
-ACCURACY = 1e-2  # of a chord, to which an event is located: another grid changes it by more
+LOCATED = {"count": COUNT, "accuracy": 1e-2}  # of a chord, to which an event is: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
 HISTORY = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
 AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
@@ -22,40 +23,28 @@ AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one 
 
 def under(line: Line, value: float, period: int, state: object) -> tuple[dict, list[np.ndarray]]:
     """The orbit under a run, or at a state (period, 8 n): its row, errors and history."""
-    from analysis.orbits import find_orbit, middle_of
-
     cable, system = line.maps
     if not isinstance(state, np.ndarray):
         state = cable.at_strobe(state, value)
-    orbit = find_orbit(system, state, value, period, count=COUNT)
-    if not orbit.found:
-        return {"reason": orbit.reason}, []
-    orbit, errors = middle_of(system, orbit)
-    history = cable.history(orbit.points, value)
-    row = _row(cable, orbit, history, errors)
+    orbit, errors = middle_of(system, _found(system, state, value, period))
+    row, history = _row(cable, orbit, errors)
     row["history"] = {name: history[name] for name in HISTORY}
     return row, [orbit.points]
 
 
 def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[dict, list[np.ndarray]]:
     """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
-    from analysis.orbits import find_orbit, follow_branch, middle_of
-
     cable, system = line.maps
-    orbit = find_orbit(system, points, value, len(points), count=COUNT)
-    if not orbit.found:
-        return {"reason": orbit.reason}, []
-    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, count=COUNT, accuracy=ACCURACY)
+    orbit = _found(system, points, value, len(points))
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, most=most, **LOCATED)
     rows, points_of, events = [], [], []
     for followed_orbit in branch.orbits:
         middle, errors = middle_of(system, followed_orbit)
-        rows.append(_row(cable, middle, cable.history(middle.points, middle.parameter), errors))
+        rows.append(_row(cable, middle, errors)[0])
         points_of.append(middle.points)
     for event in branch.events:
-        history = cable.history(event.orbit.points, event.orbit.parameter)
-        row = _row(cable, event.orbit, history, event.orbit.residuals)
-        row |= {"kind": event.kind, "angle_rad": event.angle_rad, "at": len(points_of)}
-        row |= {"value": event.parameter, "error": _finite(event.error)}
+        row, _ = _row(cable, event.orbit, event.orbit.residuals)
+        row |= _where(event) | {"angle_rad": event.angle_rad, "at": len(points_of)}
         points_of.append(event.orbit.points)
         doubled = event.kind == "flip" and _doubled(system, event)
         if doubled:
@@ -69,8 +58,6 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[d
 
 def _doubled(system, event):
     """The orbit of twice the period that begins at a flip; None where none is found."""
-    from analysis.orbits import doubled_orbit
-
     for amplitude_m in AMPLITUDE:
         orbit = doubled_orbit(system, event, amplitude=amplitude_m, count=COUNT)
         if orbit.found:
@@ -83,8 +70,6 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, 
 
     ahead: 1 up, -1 down; starts: value, state, value, state ... of runs of that motion, tried in turn.
     """
-    from analysis.orbits import find_orbit, follow_branch
-
     cable, system = line.maps
     why = "the orbit under the run is not stable"
     for value, state in zip(starts[::2], starts[1::2], strict=True):
@@ -97,19 +82,25 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, 
             break
         why = orbit.reason or why
     else:
-        return {"reason": why}, []
-    limits = {"most": MOST_SHORT, "count": COUNT, "accuracy": ACCURACY, "told": lambda orbit: not orbit.stable}
-    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **limits)
+        raise ArithmeticError(why)
+    limits = {"most": MOST_SHORT, "told": lambda orbit: not orbit.stable}
+    branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **limits, **LOCATED)
     events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
-    if not events:
-        return {"reason": "the orbit stays stable"}, []
-    first = min(events, key=lambda event: abs(event.parameter - value))
-    return {"reason": "", "kind": first.kind, "value": first.parameter, "error": _finite(first.error)}, []
+    return _nearest(events, value, "the orbit stays stable"), []
 
 
 def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
-    """Where an event is at the tolerance of the line, from an orbit near it, at `value`; it was found at `at`."""
-    return _event_near(line, kind, at, value, points)
+    """Where an event is at the tolerance of the line, on the branch of the orbit near these points, at `value`.
+
+    It was found at `at`.
+    """
+    system = line.maps[1]
+    orbit = _found(system, points, value, len(points))
+    wide = max(AROUND * abs(at - value), NEAREST * line.size)
+    low, high = max(at - wide, line.low), min(at + wide, line.high)
+    branch = follow_branch(system, orbit, min(low, value), max(high, value), **SHORT, most=MOST_SHORT, **LOCATED)
+    events = [event for event in branch.events if event.kind == kind]
+    return _nearest(events, at, f"no {kind} from {low:.5g} to {high:.5g}"), []
 
 
 def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
@@ -121,42 +112,43 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
     for z in points:
         run = engine.simulate(fine_line.scene(value), periods=1, start=cable.state_of(z, value))
         if run.final_state is None:
-            return {"reason": f"on {fine_line.nodes} nodes: {run.message or run.status}"}, []
+            raise ArithmeticError(f"on {fine_line.nodes} nodes: {run.message or run.status}")
         states.append(run.final_state)
     fine_line = replace(fine_line, state=states[-1], value=value)
     fine, _ = fine_line.maps
     fine_points = [fine.at_strobe(state, value) for state in states]
-    return _event_near(fine_line, kind, at, value, np.roll(fine_points, 2, axis=0))
+    return sharper(fine_line, kind, at, value, np.roll(fine_points, 2, axis=0))
 
 
-def _event_near(line, kind, at, value, points):
-    """An event near `at` on the branch of the orbit near these points."""
-    from analysis.orbits import find_orbit, follow_branch
-
-    system = line.maps[1]
-    orbit = find_orbit(system, points, value, len(points), count=COUNT)
+def _found(system, start, value: float, period: int):
+    """The orbit near a start. Raises ArithmeticError where none is found."""
+    orbit = find_orbit(system, start, value, period, count=COUNT)
     if not orbit.found:
-        return {"reason": orbit.reason}, []
-    wide = max(AROUND * abs(at - value), NEAREST * line.size)
-    low, high = max(at - wide, line.low), min(at + wide, line.high)
-    ends = min(low, value), max(high, value)
-    branch = follow_branch(system, orbit, *ends, **SHORT, most=MOST_SHORT, count=COUNT, accuracy=ACCURACY)
-    events = [event for event in branch.events if event.kind == kind]
+        raise ArithmeticError(orbit.reason)
+    return orbit
+
+
+def _nearest(events, value: float, none: str) -> dict:
+    """Where the event nearest to a value is. Raises ArithmeticError, with the words `none`, where there is none."""
     if not events:
-        return {"reason": f"no {kind} from {low:.5g} to {high:.5g}"}, []
-    event = min(events, key=lambda event: abs(event.parameter - at))
-    return {"reason": "", "value": event.parameter, "error": _finite(event.error)}, []
+        raise ArithmeticError(none)
+    return _where(min(events, key=lambda event: abs(event.parameter - value)))
 
 
-def _row(cable, orbit, history, errors) -> dict:
-    """An orbit in numbers and lists. errors: of its multipliers."""
+def _where(event) -> dict:
+    return {"reason": "", "kind": event.kind, "value": event.parameter, "error": finite(event.error)}
+
+
+def _row(cable, orbit, errors) -> tuple[dict, dict]:
+    """An orbit in numbers and lists, and its history. errors: of its multipliers."""
+    history = cable.history(orbit.points, orbit.parameter)
     per_period = len(history["time_s"]) // orbit.period
-    return {
+    row = {
         "reason": "",
         "value": orbit.parameter,
         "period": orbit.period,
         "multipliers": orbit.multipliers,
-        "errors": [_finite(error) for error in errors],
+        "errors": [*map(finite, errors)],
         "gap": orbit.gap,
         "settled": orbit.settled,
         "strobes": history["radius_m"][::per_period],
@@ -164,9 +156,4 @@ def _row(cable, orbit, history, errors) -> dict:
         "radius_m": [history["radius_m"].min(), history["radius_m"].max()],
         "tension_N": [history["tension_top_low_N"].min(), history["tension_top_high_N"].max()],
     }
-
-
-def _finite(error: float) -> float | None:
-    if math.isfinite(error):
-        return error
-    return None
+    return row, history

@@ -1,14 +1,14 @@
 """Scenes along a key, and tasks on their orbits (`campaigns.explore.orbit_tasks`)."""
 
-import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial, reduce
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
 
 import engine
+from campaigns.explore.grid import Varied
 from campaigns.explore.multipliers import TOLERANCE, cable_map
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Plan
@@ -22,25 +22,18 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", *_FILES
 
 @dataclass(frozen=True)
 class Scenes:
-    """The scenes along one key. toml: of any of them; key, name, index: as of `campaigns.explore.grid.Varied`."""
+    """The scenes along one key. toml: of any of them."""
 
     toml: str
-    key: str
-    name: str
-    index: int | None = None
+    key: Varied
 
-    def at(self, value: float, changes: dict | None = None):
-        """The scene at a value, with further changes. Raises SceneError."""
-        put: object = value
-        if self.index is not None:
-            elements = [*reduce(getattr, self.name.split("."), self.base)]
-            put = [*elements[: self.index], value, *elements[self.index + 1 :]]
-        return scene_from_toml(self.toml, {self.name: put, **(changes or {})})
-
-    def __call__(self, value: float):
-        """The scene at a value; None where there is none, as between two whole numbers."""
+    def __call__(self, value: float, changes: dict | None = None):
+        """The scene at a value, with further changes; None where there is none, as between two whole numbers."""
+        changes = dict(changes or {})
+        if any(self.key.put(value, self.base, changes)):
+            return None
         try:
-            return self.at(value)
+            return scene_from_toml(self.toml, changes)
         except SceneError:
             return None
 
@@ -69,11 +62,12 @@ class Line:
 
     def scene(self, value: float):
         """The scene at a value, as its orbits are computed. Raises ArithmeticError where there is none."""
-        changes: dict[str, object] = {"solver.rtol": min(self.rtol, self.scenes.base.solver.rtol)}
-        try:
-            return self.scenes.at(value, changes | ({"tether.nodes": self.nodes} if self.nodes else {}))
-        except SceneError:
-            raise ArithmeticError(f"no scene can have {self.scenes.key} = {value:.4g}") from None
+        base = self.scenes.base
+        changes = {"solver.rtol": min(self.rtol, base.solver.rtol), "tether.nodes": self.nodes or base.tether.nodes}
+        scene = self.scenes(value, changes)
+        if scene is None:
+            raise ArithmeticError(f"no scene can have {self.scenes.key.key} = {value:.4g}")
+        return scene
 
     @cached_property
     def maps(self):
@@ -82,9 +76,9 @@ class Line:
 
     def digest(self) -> str:
         """Of all that results depend on beside their own task."""
-        content = self.state.digest(), made_by({}, *SOURCES), engine.source_hash()
-        parts = self.scenes, self.low, self.high, self.size, self.value, self.nodes, self.rtol, *content
-        return hashlib.sha256(repr(parts).encode()).hexdigest()
+        numbers = self.low, self.high, self.size, self.value, self.nodes, self.rtol
+        sources = made_by({}, *SOURCES), engine.source_hash()
+        return key_of(self.scenes.toml, self.scenes.key.key, self.state, *numbers, *sources)
 
 
 def line_task(do: Callable, line: Line, arguments: tuple) -> Task:

@@ -14,7 +14,7 @@ map, and a branch ends. Nothing is random.
 """
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -32,7 +32,6 @@ from tables import number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
-MOTIONS = "motions"
 
 
 @dataclass
@@ -130,42 +129,35 @@ def measures(order: Order) -> Measures:
     return measures_of(order, columns_of(order.options.grid.columns))
 
 
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: the motions, in a folder of their own, and the orbits under them."""
+    from campaigns.explore.tracing import Line, Scenes
+    from campaigns.orbits.tables import tables
+    from campaigns.orbits.tree import Tree
 
-    def every_orbit(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.explore.tracing import Line, Scenes
-        from campaigns.orbits.tables import tables
-        from campaigns.orbits.tree import Tree
-
-        (key,) = order.options.grid.keys
-        timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
-        if order.options.start_from is not None:
-            starts = [*_under_file(order, jobs[0])]
-        else:
-            inner = replace(plan, how=replace(plan.how, out=plan.how.out / MOTIONS))
-            with claimed(inner.how.out):
-                find = motions.every_motion(order, key, kicks=0, speed_mps=motions.SPEED_MPS, seed=1)
-                timing, _ = find(inner, jobs)
-            starts = [*_under_motions(order, inner.how.out)]
-        began = time.perf_counter()
-        low, high = key.values[0], key.values[-1]
-        state, value = None, low
-        if starts:
-            _, value, _, state = starts[0]
-        scenes = Scenes(jobs[0].scene.to_toml(), key.key, key.name, key.index)
-        line = Line(scenes, low, high, high - low, state, value)
-        tree = Tree(plan, line, order.options.orbits, order.options.branches)
-        if starts:
-            tree.grow(starts)
-            tree.across([value for _, value, _, _ in starts])
-            if not order.options.no_accuracy:
-                tree.refine()
-        rows = tables(tree, key.column)
-        timing["run_s"] += time.perf_counter() - began
-        return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
-
-    return every_orbit
+    options = order.options
+    (key,) = options.grid.keys
+    timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
+    if options.start_from is not None:
+        starts = [*_under_file(order, jobs[0])]
+    else:
+        how = replace(plan.how, out=plan.how.out / "motions")
+        with claimed(how.out):
+            timing, _ = motions.every_motion(order, replace(plan, how=how), jobs, 0, motions.SPEED_MPS, 1)
+        starts = [*_under_motions(order, how.out)]
+    began = time.perf_counter()
+    low, high = key.values[0], key.values[-1]
+    _, value, _, state = [*starts, ("", low, 0, None)][0]
+    line = Line(Scenes(jobs[0].scene.to_toml(), key), low, high, high - low, state, value)
+    tree = Tree(plan, line, options.orbits, options.branches)
+    if starts:
+        tree.grow(starts)
+        tree.across([value for _, value, _, _ in starts])
+        if not options.no_accuracy:
+            tree.refine()
+    rows = tables(tree, key.column)
+    timing["run_s"] += time.perf_counter() - began
+    return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
 
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:

@@ -119,20 +119,16 @@ def measures(order: Order) -> Measures:
     return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), judge=judge)
 
 
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
+    from campaigns.regime_map.maps import Map
 
-    def map_cells(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.regime_map.maps import Map
-
-        regime_map = Map(plan, order)
-        regime_map.run_screen(jobs)
-        summary = Summary([], 0, 0, 0.0)
-        if not order.options.screen:
-            summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
-        return regime_map.motions.timing(), summary
-
-    return map_cells
+    regime_map = Map(plan, order)
+    regime_map.run_screen(jobs)
+    summary = Summary([], 0, 0, 0.0)
+    if not order.options.screen:
+        summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
+    return regime_map.motions.timing(), summary
 
 
 def parameters(order: Order) -> dict[str, object]:

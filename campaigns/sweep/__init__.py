@@ -53,8 +53,12 @@ class Options(motions.Starts):
             faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
 
 
-def cases(order: Order) -> Iterator[Job]:
+def cases(order: Order) -> list[Job]:
     """A run for every value, or pair of values."""
+    return motions.with_kicks(order, _jobs(order))
+
+
+def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
     order.tell(f"--set {key.key}: this campaign sets it; use --vary" for key in grid.keys if key.key in order.changes)
     base = order.base(tell=True)
@@ -68,7 +72,6 @@ def cases(order: Order) -> Iterator[Job]:
         if duration_s is None:
             absent = f"--duration: given nothing for {order.name!r}, a scene without waves"
             order.tell([f"{absent}; allowed: seconds, above 0"])
-    scenes = []
     for place in grid.places():
         changes, faults = grid.changes(place, base)
         order.tell(faults)
@@ -77,29 +80,11 @@ def cases(order: Order) -> Iterator[Job]:
             scene = judged_scene(order, changes)
         if scene is None:
             continue
-        scenes.append(scene)
         labels, start = place | {"dimensions": scene.motion.dimensions}, motions.start_of(order, scene)
         if in_regular_waves(scene):
             yield judged_job(order, labels, scene, start)
         else:
             yield Job(labels, scene, periods, duration_s)
-    kicks_of(order, scenes)
-
-
-def kicks_of(order: Order, scenes=None) -> int | None:
-    """Kicks at each value; None: runs from rest only, as over two keys."""
-    if len(order.options.grid.keys) > 1:
-        if order.options.starts not in (None, motions.REST):
-            order.tell([f"--starts: given {order.options.starts} with two keys; allowed: {motions.REST}, or one key"])
-        return None
-    if scenes is None:
-        scenes = order.scenes
-    return motions.kicks_of(order, scenes)
-
-
-def runs(order: Order) -> Callable:
-    """The runs from rest, or every motion."""
-    return motions.runs(order, kicks_of(order))
 
 
 def measures(order: Order) -> Measures:
@@ -162,7 +147,7 @@ def parameters(order: Order) -> dict[str, object]:
     }
     if order.options.duration is not None:
         parameters |= {"duration_s": order.options.duration, "periods": None, "transient": 0}
-    return parameters | motions.parameters(order, kicks_of(order))
+    return parameters | motions.parameters(order)
 
 
 def beside(order: Order) -> Iterator[Callable]:
@@ -182,7 +167,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
     if len(keys) == 1:
         folders = []
-        if kicks_of(order) is not None:
+        if motions.kicks_of(order) is not None:
             folders.append("ends")
         tables = motions.tables_of(order.how.out, *folders)
         return sentences(rows, keys[0], keys[0], scene, **tables)
@@ -205,7 +190,7 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=parameters,
-    runs=runs,
+    runs=motions.runs,
     beside=beside,
     answer=answer,
 )
