@@ -13,7 +13,7 @@ import numpy as np
 from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import Motion, subfolder
 from campaigns.explore.rows import EXTREMES
-from campaigns.explore.starts import Start, section_of
+from campaigns.explore.starts import Start, run_in, section_of
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
 from engine.views import LONGEST_PERIOD
@@ -77,7 +77,7 @@ class Edge:
             for _, side, state, row in border:
                 self.states[side] = state
                 if row is not None:
-                    self.runs[side] = run_of(self.exploration.starts.plan.how.out, row)
+                    self.runs[side] = run_of(self.exploration.starts.folder, row)
             self.known, beyond = True, 0.0
             if None in self.runs:
                 continue
@@ -94,19 +94,15 @@ class Edge:
         """
         from engine.run.going_on import between
 
-        shares, states, requests = [], [], []
+        shares, starts = [], []
         for number in range(1, SHARES + 1):
-            share = (1.0 + 2.0 * beyond) * number / (SHARES + 1) - beyond
-            state = between(*self.states, share)
-            shares.append(share)
-            states.append(state)
-            requests.append(self.exploration.request(_start(state), most=LONGEST, settles=False))
-        endings = self.exploration.starts.run("states between two motions", requests)
+            shares.append((1.0 + 2.0 * beyond) * number / (SHARES + 1) - beyond)
+            starts.append(_start(between(*self.states, shares[-1])))
+        endings = self.exploration.run("states between two motions", starts, most=LONGEST, settles=False)
         decided = []
-        for share, state, ending in zip(shares, states, endings, strict=True):
-            motion = self.exploration.motion_of(ending)
-            if motion in self.sides:
-                decided.append((share, self.sides.index(motion), state, ending.row))
+        for share, start, ending in zip(shares, starts, endings, strict=True):
+            if ending.motion in self.sides:
+                decided.append((share, self.sides.index(ending.motion), start.state, ending.row))
         if self.known:
             decided = [(0.0, 0, self.states[0], None), *decided, (1.0, 1, self.states[1], None)]
         borders = [pair for pair in pairwise(decided) if pair[0][1] != pair[1][1]]
@@ -124,7 +120,11 @@ class Edge:
         # of as many samples as the runs that told them apart: a state that goes over to others begins a moment later
         scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
-        runs = self.exploration.runs_within(FOLDER, "along the edge", jobs)
+        plan, places = self.exploration.plan, self.exploration.places
+        folder = plan.how.out / FOLDER
+        timing, summary = run_in(plan, folder, jobs, title="along the edge")
+        places.times.update(timing)
+        runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
         if None in runs:
             return None, ""
         self.states = [run.final_state.at_zero() for run in runs]

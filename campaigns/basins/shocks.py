@@ -59,8 +59,5 @@ def _row(
 def _leads(exploration: Exploration, target: Motion, scene, starts: Sequence[tuple[float, float]]) -> list[bool]:
     """Whether starts, each a turn and a size, lead to the target in a scene."""
     title = f"smallest start, {scene.tether.nodes} nodes"
-    requests = []
-    for turn, size in starts:
-        requests.append(exploration.request(exploration.grid.at(turn, size, title), scene))
-    endings = exploration.starts.run(title, requests)
-    return [exploration.motion_of(ending) is target for ending in endings]
+    starts_there = [exploration.grid.at(turn, size, title) for turn, size in starts]
+    return [ending.motion is target for ending in exploration.run(title, starts_there, scene)]

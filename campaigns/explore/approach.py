@@ -1,10 +1,11 @@
 """A run that has not settled, and the periodic orbit that it comes nearer to (`analysis.approaches`)."""
 
-from analysis import Evidence, approach_evidence, approached_period, next_look, poincare_section
+from analysis import Evidence, approach_evidence, approached_period, next_look
 from campaigns.explore.multipliers import OrbitUnder, orbit_under
+from campaigns.judge import periods_of
 from campaigns.machinery.store import Store
 from engine.trajectory import Trajectory
-from engine.views import LONGEST_PERIOD, carries_tangents, state_of
+from engine.views import LONGEST_PERIOD, carries_tangents, strobed_states
 
 ITERATIONS = 6  # of Newton's method: from a run that comes nearer to an orbit three are enough
 
@@ -15,12 +16,10 @@ def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evid
     It is looked for from the second look on, where steps of the run shrink.
     """
     scene = trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    periods = round((len(trajectory.columns["time_s"]) - 1) * step_s / period_s)
+    periods = round(periods_of(scene, trajectory.columns))
     if periods < next_look(next_look()) or not carries_tangents(scene) or trajectory.final_state is None:
         return None
-    coordinates, scale = state_of(trajectory.columns, step_s, period_s, periods // 2)
-    strobed = poincare_section(coordinates, step_s, period_s).points
+    strobed, scale = strobed_states(trajectory, periods // 2)
     period = approached_period(strobed, scale, LONGEST_PERIOD)
     if period is None:
         return None
@@ -28,6 +27,5 @@ def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evid
         orbit = orbit_under(trajectory, period, orbits, ITERATIONS)
     except (ArithmeticError, ValueError):
         return None
-    coordinates, scale = state_of(orbit.run.columns, step_s, period_s, 0)
-    points = poincare_section(coordinates, step_s, period_s).points[: orbit.period]
-    return orbit, approach_evidence(strobed, points, orbit.multipliers, orbit.errors, scale)
+    points, scale = strobed_states(orbit.run, 0)
+    return orbit, approach_evidence(strobed, points[: orbit.period], orbit.multipliers, orbit.errors, scale)

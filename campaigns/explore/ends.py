@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, settled_in, subfolder
+from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import JOINED, MESSAGE, RUN_KEY, STATUS, Column, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
@@ -186,15 +186,15 @@ def confirm(motions: Motions) -> None:
         motion = max(branch, key=lambda motion: motion.tension_N)
         if motion.state is None:
             continue
-        scene, known = motions.jobs[motion.place].scene, settled_in(motions.at[motion.place])
+        scene = motions.jobs[motion.place].scene
         changed = {TIGHTER: finer(scene, steps=10), FINER.format(2 * scene.tether.nodes - 1): finer(scene, elements=2)}
         for change, changed_scene in changed.items():
             start = motions.fine(motion.place, Start(change, state=motion.state.at_zero()))
-            requests.append(Request(motions.name_of(motion.place), changed_scene, start, known))
+            requests.append(motions.request(motion.place, start, changed_scene))
             chosen.append((motion, change))
     words: dict[Motion, list[str]] = {}
     for (motion, change), ending in zip(chosen, motions.starts.run("motions confirmed", requests), strict=True):
-        if ending.row.get("outcome") == JOINED:
+        if ending.joins is not None:
             ending.motion = motions.at[motion.place][ending.joins]
         elif ending.settled is not None:
             ending.motion = nearest(ending.settled, motions.at[motion.place])

@@ -32,11 +32,11 @@ import numpy as np
 
 from campaigns.answers import kilonewton
 from campaigns.explore.approach import orbit_ahead
-from campaigns.explore.batches import UNFOLLOWED, Batch
+from campaigns.explore.batches import UNFOLLOWED, batch
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, as_it_is, section_of, settled_of
 from campaigns.finer import finer
-from campaigns.judge import job_from
+from campaigns.judge import job_from, periods_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
@@ -86,8 +86,7 @@ def errors(plan: Plan, summary: Summary) -> float:
     if plan.simulate is simulate:
         compared = list(filter(None, map(partial(_companion, plan), summary.rows)))
     jobs = [companion.job for companion in compared]
-    batch = Batch(FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs, together=True)
-    analysis_s = batch.do(plan)
+    analysis_s = batch(plan, FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs)
     if not jobs:
         return analysis_s
     ended = {row["of_run"]: row for row in read_table(plan.how.out / FOLDER / "table.csv")}
@@ -142,7 +141,7 @@ def companion_row(trajectory, period: int | None = None, motion=None) -> dict[st
     from analysis import joins
 
     scene, row = trajectory.scene, counted(trajectory, (WALL_S,))
-    row["periods"] = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
+    row["periods"] = periods_of(scene, trajectory.columns)
     if trajectory.status == "ok":
         row[USUAL.name] = usual_max_N(trajectory, LEFT_OUT * row["periods"], period)
         shares = slack_shares(trajectory, LEFT_OUT * row["periods"], period)

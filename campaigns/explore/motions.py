@@ -4,17 +4,15 @@ The stages that find them are in `campaigns.explore.stages`. A motion at one pla
 a motion there which becomes it in turn, is one branch with that, and has one letter.
 """
 
-import contextlib
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple
 
-from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts
-from campaigns.machinery.folder import claimed, run_of
+from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_in
+from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.runner import run
 from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
 from tables import REGIMES, SHEET, Column, write_table
@@ -164,12 +162,7 @@ class Motions:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
-        claim = contextlib.nullcontext()
-        if self.folder != self.plan.how.out:
-            claim = claimed(self.folder)
-        with claim:
-            plan = replace(self.plan, how=replace(self.plan.how, out=self.folder), title=title)
-            timing, summary = run(plan, list(jobs), ahead)
+        timing, summary = run_in(self.plan, self.folder, jobs, ahead, title=title)
         self.times.update(timing)
         self.computed |= summary.made
         self.rows |= summary.by_key
@@ -186,26 +179,27 @@ class Motions:
 
     def run_starts(self, title: str, starts: Sequence[tuple[int, Start]]) -> list[Motion | None]:
         """Run starts at places; returns the motion in which each ended, None where it did not settle."""
-        settled = list(map(settled_in, self.at))
-        requests = []
-        for place, start in starts:
-            requests.append(Request(self.name_of(place), self.jobs[place].scene, start, settled[place]))
-        endings = self.starts.run(title, requests)
+        endings = self.starts.run(title, [self.request(place, start) for place, start in starts])
         for (place, start), ending in zip(starts, endings, strict=True):
-            if ending.joins is not None:
-                ending.motion = self.at[place][ending.joins]  # new motions stand behind those it may join
-            elif ending.settled is not None:
-                ending.motion = self._motion_of(place, start, ending)
+            ending.motion = self.known(place, ending)
+            if ending.motion is None and ending.settled is not None:
+                ending.motion = Motion(place, ending.settled, ending.state, start.found_by)
+                self.at[place].append(ending.motion)
         return [ending.motion for ending in endings]
 
-    def _motion_of(self, place: int, start: Start, ending: Ending) -> Motion:
-        """The motion on which a start has settled: a known one, or a new one."""
-        motions = self.at[place]
-        number = ending.same_as(settled_in(motions))
-        if number is not None:
-            return motions[number]
-        motions.append(Motion(place, ending.settled, ending.state, start.found_by))
-        return motions[-1]
+    def request(self, place: int, start: Start, scene=None, **options) -> Request:
+        """A start in the scene of a place, or in another one with the same motions. options: fields of `Request`."""
+        scene = scene or self.jobs[place].scene
+        return Request(self.name_of(place), scene, start, settled_in(self.at[place]), **options)
+
+    def known(self, place: int, ending: Ending) -> Motion | None:
+        """The known motion in which a start at a place has ended; None where it has not settled, or on another one."""
+        number = ending.joins  # new motions stand behind those it may join
+        if number is None and ending.settled is not None:
+            number = ending.same_as(settled_in(self.at[place]))
+        if number is None:
+            return None
+        return self.at[place][number]
 
     def branches(self) -> list[list[Motion]]:
         """The motions of each branch, by place."""

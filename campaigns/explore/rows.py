@@ -14,8 +14,9 @@ import numpy as np
 from analysis.evidence import evidence_text
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
+from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, state_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, strobed_states
 from tables import (
     LINE_COUNTS,
     MESSAGE,
@@ -150,11 +151,10 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     fills the columns planar_.
     """
     columns, scene = sound_part(trajectory.columns), trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     row = counted(trajectory)
     row[HEIGHT.name] = height_m(scene, columns)
     if len(columns["time_s"]):
-        row["periods"] = (len(columns["time_s"]) - 1) * step_s / period_s
+        row["periods"] = periods_of(scene, columns)
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
     transient_periods = judgement.transient
@@ -164,7 +164,7 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
             measured |= settled(scene, judgement.orbit.run.columns, 0.0) | {STROBED.name: judgement.verdict.period}
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
-            first = round(transient_periods * period_s / step_s)  # sample after the transient
+            first = round(transient_periods * scene.waves.period_s / scene.sample_step_s())  # after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:
@@ -204,22 +204,16 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
     """
+    from analysis import detect_period
+
     scene = trajectory.scene
     if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * scene.waves.period_s):
         return {}
     row = settled(scene, columns, transient_periods * scene.waves.period_s)
-    row |= strobed_period(trajectory, columns, transient_periods)
+    # only the period goes into the table: the report strobes the radius again
+    points, scale = strobed_states(trajectory, transient_periods, 0.0, transient_periods, columns)
+    row[STROBED.name] = detect_period(points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
     return row | lateral_growth(trajectory, transient_periods)
-
-
-def strobed_period(trajectory, columns, transient_periods: int) -> dict[str, object]:
-    """The column STROBED. Only the period goes into the table: the report strobes the radius again."""
-    from analysis import detect_period, poincare_section
-
-    step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
-    section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
-    return {STROBED.name: detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period}
 
 
 def lateral_growth(trajectory, transient_periods: int) -> dict[str, object]:

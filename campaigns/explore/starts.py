@@ -6,6 +6,7 @@ one of its own (`analysis.settled`), or after the last look, unsettled. These ru
 because a motion is told by its strobes and by the extremes of its periods; what is reported is measured by other runs.
 """
 
+import contextlib
 import hashlib
 import math
 from bisect import bisect_left
@@ -14,15 +15,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from campaigns.explore.approach import orbit_ahead
-from campaigns.judge import LATERAL, TANGENTS
+from campaigns.judge import LATERAL, TANGENTS, periods_of
 from campaigns.machinery.folder import claimed, made_by, run_of
 from campaigns.machinery.long_runs import until_settled
-from campaigns.machinery.plan import Job, Plan
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.machinery.store import Store, orbits_in
 from engine.scene import scene_from_toml
@@ -160,8 +162,7 @@ def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[st
 
     row = counted(trajectory, (LOOPS, WALL_S))
     if len(trajectory.columns["time_s"]):
-        step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-        row["periods"] = (len(trajectory.columns["time_s"]) - 1) * step_s / period_s
+        row["periods"] = periods_of(trajectory.scene, trajectory.columns)
     if trajectory.status != "ok":
         return row
     strobed, measures, scale = section_of(trajectory)
@@ -247,14 +248,22 @@ class Ending:
         return None
 
 
+def run_in(plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes) -> tuple[dict, Summary]:
+    """Do runs in a folder of a campaign; changes: of its plan. Raises as `runner.run`."""
+    claim = contextlib.nullcontext()
+    if folder != plan.how.out:
+        claim = claimed(folder)
+    with claim:
+        return run(replace(plan, how=replace(plan.how, out=folder), **changes), list(jobs), ahead)
+
+
 class Starts:
     """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
     def __init__(self, plan: Plan, keys: tuple[Column, ...]):
+        self.folder, maker = plan.how.out / "starts", made_by({}, *SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
-        running = replace(plan.how, out=plan.how.out / "starts")
-        maker = made_by({}, *SOURCES)
-        self.plan = replace(plan, how=running, columns=columns, describe=start_row, judge=None, row_maker=maker)
+        self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker)
         self.endings: list[Ending] = []
         self.times: Counter = Counter()
         self.computed = 0
@@ -267,33 +276,29 @@ class Starts:
         jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
-        with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, title=title), jobs)
+        timing, summary = run_in(self.plan, self.folder, jobs, title=title)
         self.times.update(timing)
         self.computed += summary.computed
         rows = summary.by_key
-        endings = [self._ending(job, rows.get(job.key)) for job in jobs]
+        endings = [self._ending({**rows[job.key], **job.labels}) for job in jobs]
         if listed:
             self.endings += endings
         return endings
 
-    def _ending(self, job: Job, row: dict | None) -> Ending:
-        row = {**(row or {"status": "lost"}), **job.labels}
+    def _ending(self, row: dict) -> Ending:
+        ending = Ending(row)
         if row.get("outcome") == JOINED:
-            return Ending(row, round(row["joins"]))
-        if row.get("outcome") != SETTLED:
-            return Ending(row)
-        run = run_of(self.plan.how.out, row)
-        if run is None:
-            return Ending(row)
-        return Ending(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
+            ending.joins = round(row["joins"])
+        elif row.get("outcome") == SETTLED:
+            run = run_of(self.folder, row)
+            if run is not None:
+                ending.settled, ending.state = settled_of(run, orbits_in(self.folder)), run.final_state
+        return ending
 
     def write(self) -> None:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""
         rows = []
         for ending in self.endings:
-            row = {**ending.row, "motion": ending.motion and ending.motion.branch.letter}
-            row.pop("joins", None)
-            rows.append(row)
+            rows.append({**ending.row, "motion": ending.motion and ending.motion.branch.letter})
         columns = tuple(column for column in self.plan.columns if column is not JOINS)
-        write_table(self.plan.how.out / "table.csv", columns, rows)
+        write_table(self.folder / "table.csv", columns, rows)
