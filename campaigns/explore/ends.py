@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from analysis import distance
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
@@ -82,7 +83,7 @@ def find_ends(motions: Motions, scene_at: Callable) -> list[dict[str, object]]:
     Writes ends/table.csv. Raises as `runner.run`.
     """
     (key,) = motions.keys
-    values = _values(motions)
+    values = [job.labels[key.name] for job in motions.jobs]
     ends = [*_ends_of(motions, values)]
     width = (max(values) - min(values)) / SHARPNESS
     while True:
@@ -95,16 +96,10 @@ def find_ends(motions: Motions, scene_at: Callable) -> list[dict[str, object]]:
             requests.append(Request({key.name: end.middle()}, scene_at(end.middle()), start, most=MOST))
         for end, ending in zip(wide, motions.starts.run("ends of ranges", requests), strict=True):
             _narrow(motions, end, ending)
-    exact = by_orbits(motions, ends, scene_at)
+    exact = by_orbits(motions, values, ends, scene_at)
     rows = [{**end.columns(key), **exact.get(end, {})} for end in ends]
     write_table(subfolder(motions.plan, FOLDER) / "table.csv", columns(key), rows)
     return rows
-
-
-def _values(motions: Motions) -> list[float]:
-    """The values of a sweep over one key."""
-    (key,) = motions.keys
-    return [job.labels[key.name] for job in motions.jobs]
 
 
 def _ends_of(motions: Motions, values: Sequence[float]) -> Iterator[_End]:
@@ -142,12 +137,12 @@ def _narrow(motions: Motions, end: _End, ending: Ending) -> None:
 
 def nearest(settled, motions: Sequence[Motion]) -> Motion:
     """The motion that is nearest to what a start has settled to."""
-    from analysis import distance
-
     return min(motions, key=lambda motion: distance(settled, motion.settled))
 
 
-def by_orbits(motions: Motions, ends: Sequence[_End], scene_at: Callable) -> dict[_End, dict[str, object]]:
+def by_orbits(
+    motions: Motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable
+) -> dict[_End, dict[str, object]]:
     """The columns of the ends at which an orbit stops being stable, as the bisection says; the others have none.
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
@@ -155,9 +150,7 @@ def by_orbits(motions: Motions, ends: Sequence[_End], scene_at: Callable) -> dic
     from campaigns.explore.orbit_tasks import lost
     from campaigns.explore.tracing import Line, line_task, work
 
-    (key,) = motions.keys
-    values = _values(motions)
-    span, tasks = max(values) - min(values), {}
+    (key,), span, tasks = motions.keys, max(values) - min(values), {}
     for end in ends:
         period = end.motion.settled.period
         if period and end.row["status"] == "ok":

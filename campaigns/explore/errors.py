@@ -30,11 +30,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analysis import block_maxima, joins
 from campaigns.answers import kilonewton
 from campaigns.explore.approach import orbit_ahead
 from campaigns.explore.batches import UNFOLLOWED, batch
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
-from campaigns.explore.starts import OUTCOME, as_it_is, section_of, settled_of
+from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
 from campaigns.judge import job_from, periods_of
 from campaigns.machinery.folder import run_of
@@ -129,7 +130,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     if period:
         length = max(REPEATING, 3 * period)
     if row.get("regime"):
-        motion = settled_of(run, orbits) or as_it_is(run)
+        motion = reached(run, orbits)
     length = min(length, round(row["periods"]))
     job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
     job = replace(job, describe=partial(companion_row, period=period, motion=motion))
@@ -138,8 +139,6 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
 
 def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
     """The columns of COLUMNS that a companion fills. period, motion (`analysis.Settled`): of its row, where known."""
-    from analysis import joins
-
     scene, row = trajectory.scene, counted(trajectory, (WALL_S,))
     row["periods"] = periods_of(scene, trajectory.columns)
     if trajectory.status == "ok":
@@ -161,19 +160,12 @@ def usual_max_N(trajectory, transient_periods: float, period: int | None) -> flo
     if period:
         samples = round(_whole(period) * scene.waves.period_s / scene.sample_step_s())
         return float(columns["tension_top_high_N"][-samples:].max())
-    largest = _maxima_of_blocks(scene, columns, transient_periods)
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    first = round(transient_periods * period_s / step_s) + 1
+    largest = block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
     if not len(largest):
         return math.nan
     return float(largest.mean())
-
-
-def _maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
-    """The largest tension (N) of every BLOCK wave periods after the transient."""
-    from analysis import block_maxima
-
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    first = round(transient_periods * period_s / step_s) + 1
-    return block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
 
 
 def slack_shares(trajectory, transient_periods: float, period: int | None) -> np.ndarray:

@@ -7,9 +7,11 @@ a motion there which becomes it in turn, is one branch with that, and has one le
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
+from analysis import share_of
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_in
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -102,10 +104,7 @@ def in_a_row(count: int) -> Callable[[int], dict[int, str]]:
     """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
 
     def neighbours(place: int) -> dict[int, str]:
-        beside = {place + step: found_by for step, found_by in CARRIED.items()}
-        for outside in (-1, count):
-            beside.pop(outside, None)
-        return beside
+        return {place + step: found_by for step, found_by in CARRIED.items() if 0 <= place + step < count}
 
     return neighbours
 
@@ -150,8 +149,7 @@ class Motions:
 
     def all_motions(self) -> Iterator[Motion]:
         """All motions, place by place."""
-        for motions in self.at:
-            yield from motions
+        return chain.from_iterable(self.at)
 
     def name_of(self, place: int) -> dict[str, object]:
         """The columns that name a place."""
@@ -212,8 +210,6 @@ class Motions:
         """The columns MOTIONS of a motion."""
         labels: dict[str, object] = {"motion": motion.branch.letter, "found_by": motion.found_by}
         if self.kicks:
-            from analysis import share_of
-
             share = share_of(motion.kicks, self.kicks)
             labels |= {"share": share.share, "share_low": share.low, "share_high": share.high, "kicks": self.kicks}
         return labels | {"confirmed": motion.branch.confirmed or None}
@@ -247,8 +243,8 @@ class Motions:
 
     def timing(self) -> dict[str, float]:
         """Seconds of all runs, those of the starts among them."""
-        names = "compile_s", "run_s", "analysis_s"
-        return {name: self.times[name] + self.starts.times[name] for name in names}
+        times = self.times + self.starts.times
+        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}
 
 
 def subfolder(plan: Plan, name: str) -> Path:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analysis import detect_period, extremes, slack_fraction, transverse_lyapunov
 from analysis.evidence import evidence_text
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
@@ -204,8 +205,6 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
     """
-    from analysis import detect_period
-
     scene = trajectory.scene
     if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * scene.waves.period_s):
         return {}
@@ -218,8 +217,6 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
 
 def lateral_growth(trajectory, transient_periods: int) -> dict[str, object]:
     """The columns OFFPLANE; none for a run that ended early or carried no perturbation across the plane."""
-    from analysis import transverse_lyapunov
-
     growth = trajectory.tangent
     if trajectory.status != "ok" or growth is None or growth.lateral_nats is None:
         return {}
@@ -240,8 +237,6 @@ def exponents(columns: tuple[Column, Column], exponent) -> dict[str, object]:
 
 def settled(scene, columns, transient_s: float) -> dict[str, object]:
     """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
-    from analysis import extremes, slack_fraction
-
     step_s = scene.sample_step_s()
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
     radius, angle, low, high = (

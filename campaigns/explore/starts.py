@@ -20,6 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analysis import Settled, grouped, joins, settled
 from campaigns.explore.approach import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS, periods_of
 from campaigns.machinery.folder import claimed, made_by, run_of
@@ -158,8 +159,6 @@ def start_job(request: Request) -> Job:
 
 def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[str, object]:
     """The columns of OF_A_START that the run of a start fills."""
-    from analysis import joins, settled
-
     row = counted(trajectory, (LOOPS, WALL_S))
     if len(trajectory.columns["time_s"]):
         row["periods"] = periods_of(trajectory.scene, trajectory.columns)
@@ -197,8 +196,6 @@ def settled_of(trajectory, orbits: Store):
 
     orbits: of its campaign.
     """
-    from analysis import settled
-
     strobed, measures, scale = section_of(trajectory)
     motion = settled(strobed, measures, scale=scale)
     if motion is not None:
@@ -209,15 +206,14 @@ def settled_of(trajectory, orbits: Store):
     return settled_of(near[0].run, orbits)
 
 
-def as_it_is(trajectory):
-    """The later half of a run as a motion: one that has not settled when its run ends is one that others may reach."""
-    from analysis import Settled
-
+def reached(trajectory, orbits: Store) -> Settled:
+    """As `settled_of`; of a run that has not settled when it ends its later half, which others may reach."""
+    motion = settled_of(trajectory, orbits)
+    if motion is not None:
+        return motion
     strobed, measures, scale = section_of(trajectory)
-    later = len(measures) // 2
-    return Settled(
-        None, strobed[later:-1], measures[later:], np.asarray(scale), "not settled: the later half of its run"
-    )
+    later, reason = len(measures) // 2, "not settled: the later half of its run"
+    return Settled(None, strobed[later:-1], measures[later:], np.asarray(scale), reason)
 
 
 @dataclass(eq=False)
@@ -238,11 +234,7 @@ class Ending:
 
     def same_as(self, known: Sequence) -> int | None:
         """Number of the motion among these `Settled` that is its own; None where none is."""
-        from analysis import grouped
-
-        if not known:
-            return None
-        *labels, label = grouped([*known, self.settled])
+        *labels, label = grouped([*known, self.settled]).tolist()
         if label in labels:
             return labels.index(label)
         return None
