@@ -18,8 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from campaigns.basins.grid import PAIRS, StartGrid
-from campaigns.explore.settings import BUDGET, columns_of, measures_of
-from campaigns.explore.sweep import ONLY, kick_speed, tables_of
+from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -73,7 +72,7 @@ def cases(order: Order) -> Iterator[Job]:
     if scene is None:
         return
     if not carries_tangents(scene):
-        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY.removeprefix('a number for ')}"])
+        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY}"])
         return
     scene = judged_scene(order, REST)
     if scene is not None:
@@ -112,7 +111,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     options = order.options
     return {
         "across": list(options.grid.across),

@@ -17,7 +17,7 @@ from campaigns.explore.starts import Start, run_in, section_of
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
 from engine.views import LONGEST_PERIOD
-from tables import MESSAGE, RUN_KEY, STATUS, Column, names, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -141,14 +141,14 @@ def _start(state) -> Start:
     return Start("edge", state=state, often=SAMPLES)
 
 
-def edge_state(exploration: Exploration, first: Motion, second: Motion) -> dict[str, object]:
+def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     """The row of COLUMNS on the edge state between two motions; writes edge/table.csv and edge/orbit.csv.
 
     Raises as `runner.run`.
     """
     edge = Edge(exploration, first, second)
     runs, distances_so_far, doublings = [], [], 0.0
-    row: dict[str, object] = {"motion": first.branch.letter, "other": second.branch.letter}
+    row = {"motion": first.branch.letter, "other": second.branch.letter}
     row["status"] = "lost"
     while len(distances_so_far) < MOST:
         distances = edge.narrow()

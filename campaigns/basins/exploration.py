@@ -8,7 +8,7 @@ from campaigns.explore.rows import STEEPNESS
 from campaigns.explore.stages import judge, name, propose, run_from_rest
 from campaigns.explore.starts import KICKS, OUTCOME, Ending, Start
 from campaigns.machinery.plan import Job, Plan
-from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column
+from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, Row
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
 PEAK = Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line in its motion", 0)
@@ -69,7 +69,7 @@ class Exploration:
             ending.motion = self.places.known(0, ending)
         return endings
 
-    def rows(self) -> list[dict[str, object]]:
+    def rows(self) -> list[Row]:
         """The rows of COLUMNS."""
         rows = []
         for _, ending in sorted(self.endings.items()):

@@ -20,7 +20,6 @@ from pathlib import Path
 import engine
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, Varied
-from campaigns.explore.settings import BUDGET, measures_of
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
@@ -93,7 +92,7 @@ def _jobs(order: Order) -> Iterator[Job]:
             yield judged_job(order, labels, scene, motions.start_of(order, scene))
 
 
-def _changes(dimensions: str) -> dict[str, object]:
+def _changes(dimensions: str) -> dict:
     """What a scene is changed by so that its runs have these dimensions; `auto` begins in the plane."""
     return {"motion.dimensions": (2, 3)[dimensions == "3"]}
 
@@ -119,10 +118,10 @@ def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.explore.rows import COLUMNS
 
-    return measures_of(order, COLUMNS, full=order.options.evidence == "full")
+    return motions.measures_of(order, COLUMNS, full=order.options.evidence == "full")
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
     dimensions, push_mps = dimensions_of(order), None
     if dimensions != "2":
@@ -170,7 +169,7 @@ STUDY = Study(
     name="buoy_sweep",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=300, transient=100, budget=BUDGET),
+    lengths=Lengths(periods=300, transient=100, budget=motions.BUDGET),
     in_waves=True,
     taken={
         SWEPT: "use --steepness",

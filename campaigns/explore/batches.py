@@ -22,7 +22,7 @@ from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of
 from engine.scene import scene_from_toml
-from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
+from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, Row, counted, names
 
 ROLE = Column("role", symbol="role", meaning="what was changed in the run of table.csv")
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
@@ -56,7 +56,7 @@ def unfollowed(scene, changes: dict):
     return scene_from_toml(scene.to_toml(), UNFOLLOWED | changes)
 
 
-def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
+def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> Row:
     """What a run fills of these columns without a verdict."""
     row = buoy_row(trajectory, Judgement(transient_periods)) | {"nodes": trajectory.scene.tether.nodes}
     return {name: row[name] for name in names(columns) if name in row}

@@ -7,7 +7,7 @@ from analysis import distance
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import MESSAGE, RUN_KEY, STATUS, Column, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
@@ -44,7 +44,7 @@ class _End:
     def middle(self) -> float:
         return float(f"{0.5 * (self.inside + self.outside):.12g}")
 
-    def columns(self, key: Column) -> dict[str, object]:
+    def columns(self, key: Column) -> Row:
         """Those that do not come from an orbit."""
         return {
             "motion": self.motion.branch.letter,
@@ -76,7 +76,7 @@ def columns(key: Column) -> tuple[Column, ...]:
     )
 
 
-def find_ends(motions: Motions, scene_at: Callable) -> list[dict[str, object]]:
+def find_ends(motions: Motions, scene_at: Callable) -> list[Row]:
     """The ends of all branches of a sweep, each bisected with the state of its motion; rows of `columns`.
 
     scene_at: the scene of a value; None where there is none, as between two whole numbers.
@@ -140,15 +140,12 @@ def nearest(settled, motions: Sequence[Motion]) -> Motion:
     return min(motions, key=lambda motion: distance(settled, motion.settled))
 
 
-def by_orbits(
-    motions: Motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable
-) -> dict[_End, dict[str, object]]:
+def by_orbits(motions: Motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable) -> dict[_End, Row]:
     """The columns of the ends at which an orbit stops being stable, as the bisection says; the others have none.
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
-    from campaigns.explore.orbit_tasks import lost
-    from campaigns.explore.tracing import Line, line_task, work
+    from campaigns.explore.tracing import Line, line_task, lost, work
 
     (key,), span, tasks = motions.keys, max(values) - min(values), {}
     for end in ends:

@@ -32,8 +32,8 @@ import numpy as np
 
 from analysis import block_maxima, joins
 from campaigns.answers import kilonewton
-from campaigns.explore.approach import orbit_ahead
 from campaigns.explore.batches import UNFOLLOWED, batch
+from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
@@ -57,6 +57,7 @@ from tables import (
     UNSETTLED,
     WALL_S,
     Column,
+    Row,
     counted,
     finite,
     number_of,
@@ -137,7 +138,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     return _Companion(job, row, usual_max_N(run, transient, period), slack_shares(run, transient, period))
 
 
-def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
+def companion_row(trajectory, period: int | None = None, motion=None) -> Row:
     """The columns of COLUMNS that a companion fills. period, motion (`analysis.Settled`): of its row, where known."""
     scene, row = trajectory.scene, counted(trajectory, (WALL_S,))
     row["periods"] = periods_of(scene, trajectory.columns)

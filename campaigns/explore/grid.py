@@ -14,7 +14,7 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Order
-from tables import Column, names
+from tables import Column, Row, names
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Varied:
     column: Column
     part: str = ""
 
-    def put(self, value: float, base, changes: dict[str, object]) -> Iterator[str]:
+    def put(self, value: float, base, changes: dict) -> Iterator[str]:
         """Put a value into the changes of a scene; yields the fault of a list that has no such element.
 
         base: the scene whose list it is; two keys may change two elements of one list.
@@ -114,20 +114,24 @@ class Grid:
         """Those that name a place."""
         return tuple(key.column for key in self.keys)
 
-    def places(self) -> Iterator[dict[str, object]]:
+    def places(self) -> Iterator[Row]:
         """The columns of every place."""
         for values in product(*(key.values for key in self.keys)):
             yield dict(zip(names(self.columns), values, strict=True))
 
-    def changes(self, place: dict[str, object], base) -> tuple[dict[str, object], list[str]]:
+    def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
+        """A key that is varied cannot be set too."""
+        order.tell(f"--set {key.key}: this campaign sets it{instead}" for key in self.keys if key.key in order.changes)
+
+    def changes(self, place: Row, base) -> tuple[dict, list[str]]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
-        changes: dict[str, object] = {}
+        changes = {}
         faults: list[str] = []
         for key in self.keys:
             faults += key.put(place[key.column.name], base, changes)
         return changes, faults
 
-    def job(self, order: Order, place: dict[str, object], most: int | None = None, **labels: object) -> Job | None:
+    def job(self, order: Order, place: Row, most: int | None = None, **labels: object) -> Job | None:
         """The judged run from rest of a place, with more labels; None where there is no such scene: it is told.
 
         most: as of `campaigns.judge.judged_job`.

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 
 from analysis import Exponent, Verdict, next_look
 from analysis.looks import CLOSE
-from campaigns.explore.approach import orbit_ahead
-from campaigns.explore.multipliers import OrbitUnder, orbit_under
+from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_under
 from campaigns.explore.rows import sound_part
 from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, tangent_of
 from campaigns.machinery.long_runs import OPEN

@@ -17,7 +17,7 @@ from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
-from tables import REGIMES, SHEET, Column, write_table
+from tables import REGIMES, SHEET, Column, Row, write_table
 
 MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
 MOTIONS = (
@@ -151,7 +151,7 @@ class Motions:
         """All motions, place by place."""
         return chain.from_iterable(self.at)
 
-    def name_of(self, place: int) -> dict[str, object]:
+    def name_of(self, place: int) -> Row:
         """The columns that name a place."""
         labels = self.jobs[place].labels
         return {key.name: labels[key.name] for key in self.keys}
@@ -206,9 +206,9 @@ class Motions:
             members.setdefault(motion.branch, []).append(motion)
         return [*members.values()]
 
-    def labels(self, motion: Motion) -> dict[str, object]:
+    def labels(self, motion: Motion) -> Row:
         """The columns MOTIONS of a motion."""
-        labels: dict[str, object] = {"motion": motion.branch.letter, "found_by": motion.found_by}
+        labels = {"motion": motion.branch.letter, "found_by": motion.found_by}
         if self.kicks:
             share = share_of(motion.kicks, self.kicks)
             labels |= {"share": share.share, "share_low": share.low, "share_high": share.high, "kicks": self.kicks}

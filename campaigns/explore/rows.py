@@ -29,6 +29,7 @@ from tables import (
     SOLVER_COUNTS,
     STATUS,
     Column,
+    Row,
     counted,
     finite,
     names,
@@ -143,7 +144,7 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
+def buoy_row(trajectory, judgement: Judgement) -> Row:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. A record that does not
@@ -152,6 +153,7 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     fills the columns planar_.
     """
     columns, scene = sound_part(trajectory.columns), trajectory.scene
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     row = counted(trajectory)
     row[HEIGHT.name] = height_m(scene, columns)
     if len(columns["time_s"]):
@@ -165,7 +167,7 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
             measured |= settled(scene, judgement.orbit.run.columns, 0.0) | {STROBED.name: judgement.verdict.period}
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
-            first = round(transient_periods * scene.waves.period_s / scene.sample_step_s())  # after the transient
+            first = round(transient_periods * period_s / step_s)  # sample after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:
@@ -173,7 +175,7 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     return row
 
 
-def regime_of(judgement: Judgement) -> dict[str, object]:
+def regime_of(judgement: Judgement) -> Row:
     """The columns of the verdict and of the exponents."""
     verdict, record = judgement.verdict, judgement.record
     evidence = evidence_text(verdict)
@@ -200,7 +202,7 @@ def height_m(scene, columns) -> float | None:
     return top_m - scene.water.depth_m
 
 
-def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
+def after_transient(trajectory, columns, transient_periods: int) -> Row:
     """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
@@ -215,7 +217,7 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
     return row | lateral_growth(trajectory, transient_periods)
 
 
-def lateral_growth(trajectory, transient_periods: int) -> dict[str, object]:
+def lateral_growth(trajectory, transient_periods: int) -> Row:
     """The columns OFFPLANE; none for a run that ended early or carried no perturbation across the plane."""
     growth = trajectory.tangent
     if trajectory.status != "ok" or growth is None or growth.lateral_nats is None:
@@ -230,12 +232,12 @@ def lasts(columns, step_s: float, length_s: float) -> bool:
     return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
 
 
-def exponents(columns: tuple[Column, Column], exponent) -> dict[str, object]:
+def exponents(columns: tuple[Column, Column], exponent) -> Row:
     """An Exponent in the two columns of its value and its standard error."""
     return dict(zip(names(columns), (finite(exponent.value), finite(exponent.error)), strict=True))
 
 
-def settled(scene, columns, transient_s: float) -> dict[str, object]:
+def settled(scene, columns, transient_s: float) -> Row:
     """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
     step_s = scene.sample_step_s()
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.

@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from analysis import Settled, grouped, joins, settled
-from campaigns.explore.approach import orbit_ahead
+from campaigns.explore.multipliers import orbit_ahead
 from campaigns.judge import LATERAL, TANGENTS, periods_of
 from campaigns.machinery.folder import claimed, made_by, run_of
 from campaigns.machinery.long_runs import until_settled
@@ -41,6 +41,7 @@ from tables import (
     UNSETTLED,
     WALL_S,
     Column,
+    Row,
     counted,
     names,
     write_table,
@@ -80,7 +81,7 @@ class Start:
 
     def scene(self, scene):
         """The scene that begins so."""
-        changes: dict[str, object] = {TANGENTS: 0, LATERAL: False}
+        changes = {TANGENTS: 0, LATERAL: False}
         phase = scene.waves.phase_rad
         if self.phase is not None:
             phase = changes[PHASE] = self.phase
@@ -88,13 +89,11 @@ class Start:
         changes["output.step_s"] = scene.waves.period_s / (parts * math.ceil(self.often / parts))
         for key, (x, z) in ((KICK, self.kick), (DISPLACEMENT, self.displacement)):
             changes[key] = [x, 0.0, z]
-            if self.state is not None:
-                changes[key] = [0.0, 0.0, 0.0]
         return scene_from_toml(scene.to_toml(), changes)
 
-    def labels(self) -> dict[str, object]:
+    def labels(self) -> Row:
         """The columns of KICKS; those of a state are empty."""
-        labels: dict[str, object] = {"found_by": self.found_by}
+        labels = {"found_by": self.found_by}
         if self.state is None:
             labels |= zip(names(KICKS[:4]), (*self.kick, *self.displacement), strict=True)
             if self.phase is not None:
@@ -157,7 +156,7 @@ def start_job(request: Request) -> Job:
     )
 
 
-def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[str, object]:
+def start_row(trajectory, known: Sequence = (), settles: bool = True) -> Row:
     """The columns of OF_A_START that the run of a start fills."""
     row = counted(trajectory, (LOOPS, WALL_S))
     if len(trajectory.columns["time_s"]):

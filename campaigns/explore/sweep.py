@@ -3,7 +3,7 @@
 import contextlib
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +11,14 @@ import engine
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
-from campaigns.study import Order
+from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import read_table
+from tables import Column, names, read_table
 
+ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
+BUDGET = 1500  # wave periods after which a run ends undecided
 KICKS, SPEED_MPS = 8, 6.0
-ONLY = "a number for a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
+ONLY = "a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
 REST = "rest"
 MOST_KICKS = 10_000
 
@@ -96,7 +98,7 @@ def kicks_of(order: Order) -> int | None:
     elif options.start_from is not None:
         allowed = " with --start-from; allowed: one of them"
     elif not all(in_regular_waves(scene) and carries_tangents(scene) for scene in order.scenes):
-        allowed = f"; allowed: {REST}, and {ONLY}"
+        allowed = f"; allowed: {REST}, and a number for {ONLY}"
     elif options.starts is None and order.looks:
         return KICKS
     elif options.starts != REST:
@@ -106,7 +108,7 @@ def kicks_of(order: Order) -> int | None:
     return None
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     """The starts, for the provenance."""
     options, kicks = order.options, kicks_of(order)
     if kicks is None:
@@ -156,3 +158,23 @@ def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
         with contextlib.suppress(OSError, ValueError):
             tables[folder] = read_table(out / folder / "table.csv")
     return tables
+
+
+def measures_of(order: Order, columns: tuple[Column, ...], full: bool = False) -> Measures:
+    """The rows of a buoy in regular waves. full: as of `judgement_of`, after all wave periods of the order."""
+    from campaigns.explore.judgement import judgement_of
+    from campaigns.explore.rows import buoy_row
+
+    settings = {"transient_periods": order.transient, "full": None}
+    if full:
+        settings["full"] = order.periods
+    return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
+
+
+def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+    """Those of the places of a grid, then those of the rows of a buoy in a plane."""
+    from campaigns.explore.rows import COLUMNS, STEEPNESS
+
+    of_places = names((STEEPNESS, *keys))
+    measured = [column for column in COLUMNS if column.name not in of_places and not column.name.startswith("planar_")]
+    return *keys, *measured

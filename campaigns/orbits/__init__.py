@@ -21,7 +21,6 @@ from pathlib import Path
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
-from campaigns.explore.settings import columns_of, measures_of
 from campaigns.judge import job_from
 from campaigns.machinery import cli
 from campaigns.machinery.folder import claimed, run_of
@@ -76,10 +75,7 @@ def cases(order: Order) -> Iterator[Job]:
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.options.grid.keys:
         return
-    jobs_of = _jobs
-    if order.options.start_from is not None:
-        jobs_of = _job_of_file
-    jobs = list(jobs_of(order))
+    jobs = list((_jobs if order.options.start_from is None else _job_of_file)(order))
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
@@ -92,9 +88,7 @@ def cases(order: Order) -> Iterator[Job]:
 
 
 def _jobs(order: Order) -> Iterator[Job]:
-    (key,) = order.options.grid.keys
-    if key.key in order.changes:
-        order.tell([f"--set {key.key}: this campaign sets it; use --vary"])
+    order.options.grid.refuse_set(order)
     base = order.base(tell=True)
     if base is not None and base.waves is None:
         order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
@@ -126,7 +120,7 @@ def _job_of_file(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The rows of the runs: those of `campaigns.sweep`."""
-    return measures_of(order, columns_of(order.options.grid.columns))
+    return motions.measures_of(order, motions.columns_of(order.options.grid.columns))
 
 
 def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
@@ -186,7 +180,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
         yield "", job.labels[key.column.name], period, run.final_state.at_zero()
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     options = order.options
     return {
         "vary": {key.key: [key.values[0], key.values[-1]] for key in options.grid.keys},

@@ -11,7 +11,7 @@ from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
-from tables import MESSAGE, STATUS, Column, csv_of, names, write_table
+from tables import MESSAGE, STATUS, Column, Row, csv_of, names, write_table
 
 BRANCH = Column("branch", symbol="branch", meaning="the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
@@ -71,7 +71,7 @@ def _event_columns(key: Column) -> tuple[Column, ...]:
     return BRANCH, KIND, replace(key, digits=5), error, finer, *shape, STATUS, MESSAGE
 
 
-def _numbers(orbit: dict) -> dict[str, object]:
+def _numbers(orbit: dict) -> Row:
     """The columns of an orbit."""
     moduli = [abs(complex(*pair)) for pair in orbit["multipliers"]]
     row = {
@@ -94,46 +94,37 @@ def _numbers(orbit: dict) -> dict[str, object]:
     return row
 
 
-def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
+def _events(tree: Tree, key: Column) -> Iterator[Row]:
     for branch in tree.branches:
         for event in branch.result["events"]:
             status, message = "ok", ""
             if event["error"] is None:
                 status, message = "unsure", "not found with other steps"
-            yield {
+            yield event | {
                 "branch": branch.name,
-                "kind": event["kind"],
                 key.name: event["value"],
-                "error": event["error"],
-                "finer": event.get("finer"),
-                "period": event["period"],
-                "angle_rad": event["angle_rad"],
                 "tension_top_max_N": event["tension_N"][1],
                 "radius_m": event["strobes"][0],
-                "leads_to": event.get("leads_to"),
                 "status": status,
                 "message": event.get("doubt") or message,
             }
 
 
-def _branches(tree: Tree) -> Iterator[dict[str, object]]:
+def _branches(tree: Tree) -> Iterator[Row]:
     for branch in tree.branches:
-        yield {
+        yield branch.result | {
             "branch": branch.name,
             "motion": " ".join(branch.motions),
             "period": branch.orbits[0]["period"],
             "orbits": len(branch.orbits),
-            "begins": branch.result["begins"],
-            "ends": branch.result["ends"],
             "closed": int(branch.result["closed"]),
             "status": "ok",
         }
-    for failure in tree.failed:
-        row = {"motion": failure["motion"], "period": failure["period"]}
-        yield row | {"status": "no-orbit", "message": failure["reason"]}
+    for seed, reason in tree.failed:
+        yield {"motion": seed.motion, "period": seed.period, "status": "no-orbit", "message": reason}
 
 
-def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[dict[str, object]]:
+def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[Row]:
     """Rows of the orbits with errors; writes the history of each into the folder."""
     counts: Counter = Counter()
     for orbit in sorted(tree.chosen, key=lambda orbit: (orbit["branch"], orbit["value"])):

@@ -37,6 +37,7 @@ from tables import (
     STATUS,
     STIFFNESS,
     Column,
+    Row,
     counted,
     on,
 )
@@ -158,7 +159,7 @@ COLUMNS = (
 )
 
 
-def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozenset()) -> dict[str, object]:
+def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozenset()) -> Row:
     """The columns of `COLUMNS` that a trajectory fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a buoy in waves along x, run to its end or not. transient_periods: left out of
@@ -188,7 +189,7 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     return row
 
 
-def _lateral(values, scene, row) -> dict[str, object]:
+def _lateral(values, scene, row) -> Row:
     from analysis import growth_or_bursts
 
     step_s, period_s, size = scene.sample_step_s(), scene.waves.period_s, np.abs(values)

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
-from campaigns.explore.settings import BUDGET, ROW_SOURCES
+from campaigns.explore.sweep import BUDGET, ROW_SOURCES
 from campaigns.machinery import cli, session
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.regime_map import cuts
@@ -87,13 +87,12 @@ def cases(order: Order) -> Iterator[Job]:
     order.periods, order.looks, order.transient = BUDGET, True, None
     if grid is None:
         return
-    order.tell(f"--set {key.key}: this campaign sets it" for key in grid.keys if key.key in order.changes)
+    grid.refuse_set(order, "")
     base = order.base(tell=True)
     if base is None:
         return
     if not (in_regular_waves(base) and carries_tangents(base)):
-        allowed = motions.ONLY.removeprefix("a number for ")
-        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {allowed}"])
+        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
         return
     for cell in grid.coarse():
         fault_count, job = len(order.faults), grid.job_at(order, cell)
@@ -131,9 +130,9 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     return regime_map.motions.timing(), summary
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     options = order.options
-    parameters: dict[str, object] = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
+    parameters = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
     if options.grid.page is not None:
         parameters["pages"] = {options.grid.page.key: list(options.grid.page.values)}
     parameters |= {

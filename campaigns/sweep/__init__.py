@@ -18,13 +18,12 @@ from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
-from campaigns.explore.settings import ROW_SOURCES, columns_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, counted, names
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names
 
 MOST_KEYS = 2
 
@@ -60,7 +59,7 @@ def cases(order: Order) -> list[Job]:
 
 def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
-    order.tell(f"--set {key.key}: this campaign sets it; use --vary" for key in grid.keys if key.key in order.changes)
+    grid.refuse_set(order)
     base = order.base(tell=True)
     if base is None or not grid.keys:
         return
@@ -93,7 +92,7 @@ def measures(order: Order) -> Measures:
 
     keys = order.options.grid.columns
     if any(map(in_regular_waves, order.scenes)):
-        columns = columns_of(keys)
+        columns = motions.columns_of(keys)
     else:
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
@@ -104,7 +103,7 @@ def measures(order: Order) -> Measures:
     if order.options.evidence == motions.FULL:
         settings["full"] = order.periods
     row = partial(sweep_row, transient_periods=settings["transient_periods"])
-    sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
+    sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
     return Measures(columns, row, sources, settings, partial(judge, **settings))
 
 
@@ -117,7 +116,7 @@ def judge(trajectory, checks, orbits, **settings):
     return judgement_of(trajectory, checks, orbits, **settings)
 
 
-def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str, object]:
+def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     """The columns of `measures` that a trajectory fills; those left out are unknown.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
@@ -139,8 +138,8 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str,
     return row
 
 
-def parameters(order: Order) -> dict[str, object]:
-    parameters: dict[str, object] = {
+def parameters(order: Order) -> dict:
+    parameters = {
         "vary": {key.key: list(key.values) for key in order.options.grid.keys},
         "strobe_tolerance": STROBE_TOLERANCE,
         "longest_period": LONGEST_PERIOD,
