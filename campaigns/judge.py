@@ -24,7 +24,7 @@ def tangent_of(trajectory, transient_periods: int):
     return exponent(trajectory, transient_periods)
 
 
-def motion_of(trajectory, checks=None):
+def motion_of(trajectory, checks):
     """The Verdict on a run from rest, look by look, from its strobed state and its tangent dynamics.
 
     checks: Trajectories that went on from this run at a tighter tolerance, by the wave periods at which they began;

@@ -16,6 +16,7 @@ from campaigns.finer import finer
 from tables import MESSAGE, STATUS, Column, Row, write_table
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not
+Polar = tuple[float, float]  # turn and size of a start
 FOLDER = "shock"
 SHARP = 0.01  # of the size
 RAYS = 16  # bisected side by side
@@ -47,7 +48,7 @@ def shocks(exploration: Exploration, target: Motion) -> list[Row]:
     return rows
 
 
-def _row(exploration: Exploration, target: Motion, scene, candidates: Sequence[tuple[float, float]]) -> Row:
+def _row(exploration: Exploration, target: Motion, scene, candidates: Sequence[Polar]) -> Row:
     row = {"motion": target.branch.letter, "nodes": scene.tether.nodes}
     leads = partial(_leads, exploration, target, scene)
     successful = candidates
@@ -63,7 +64,7 @@ def _row(exploration: Exploration, target: Motion, scene, candidates: Sequence[t
     return row | start | {"size": least.size, "size_without": least.below, "status": "ok"}
 
 
-def _leads(exploration: Exploration, target: Motion, scene, starts: Sequence[tuple[float, float]]) -> list[bool]:
+def _leads(exploration: Exploration, target: Motion, scene, starts: Sequence[Polar]) -> list[bool]:
     """Whether starts, each a turn and a size, lead to the target in a scene."""
     title = f"smallest start, {scene.tether.nodes} nodes"
     starts_there = [exploration.grid.at(turn, size, title) for turn, size in starts]
@@ -78,7 +79,7 @@ class Shock(NamedTuple):
     below: float
 
 
-def smallest(leads: Callable[[Sequence[tuple[float, float]]], list[bool]], first: Shock, round_: float) -> Shock:
+def smallest(leads: Callable[[Sequence[Polar]], list[bool]], first: Shock, round_: float) -> Shock:
     """The smallest start that leads there, to SHARP of its size along its ray.
 
     leads(starts) -> whether each start (turn, size) leads there. first: one that does. round_: turns that there are.

@@ -66,8 +66,8 @@ def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """The largest jump in numbers, and where the next ones are. rows: sorted."""
     pairs = []
     for below, above in pairwise(rows):
-        if number_of(below, PEAK) > 0.0 and number_of(above, PEAK) > 0.0:
-            pairs.append((abs(math.log(number_of(above, PEAK) / number_of(below, PEAK))), below, above))
+        if below[PEAK] > 0.0 and above[PEAK] > 0.0:
+            pairs.append((abs(math.log(above[PEAK] / below[PEAK])), below, above))
     if not pairs:
         return
     least = max(LEAST_JUMP, TYPICAL * median(map(itemgetter(0), pairs)))
@@ -79,16 +79,16 @@ def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
             growth = swing_above / swing_below
         slack_below, slack_above = number_of(below, "slack_fraction"), number_of(above, "slack_fraction")
         yield (
-            f"Between {symbol} = {number_of(below, key):.4g} and {number_of(above, key):.4g} the motion jumps to one "
+            f"Between {symbol} = {below[key]:.4g} and {above[key]:.4g} the motion jumps to one "
             f"{growth:.2g} times as large: peak tension {_change(below, above)}, "
             f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, time with less than 5 % of the static tension "
             f"{100.0 * slack_below:.0f} -> {100.0 * slack_above:.0f} %."
         )
-    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: number_of(pair[1], key))
+    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: pair[1][key])
     if smaller:
         places = []
         for _, below, above in smaller:
-            places.append(f"{number_of(below, key):.4g} and {number_of(above, key):.4g} ({_change(below, above)})")
+            places.append(f"{below[key]:.4g} and {above[key]:.4g} ({_change(below, above)})")
         yield f"{SMALLER} {symbol} = {listed(places)}."
 
 
@@ -100,15 +100,15 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """Where one value has several motions, and that of them which pulls most beyond the usual one."""
     by_value: dict[float, list[Row]] = {}
     for row in rows:
-        by_value.setdefault(number_of(row, key), []).append(row)
+        by_value.setdefault(row[key], []).append(row)
     pairs = []
     for motions in by_value.values():
         if len(motions) > 1:
-            base = min(motions, key=lambda row: (not from_rest(row), number_of(row, PEAK)))
+            base = min(motions, key=lambda row: (not from_rest(row), row[PEAK]))
             pairs.append((greatest(motions, PEAK), base))
     if not pairs:
         return
-    worst, usual = max(pairs, key=lambda pair: number_of(pair[0], PEAK) / max(number_of(pair[1], PEAK), 1e-9))
+    worst, usual = max(pairs, key=lambda pair: pair[0][PEAK] / max(pair[1][PEAK], 1e-9))
     several = ranges([*by_value], [len(motions) > 1 for motions in by_value.values()], 2)
     sentence = f"One wave has several motions at {symbol} = {several}"
     if worst is not usual:
@@ -116,8 +116,8 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
         if from_rest(usual):
             rest = "the one from rest"
         sentence += (
-            f"; at {symbol} = {number_of(worst, key):.4g} motion {worst['motion']} pulls "
-            f"{kilonewton(number_of(worst, PEAK))}, {rest} {kilonewton(number_of(usual, PEAK))}"
+            f"; at {symbol} = {worst[key]:.4g} motion {worst['motion']} pulls "
+            f"{kilonewton(worst[PEAK])}, {rest} {kilonewton(usual[PEAK])}"
         )
         kicks = of_kicks(worst)
         if kicks != EMPTY:
@@ -149,20 +149,20 @@ def _ends(rows: Sequence[Row], key: str, ends: Sequence[Row]) -> Iterator[str]:
 
 def _change(before: Row, after: Row) -> str:
     """ "4.4 -> 9.4 kN"."""
-    return f"{number_of(before, PEAK) / 1e3:.2g} -> {number_of(after, PEAK) / 1e3:.2g} kN"
+    return f"{before[PEAK] / 1e3:.2g} -> {after[PEAK] / 1e3:.2g} kN"
 
 
 def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> Iterator[str]:
     """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
     peak, modes = greatest(rows, PEAK), scene and natural_frequencies(scene)
-    sentence = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}"
+    sentence = f"Largest tension {largest(peak)} at {symbol} = {peak[key]:.4g}"
     if not from_rest(peak):
         sentence += f", motion {peak['motion']}"
     if modes and modes.static_tension_N:  # else there is no closed form
-        sentence += f" ({number_of(peak, PEAK) / modes.static_tension_N:.1f} times static)"
+        sentence += f" ({peak[PEAK] / modes.static_tension_N:.1f} times static)"
     sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
     for row in sound:
-        if number_of(row, key) == number_of(peak, key) and (row.get("motion") or "") == (peak.get("motion") or ""):
+        if number_of(row, key) == peak[key] and (row.get("motion") or "") == (peak.get("motion") or ""):
             sentence += f"; with the {CAPPED} {kilonewton(number_of(row, PEAK))}"
     yield f"{sentence}."
     if scene is None:
@@ -175,7 +175,7 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     head = "Largest tension without that:"
     if usable in sound:
         head = f"With the {CAPPED} the largest tension is"
-    yield f"{head} {largest(usable)} at {symbol} = {number_of(usable, key):.4g}. {use_of(usable, scene, searched)}"
+    yield f"{head} {largest(usable)} at {symbol} = {usable[key]:.4g}. {use_of(usable, scene, searched)}"
 
 
 def use_of(row: Row, scene, searched: bool) -> str:

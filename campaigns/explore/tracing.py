@@ -22,6 +22,7 @@ from campaigns.machinery.tasks import Task, results
 from engine.scene import SceneError, scene_from_toml
 from tables import finite
 
+Solved = tuple[dict, list[np.ndarray]]  # result of a task, and points
 SOURCES = *OF_ORBITS, "campaigns/explore/tracing.py"
 STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
@@ -106,7 +107,7 @@ def _computed(do: Callable, line: Line, arguments: tuple) -> dict:
     return {"result": result, "points": points}
 
 
-def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list[tuple[dict, list]], int]:
+def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list[Solved], int]:
     """Results of tasks with their points, in their order, and how many of them were there before.
 
     Raises CampaignStopped as `campaigns.machinery.tasks.results`.
@@ -118,7 +119,7 @@ def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[l
     return pairs, finished.reused
 
 
-def under(line: Line, value: float, period: int, state: object) -> tuple[dict, list[np.ndarray]]:
+def under(line: Line, value: float, period: int, state: object) -> Solved:
     """The orbit under a run, or at a state (period, 8 n): its row, errors and history."""
     cable, system = line.maps
     if not isinstance(state, np.ndarray):
@@ -129,7 +130,7 @@ def under(line: Line, value: float, period: int, state: object) -> tuple[dict, l
     return row, [orbit.points]
 
 
-def followed(line: Line, value: float, points: np.ndarray, most: int) -> tuple[dict, list[np.ndarray]]:
+def followed(line: Line, value: float, points: np.ndarray, most: int) -> Solved:
     """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
     cable, system = line.maps
     orbit = _found(system, points, value, len(points))
@@ -162,7 +163,7 @@ def _doubled(system, event):
     return None
 
 
-def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, list[np.ndarray]]:
+def lost(line: Line, period: int, ahead: float, *starts: object) -> Solved:
     """Where the orbit under a run stops being stable: the first event from there on.
 
     ahead: 1 up, -1 down; starts: value, state, value, state ... of runs of that motion, tried in turn.
@@ -186,7 +187,7 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> tuple[dict, 
     return _nearest(events, value, "the orbit stays stable"), []
 
 
-def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
     """Where an event is at the tolerance of the line, on the branch of the orbit near these points, at `value`.
 
     It was found at `at`.
@@ -200,7 +201,7 @@ def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) 
     return _nearest(events, at, f"no {kind} from {low:.5g} to {high:.5g}"), []
 
 
-def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> tuple[dict, list[np.ndarray]]:
+def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
     """The same on 2n - 1 nodes."""
     cable, _ = line.maps
     fine_line = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)

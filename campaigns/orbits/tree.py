@@ -7,7 +7,7 @@ from string import ascii_lowercase
 
 import numpy as np
 
-from campaigns.explore.tracing import Line, finer, followed, line_task, sharper, under, work
+from campaigns.explore.tracing import Line, Solved, finer, followed, line_task, sharper, under, work
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.tasks import Task
 from engine.views import LONGEST_PERIOD
@@ -77,7 +77,7 @@ class Tree:
         self.failed: list[tuple[Seed, str]] = []  # orbits without a branch, and why
         self.computed = self.there = 0
 
-    def work(self, title: str, tasks: Sequence[Task]) -> list[tuple[dict, list[np.ndarray]]]:
+    def work(self, title: str, tasks: Sequence[Task]) -> list[Solved]:
         """Results of tasks, in their order. Raises CampaignStopped."""
         results, there = work(self.plan, self.plan.how.out / FOLDER, title, tasks)
         self.there, self.computed = self.there + there, self.computed + len(tasks) - there
