@@ -60,7 +60,6 @@ def _row(exploration: Exploration, target: Motion, scene, candidates: Sequence[P
     if least.size > 0.0:
         least = smallest(leads, least, exploration.grid.round)
     start = exploration.grid.at(least.turn, least.size, "").labels()
-    del start["found_by"]
     return row | start | {"size": least.size, "size_without": least.below, "status": "ok"}
 
 

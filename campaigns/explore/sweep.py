@@ -32,10 +32,6 @@ def kick_speed(use: str = "kicks are velocities of up to this along x and z, m/s
     return cli.option("MPS", use, cli.POSITIVE, SPEED_MPS)
 
 
-KICKS_BESIDE = (
-    "kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
-    f"rest: one run from rest only (default: {KICKS}; with --periods: rest)"
-)
 SEED_OF_KICKS = "of the kicks, drawn independently and uniformly"
 FULL = "full"
 
@@ -45,7 +41,10 @@ class Starts(cli.Options):
     """The options of a sweep with every motion of each value."""
 
     starts: str | int | None = cli.option(
-        "rest|N", KICKS_BESIDE, cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
+        "rest|N",
+        "kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
+        f"rest: one run from rest only (default: {KICKS}; with --periods: rest)",
+        cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}"),
     )
     kick_speed: float = kick_speed()
     seed: int = cli.seed(SEED_OF_KICKS)
@@ -144,7 +143,7 @@ def every_motion(
     explore(motions, jobs, Search(order, kicks, speed_mps, seed))
     motions.write()
     if len(jobs) > 1:
-        find_ends(motions, Scenes(jobs[0].scene.to_toml(), key))
+        find_ends(motions, Scenes(jobs[0].scene, key))
     confirm(motions)
     summary = motions.write()
     return motions.timing(), summary

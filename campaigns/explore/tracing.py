@@ -34,9 +34,9 @@ AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one 
 
 @dataclass(frozen=True)
 class Scenes:
-    """The scenes along one key. toml: of any of them."""
+    """The scenes along one key. base: any of them."""
 
-    toml: str
+    base: object
     key: Varied
 
     def __call__(self, value: float, changes: dict | None = None):
@@ -45,14 +45,9 @@ class Scenes:
         if any(self.key.put(value, self.base, changes)):
             return None
         try:
-            return scene_from_toml(self.toml, changes)
+            return scene_from_toml(self.base.to_toml(), changes)
         except SceneError:
             return None
-
-    @cached_property
-    def base(self):
-        """The scene of the text."""
-        return scene_from_toml(self.toml)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +85,7 @@ class Line:
         """Of all that results depend on beside their own task."""
         numbers = self.low, self.high, self.size, self.value, self.nodes, self.rtol
         sources = made_by({}, *SOURCES), engine.source_hash()
-        return key_of(self.scenes.toml, self.scenes.key.key, self.state, *numbers, *sources)
+        return key_of(self.scenes.base.to_toml(), self.scenes.key.key, self.state, *numbers, *sources)
 
 
 def line_task(do: Callable, line: Line, arguments: tuple) -> Task:

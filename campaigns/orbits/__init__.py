@@ -142,7 +142,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
     _, value, _, state = [*starts, ("", low, 0, None)][0]
-    line = Line(Scenes(jobs[0].scene.to_toml(), key), low, high, high - low, state, value)
+    line = Line(Scenes(jobs[0].scene, key), low, high, high - low, state, value)
     tree = Tree(plan, line, options.orbits, options.branches)
     if starts:
         tree.grow(starts)
