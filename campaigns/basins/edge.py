@@ -29,8 +29,8 @@ LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = EXTREMES[0], EXTREMES[1], EXTREMES[5]  # of the radius, and of the largest tension
 COLUMNS = (
-    Column("motion", symbol="on one side", meaning="motion to which a run falls on one side"),
-    Column("other", symbol="on the other", meaning="motion to which it falls on the other side"),
+    Column("motion", "", "on one side", "motion to which a run falls on one side"),
+    Column("other", "", "on the other", "motion to which it falls on the other side"),
     Column("periods", "", "periods", "wave periods over which it was followed; extremes are of the later half", 0),
     Column("strobed_period", "", "N", "wave periods after which it repeats; empty where none is found", 0),
     Column("growth_bits_per_period", "bits/period", "growth", "rate at which runs leave it", 2),

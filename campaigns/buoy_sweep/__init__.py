@@ -118,7 +118,7 @@ def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.explore.rows import COLUMNS
 
-    return motions.measures_of(order, COLUMNS, full=order.options.evidence == "full")
+    return motions.measures_of(order, COLUMNS)
 
 
 def parameters(order: Order) -> dict:

@@ -24,7 +24,7 @@ from campaigns.machinery.runner import groups_of
 from engine.scene import scene_from_toml
 from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, Row, counted, names
 
-ROLE = Column("role", symbol="role", meaning="what was changed in the run of table.csv")
+ROLE = Column("role", "", "role", "what was changed in the run of table.csv")
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)

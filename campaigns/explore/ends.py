@@ -11,15 +11,13 @@ from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
-LEADS_TO = Column(
-    "leads_to", symbol="leads to", meaning="letter of the motion that it becomes there; empty where none settled"
-)
+LEADS_TO = Column("leads_to", "", "leads to", "letter of the motion that it becomes there; empty where none settled")
 _EXACT = "where the motion ends, by its orbit, which stops being stable there; empty where no orbit tells it"
 SHIFTED = 0.01  # of a value: by what the tolerance of a sweep may move an end
 FOLDER = "ends"
-KIND = Column("kind", symbol="by", meaning="what ends it: fold, flip or torus point of its orbit; empty: not known")
+KIND = Column("kind", "", "by", "what ends it: fold, flip or torus point of its orbit; empty: not known")
 BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
-END = Column("end", symbol="end", meaning="lower or upper end of the range of the motion")
+END = Column("end", "", "end", "lower or upper end of the range of the motion")
 TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
 
 

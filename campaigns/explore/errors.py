@@ -67,7 +67,7 @@ from tables import (
 
 FOLDER = "errors"
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
-FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")
+FOR = Column("of_run", "", "of", "content key of the run of table.csv whose companion this is")
 USUAL = Column(
     "tension_usual_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods at the end", 0
 )

@@ -14,7 +14,7 @@ from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, 
 from campaigns.machinery.long_runs import OPEN
 from campaigns.machinery.store import Store
 from engine.trajectory import Trajectory
-from engine.views import carried, carries_tangents
+from engine.views import carried, carries_tangents, in_regular_waves
 
 
 @dataclass(frozen=True)
@@ -50,8 +50,8 @@ class Judgement:
 
 def judgement_of(
     trajectory: Trajectory, checks: dict | None, orbits: Store, transient_periods: int | None, full: int | None = None
-) -> Judgement:
-    """How a run of the tethered buoy is judged (`campaigns.judge`).
+) -> Judgement | None:
+    """How a run of a buoy in regular waves is judged (`campaigns.judge`); None of any other line.
 
     It gets a verdict if it reached its end and lasts for two looks; in three dimensions, where no perturbations are
     carried, for 40 periods.
@@ -62,6 +62,8 @@ def judgement_of(
     origin are asked for too; the verdict does not rest on them. None: they are not made.
     """
     transient, scene, verdict, wolf = transient_periods or 0, trajectory.scene, None, None
+    if not in_regular_waves(scene):
+        return None
     periods = periods_of(scene, sound_part(trajectory.columns))
     if trajectory.status != "ok":
         return Judgement(transient)

@@ -19,7 +19,7 @@ from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
 from tables import REGIMES, SHEET, Column, Row, write_table
 
-MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
+MOTION = Column("motion", "", "motion", "letter of the motion, the same along a branch over the values")
 MOTIONS = (
     MOTION,
     Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
@@ -29,9 +29,11 @@ MOTIONS = (
     FOUND_BY,
     Column(
         "confirmed",
-        symbol="confirmed",
-        meaning="whether its branch stays at a tenth of the tolerance and on a finer grid",
-        page=SHEET,
+        "",
+        "confirmed",
+        "whether its branch stays at a tenth of the tolerance and on a finer grid",
+        None,
+        SHEET,
     ),
 )
 UP, DOWN = 1, -1

@@ -68,9 +68,7 @@ SLACK_ERROR = Column(
     "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
 )
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
-REGIME = Column(
-    "regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided", page=REGIMES
-)
+REGIME = Column("regime", "", "regime", "period-N, quasi-periodic, chaotic, transient or undecided", None, REGIMES)
 _BITS = "bits/period"
 WOLF = (
     Column(
@@ -101,13 +99,10 @@ COLUMNS = (
     STATUS,
     REGIME,
     Column(
-        "regime_tighter",
-        symbol="tighter",
-        meaning="regime of a chaotic run repeated at a tenth of the tolerance",
-        page=SHEET,
+        "regime_tighter", "", "tighter", "regime of a chaotic run repeated at a tenth of the tolerance", None, SHEET
     ),
-    Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words", page=SHEET),
-    Column("evidence", symbol="evidence", meaning="tests behind the regime: name, value, threshold, met", page=SHEET),
+    Column("regime_reason", "", "reason", "why the run has this regime, in words", None, SHEET),
+    Column("evidence", "", "evidence", "tests behind the regime: name, value, threshold, met", None, SHEET),
     PERIODS_RUN,
     TRANSIENT,
     STROBED,
@@ -130,12 +125,7 @@ COLUMNS = (
         0,
         PLANE,
     ),
-    Column(
-        "planar_regime",
-        symbol="planar regime",
-        meaning="regime of the run in the plane that this one replaces",
-        page=PLANE,
-    ),
+    Column("planar_regime", "", "planar regime", "regime of the run in the plane that this one replaces", None, PLANE),
     Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2, PLANE),
     Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2, PLANE),
     *SOLVER_COUNTS,

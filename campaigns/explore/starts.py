@@ -51,7 +51,7 @@ LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
-FOUND_BY = Column("found_by", symbol="found by", meaning="rest, massless (model), kick, or carried from a neighbour")
+FOUND_BY = Column("found_by", "", "found by", "rest, massless (model), kick, or carried from a neighbour")
 KICKS = (
     Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),
@@ -61,7 +61,7 @@ KICKS = (
     Column("displacement_z_m", "m", "moved z", "place of the buoy at the start, from that of its rest, upwards", 2),
     Column("phase_rad", "rad", "phase", "phase of the wave at the start", 3),
 )
-OUTCOME = Column("outcome", symbol="outcome", meaning=f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
+OUTCOME = Column("outcome", "", "outcome", f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
 JOINS = Column("joins", "", "joins", "number of the known motion that it has joined, from 0 on", 0)
 OF_A_START = (*KICKS, OUTCOME, JOINS, STATUS, PERIODS_RUN, LOOPS, WALL_S, RUN_KEY, MESSAGE)
 

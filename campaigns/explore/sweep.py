@@ -159,13 +159,13 @@ def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
     return tables
 
 
-def measures_of(order: Order, columns: tuple[Column, ...], full: bool = False) -> Measures:
-    """The rows of a buoy in regular waves. full: as of `judgement_of`, after all wave periods of the order."""
+def measures_of(order: Order, columns: tuple[Column, ...]) -> Measures:
+    """The rows of a buoy in regular waves."""
     from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row
 
     settings = {"transient_periods": order.transient, "full": None}
-    if full:
+    if getattr(order.options, "evidence", "") == FULL:
         settings["full"] = order.periods
     return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
 

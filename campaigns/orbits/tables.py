@@ -13,7 +13,7 @@ from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
 from tables import MESSAGE, STATUS, Column, Row, csv_of, names, write_table
 
-BRANCH = Column("branch", symbol="branch", meaning="the period of its orbits, and a letter where there are several")
+BRANCH = Column("branch", "", "branch", "the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
 PERIOD = replace(STROBED, name="period", meaning="wave periods after which the orbit repeats")
 UNSTABLE = Column("unstable", "", "unstable", "multipliers outside the unit circle; 0: the orbit is stable", 0)
@@ -32,15 +32,15 @@ MOTION_OF = (
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line on the orbit", 0),
 )
 GAP = Column("gap", "", "gap", "what is left of the equation of the orbit, the largest coordinate of its state", 12)
-KIND = Column("kind", symbol="event", meaning="fold, flip (period doubling) or torus (Neimark-Sacker) point")
+KIND = Column("kind", "", "event", "fold, flip (period doubling) or torus (Neimark-Sacker) point")
 ANGLE = Column("angle_rad", "rad", "angle", "angle of the multiplier that crosses the unit circle", 3)
-LEADS = Column("leads_to", symbol="begins", meaning="branch of the orbits of twice the period that begin there")
+LEADS = Column("leads_to", "", "begins", "branch of the orbits of twice the period that begin there")
 STROBE = Column("strobe", "", "strobe", "number of the strobe, from 0 on", 0)
 RADIUS = Column("radius_m", "m", "r", "distance of the buoy from the anchor at the strobe", 4)
 ORBITS = Column("orbits", "", "orbits", "orbits of the branch", 0)
 CLOSED = Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0)
-BEGINS = Column("begins", symbol="begins", meaning="why the branch begins where it does")
-ENDS = Column("ends", symbol="ends", meaning="why the branch ends where it does")
+BEGINS = Column("begins", "", "begins", "why the branch begins where it does")
+ENDS = Column("ends", "", "ends", "why the branch ends where it does")
 
 
 def tables(tree: Tree, key: Column) -> list[dict]:

@@ -28,8 +28,8 @@ COLUMNS = (
     Column("same_section", "", "section", _SAME.format(f"section, across within {MOST_ACROSS:g} times the halves"), 0),
     Column("same_exponent", "", "exponent", _SAME.format("Wolf's exponent of r, within two errors"), 0),
     Column("same_regime", "", "regime", _SAME.format("regime"), 0),
-    Column("planar_key", symbol="planar run", meaning="key of the planar run"),
-    Column("spatial_key", symbol="run in space", meaning="key of the run in three dimensions"),
+    Column("planar_key", "", "planar run", "key of the planar run"),
+    Column("spatial_key", "", "run in space", "key of the run in three dimensions"),
 )
 
 

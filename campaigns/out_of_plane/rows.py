@@ -132,7 +132,7 @@ COLUMNS = (
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
     Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
-    Column("seed_direction", symbol="direction", meaning="direction of the push; empty for a planar run"),
+    Column("seed_direction", "", "direction", "direction of the push; empty for a planar run"),
     Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0, SHEET),
     *on(RUNS, PERIODS_RUN),
     STATUS,

@@ -13,13 +13,12 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
-from campaigns.explore.sweep import BUDGET, ROW_SOURCES
+from campaigns.explore.sweep import BUDGET
 from campaigns.machinery import cli, session
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.regime_map import cuts
@@ -109,13 +108,12 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The row of a motion."""
-    from campaigns.explore.judgement import judgement_of
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
-    columns = motion_columns(order.options.grid.columns)
-    judge = partial(judgement_of, transient_periods=None)
-    return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), judge=judge)
+    sources = (*motions.ROW_SOURCES, "campaigns/regime_map")
+    measures = motions.measures_of(order, motion_columns(order.options.grid.columns))
+    return replace(measures, row=cell_row, sources=sources)
 
 
 def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:

@@ -35,17 +35,19 @@ STROBES = 64  # wave periods of a motion at most
 LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0, SHEET)
 VERDICT = Column(
     "verdict",
-    symbol="verdict",
-    meaning="cheap: the motion repeats at one look; full: the procedure of docs/motions.md#how-a-run-is-judged",
-    page=REGIMES,
+    "",
+    "verdict",
+    "cheap: the motion repeats at one look; full: the procedure of docs/motions.md#how-a-run-is-judged",
+    None,
+    REGIMES,
 )
 STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of a run that begins there", 0, SHEET)
 COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)
 SHARE = Column("share_of_largest", "", "share", "share of the kicks that end in the motion of the largest tension", 2)
-SOURCE = Column("source", symbol="source", meaning="computed, failed, or only screened: with a massless tether")
-OF_REST = Column("regime_rest", symbol="regime", meaning="regime of the motion to which rest leads")
+SOURCE = Column("source", "", "source", "computed, failed, or only screened: with a massless tether")
+OF_REST = Column("regime_rest", "", "regime", "regime of the motion to which rest leads")
 OF_A_CELL = (
     LEVEL,
     SOURCE,
@@ -59,7 +61,7 @@ OF_A_CELL = (
     Column("loops", "", "loops", "1 where a motion released loops, else 0", 0),
     Column("leaves_water", "", "out", "1 where the sphere of a motion rises above still water, else 0", 0),
     Column("wall_s", "s", "wall", "time of the judged runs of the cell", 2),
-    Column("run_key_rest", symbol="key", meaning="content key of the run from rest"),
+    Column("run_key_rest", "", "key", "content key of the run from rest"),
     STATUS,
     MESSAGE,
 )

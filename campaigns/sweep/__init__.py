@@ -12,7 +12,7 @@ counts. Of an irregular sea only the ramp is left out, and of a run without wave
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -96,24 +96,12 @@ def measures(order: Order) -> Measures:
     else:
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
-    settings = {"transient_periods": order.transient, "full": None}
     waves = order.cases[0].scene.waves
     if waves is not None and waves.irregular:
-        settings["transient_periods"] = order.given_transient
-    if order.options.evidence == motions.FULL:
-        settings["full"] = order.periods
-    row = partial(sweep_row, transient_periods=settings["transient_periods"])
+        order = replace(order, transient=order.given_transient)
+    row = partial(sweep_row, transient_periods=order.transient)
     sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
-    return Measures(columns, row, sources, settings, partial(judge, **settings))
-
-
-def judge(trajectory, checks, orbits, **settings):
-    """`judgement_of` of a buoy in regular waves; None of any other line."""
-    from campaigns.explore.judgement import judgement_of
-
-    if not in_regular_waves(trajectory.scene):
-        return None
-    return judgement_of(trajectory, checks, orbits, **settings)
+    return replace(motions.measures_of(order, columns), row=row, sources=sources)
 
 
 def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
