@@ -65,15 +65,13 @@ def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) ->
 def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
-    values, fine = sorted(scenes), []
+    values, jobs = sorted(scenes), []
     ends = np.linspace(0, max(LEAST_COLUMNS - len(values), 0), len(values)).round().astype(int)  # of those in the gaps
     for (low, high), count in zip(pairwise(values), np.diff(ends), strict=True):
         for number in range(1, count + 1):
-            fine.append(float(f"{low + (high - low) * number / (count + 1):.12g}"))
-    jobs = []
-    for value in fine:
-        scene = unfollowed(scenes[values[0]], {key: value})
-        jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
+            value = float(f"{low + (high - low) * number / (count + 1):.12g}")
+            scene = unfollowed(scenes[values[0]], {key: value})
+            jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
     if not groups_of(plan, jobs):
         jobs = []
     row = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)

@@ -218,10 +218,7 @@ class Motions:
 
     def row_of(self, motion: Motion) -> dict:
         """The row of the judged run of a motion; {} where there is none yet."""
-        key = self.job_keys.get(motion, "")
-        if motion.found_by == FROM_REST:
-            key = self.jobs[motion.place].key
-        return self.rows.get(key, {})
+        return self.rows.get(self.job_keys.get(motion), {})
 
     def table(self) -> list[dict]:
         """A row for each motion, by place and letter; of a place whose run from rest has no motion, also that run's."""

@@ -54,9 +54,12 @@ def run_from_rest(motions: Motions, jobs: Sequence[Job]) -> range:
     late = outlasting(motions.jobs, motions.rows, motions.neighbours)
     motions.judged_runs("chaos that may be a transient", late)
     for place in places:
-        run = motions.judged_run(motions.jobs[place].key)
+        key = motions.jobs[place].key
+        run = motions.judged_run(key)
         if run is not None:
-            motions.at[place].append(Motion(place, reached(run, motions.orbits), run.final_state, FROM_REST))
+            motion = Motion(place, reached(run, motions.orbits), run.final_state, FROM_REST)
+            motions.at[place].append(motion)
+            motions.job_keys[motion] = key
     return places
 
 
@@ -132,7 +135,7 @@ def judge(motions: Motions, search: Search) -> None:
     """Do the judged run of every motion that has none, from its state; motions that these find to be one are merged."""
     order, jobs = search.order, {}
     for motion in motions.all_motions():
-        if motion.found_by != FROM_REST and motion not in motions.job_keys:
+        if motion not in motions.job_keys:
             place = motions.jobs[motion.place]
             job = judged_job(order, place.labels, place.scene, motion.state.at_zero(), search.most)
             if motion.found_by == KICKED:

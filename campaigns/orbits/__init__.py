@@ -16,6 +16,7 @@ map, and a branch ends. Nothing is random.
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
@@ -75,7 +76,10 @@ def cases(order: Order) -> Iterator[Job]:
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.options.grid.keys:
         return
-    jobs = list((_jobs if order.options.start_from is None else _job_of_file)(order))
+    jobs_of = _jobs
+    if order.options.start_from is not None:
+        jobs_of = _job_of_file
+    jobs = list(filter(None, jobs_of(order)))
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
@@ -93,10 +97,7 @@ def _jobs(order: Order) -> Iterator[Job]:
     if base is not None and base.waves is None:
         order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
     elif base is not None:
-        for place in order.options.grid.places():
-            job = order.options.grid.job(order, place)
-            if job is not None:
-                yield job
+        yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 
 def _job_of_file(order: Order) -> Iterator[Job]:

@@ -175,7 +175,7 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
         for body, name in BODIES.items():
             for measure, value in _lateral(columns[name], scene, row).items():
                 row[f"{body}_{measure}"] = value
-        first_burst = row["rope_first_burst_period"]
+        first_burst = row.get("rope_first_burst_period")
         if first_burst is not None:
             for body, name in BODIES.items():
                 rise = _rise(columns[name], scene, first_burst)
@@ -209,7 +209,6 @@ def _lateral(values, scene, row) -> Row:
         "fit_span_nats": growth.span_nats,
         "lateral_max_m": largest_m,
         "lateral_late_m": float(size[len(size) // 2 :].max()),
-        "first_burst_period": None,
     }
     if growth.kind == "bursts":
         row_of_body["bursts"] = len(bursts)
