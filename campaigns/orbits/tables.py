@@ -37,10 +37,17 @@ ANGLE = Column("angle_rad", "rad", "angle", "angle of the multiplier that crosse
 LEADS = Column("leads_to", "", "begins", "branch of the orbits of twice the period that begin there")
 STROBE = Column("strobe", "", "strobe", "number of the strobe, from 0 on", 0)
 RADIUS = Column("radius_m", "m", "r", "distance of the buoy from the anchor at the strobe", 4)
-ORBITS = Column("orbits", "", "orbits", "orbits of the branch", 0)
-CLOSED = Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0)
-BEGINS = Column("begins", "", "begins", "why the branch begins where it does")
-ENDS = Column("ends", "", "ends", "why the branch ends where it does")
+OF_A_BRANCH = (
+    BRANCH,
+    PERIOD,
+    MOTION,
+    Column("orbits", "", "orbits", "orbits of the branch", 0),
+    Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0),
+    Column("begins", "", "begins", "why the branch begins where it does"),
+    Column("ends", "", "ends", "why the branch ends where it does"),
+    STATUS,
+    MESSAGE,
+)
 
 
 def tables(tree: Tree, key: Column) -> list[dict]:
@@ -56,8 +63,7 @@ def tables(tree: Tree, key: Column) -> list[dict]:
     write_table(out / "table.csv", (BRANCH, PLACE, key, *numbers), rows)
     write_table(out / "strobes.csv", (BRANCH, PLACE, key, STROBE, RADIUS), strobes)
     write_table(subfolder(tree.plan, "events") / "table.csv", _event_columns(key), [*_events(tree, key)])
-    columns = BRANCH, PERIOD, MOTION, ORBITS, CLOSED, BEGINS, ENDS, STATUS, MESSAGE
-    write_table(out / "branches" / "table.csv", columns, [*_branches(tree)])
+    write_table(out / "branches" / "table.csv", OF_A_BRANCH, [*_branches(tree)])
     folder = subfolder(tree.plan, "orbits")
     write_table(folder / "table.csv", (BRANCH, PLACE, key, MOTION, *numbers), [*_chosen(tree, key, folder)])
     return rows
