@@ -13,7 +13,7 @@ import numpy as np
 from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import Motion, subfolder
 from campaigns.explore.rows import EXTREMES
-from campaigns.explore.starts import Start, run_in, section_of
+from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
 from engine.views import LONGEST_PERIOD
@@ -122,7 +122,7 @@ class Edge:
         jobs = [job_from({}, scene, periods, state) for state in self.states]
         plan, places = self.exploration.plan, self.exploration.places
         folder = plan.how.out / FOLDER
-        timing, summary = run_in(plan, folder, jobs, title="along the edge")
+        timing, summary = run_within(plan, folder, jobs, title="along the edge")
         places.times.update(timing)
         runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
         if None in runs:

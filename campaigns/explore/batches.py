@@ -16,7 +16,7 @@ from campaigns.answers import greatest
 from campaigns.explore.judgement import Judgement
 from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
-from campaigns.explore.starts import run_in
+from campaigns.explore.starts import run_within
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -47,7 +47,7 @@ def batch(
     out = plan.how.out / folder
     if not jobs and not out.exists():
         return 0.0
-    _, summary = run_in(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
+    _, summary = run_within(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
     return summary.analysis_s
 
 

@@ -115,11 +115,8 @@ class _Companion(NamedTuple):
 
 def _companion(plan: Plan, row: dict) -> _Companion | None:
     """The companion of a row; None where there can be none."""
-    transient = row.get("transient_periods")
-    if transient is None:
-        return None
-    run = run_of(plan.how.out, row)
-    if run is None:
+    transient, run = row.get("transient_periods"), run_of(plan.how.out, row)
+    if transient is None or run is None:
         return None
     orbits = orbits_in(plan.how.out)
     scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from analysis import share_of
-from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_in
+from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
@@ -162,7 +162,7 @@ class Motions:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
-        timing, summary = run_in(self.plan, self.folder, jobs, ahead, title=title)
+        timing, summary = run_within(self.plan, self.folder, jobs, ahead, title=title)
         self.times.update(timing)
         self.computed |= summary.made
         self.rows |= summary.by_key

@@ -239,7 +239,9 @@ class Ending:
         return None
 
 
-def run_in(plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes) -> tuple[dict, Summary]:
+def run_within(
+    plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes
+) -> tuple[dict, Summary]:
     """Do runs in a folder of a campaign; changes: of its plan. Raises as `runner.run`."""
     claim = contextlib.nullcontext()
     if folder != plan.how.out:
@@ -267,7 +269,7 @@ class Starts:
         jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
-        timing, summary = run_in(self.plan, self.folder, jobs, title=title)
+        timing, summary = run_within(self.plan, self.folder, jobs, title=title)
         self.times.update(timing)
         self.computed += summary.computed
         rows = summary.by_key
