@@ -134,6 +134,11 @@ class Order:
         return Job(labels, scene, self.periods)
 
 
+def usual_runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+    """`runner.run`: every run of the order, as its scene begins."""
+    return run(plan, jobs)
+
+
 @dataclass(frozen=True)
 class Study:
     """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
@@ -157,7 +162,7 @@ class Study:
     lengths: Lengths | None = None  # None: its cases have lengths of their own
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    runs: Callable[[Order], Callable] = lambda order: run  # what does the runs
+    runs: Callable = usual_runs  # what does the runs, as of `usual_runs`
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
@@ -248,7 +253,7 @@ class Study:
         further_steps = list(self.beside(order))
         steps = 1 + len(further_steps)
         with stage(f"step 1 of {steps}"):
-            timing, summary = self.runs(order)(plan, order.cases)
+            timing, summary = self.runs(order, plan, order.cases)
         began = time.perf_counter()
         for number, step in enumerate(further_steps, 2):
             with stage(f"step {number} of {steps}"):

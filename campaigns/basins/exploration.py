@@ -1,17 +1,14 @@
 """The motions of one scene, and the motion in which each start of a grid ends."""
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 from campaigns.basins.grid import StartGrid
-from campaigns.explore.motions import MOTION, Motion, Motions, Search, settled_in
+from campaigns.explore.motions import MOTION, Motion, Motions, Search
 from campaigns.explore.rows import STEEPNESS
 from campaigns.explore.stages import judge, name, propose, run_from_rest
-from campaigns.explore.starts import JOINED, KICKS, OUTCOME, Ending, Request, Start
-from campaigns.machinery.folder import claimed, run_of
+from campaigns.explore.starts import KICKS, OUTCOME, Ending, Start
 from campaigns.machinery.plan import Job, Plan
-from campaigns.machinery.runner import run
-from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, names
+from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, Row
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
 PEAK = Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line in its motion", 0)
@@ -65,42 +62,19 @@ class Exploration:
         latest = self.starts.endings[len(self.starts.endings) - len(numbers) :]
         self.endings |= dict(zip(numbers, latest, strict=True))
 
-    def request(self, start: Start, scene=None, **options) -> Request:
-        """A start of the scene, or of another one with the same motions. options: fields of `Request`."""
-        name = self.places.name_of(0)
-        return Request(name, scene or self.scene, start, settled_in(self.motions), **options)
+    def run(self, title: str, starts: Sequence[Start], scene=None, **options) -> list[Ending]:
+        """Run starts that are not of the grid, with the known motions in which they end. Else as `Motions.request`."""
+        endings = self.starts.run(title, [self.places.request(0, start, scene, **options) for start in starts])
+        for ending in endings:
+            ending.motion = self.places.known(0, ending)
+        return endings
 
-    def motion_of(self, ending: Ending) -> Motion | None:
-        """The motion in which a start has ended that `find` did not run; None for one that it has not found."""
-        number = None
-        if ending.row.get("outcome") == JOINED:
-            number = ending.joins
-        elif ending.settled is not None:
-            number = ending.same_as(settled_in(self.motions))
-        if number is not None:
-            ending.motion = self.motions[number]
-        return ending.motion
-
-    def runs_within(self, folder: str, title: str, jobs: list[Job]) -> list:
-        """Do runs in a folder beside that of the starts; their Trajectories, None for one that ended early."""
-        running = replace(self.plan.how, out=self.plan.how.out / folder)
-        with claimed(running.out):
-            timing, summary = run(replace(self.plan, how=running, title=title), jobs)
-        self.places.times.update(timing)
-        rows, trajectories = summary.by_key, []
-        for job in jobs:
-            row = rows.get(job.key)
-            trajectories.append(row and run_of(running.out, row))
-        return trajectories
-
-    def rows(self) -> Iterator[dict[str, object]]:
+    def rows(self) -> list[Row]:
         """The rows of COLUMNS."""
-        shown = names(COLUMNS)
-        for number in range(len(self.endings)):
-            ending = self.endings[number]
-            row = {name: entry for name, entry in ending.row.items() if name in shown}
-            row |= {"motion": None, PEAK.name: None}
-            motion = ending.motion
+        rows = []
+        for _, ending in sorted(self.endings.items()):
+            row, motion = {**ending.row, "motion": None, PEAK.name: None}, ending.motion
             if motion is not None:
                 row |= {"motion": motion.branch.letter, PEAK.name: self.places.row_of(motion).get(PEAK.name)}
-            yield row
+            rows.append(row)
+        return rows

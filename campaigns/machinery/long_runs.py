@@ -109,7 +109,7 @@ def until_judged(
     longer than the run was judged; the first part of this check is as long as chaos needs to show by SURE errors.
     start: the state of another run in which this run begins; None: the start of the scene. most: wave periods after
     which the run has no further look, though `budget` allows it. least: wave periods that chaos has to last, because
-    transients of this length are known (`campaigns.explore.transients`).
+    transients of this length are known (`campaigns.explore.stages`).
     """
     from analysis.looks import looks as looks_until
 

@@ -11,7 +11,7 @@ from typing import get_args
 
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.rows import STEEPNESS
-from campaigns.explore.settings import measures_of
+from campaigns.explore.sweep import measures_of
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.plan import Summary

@@ -1,6 +1,6 @@
 """What a run does next (`campaigns.machinery.long_runs`): on to its next look, to a tighter tolerance, or nothing.
 
-Chaos beside periodic motions that began as chaos has to outlast their transients (`campaigns.explore.transients`).
+Chaos beside periodic motions that began as chaos has to outlast their transients (`campaigns.explore.stages`).
 """
 
 from functools import partial
@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.explore.transients import TIMES, outlasting
+from campaigns.explore.stages import TIMES, outlasting
 from campaigns.machinery.cli import Running
 from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
 from campaigns.machinery.plan import Job, Plan

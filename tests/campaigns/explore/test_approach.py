@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from campaigns.explore.approach import orbit_ahead
+from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.proposals import SCREENED, _motions
 from campaigns.explore.starts import settled_of
 from campaigns.machinery.store import Store

@@ -16,5 +16,5 @@ def test_kicks_are_as_many_as_fast_and_of_the_seed_as_asked_for(tmp_path, monkey
     monkeypatch.setattr(Motions, "write", lambda motions: None)
     monkeypatch.setattr(ends, "find_ends", lambda motions, scenes: None)
     plan = Plan(Running(tmp_path), engine.simulate, None, ())
-    buoy_sweep.runs(order)(plan, order.cases)
+    buoy_sweep.runs(order, plan, order.cases)
     assert faults == [] and searches == [Search(order, 3, 2.5, 7)]

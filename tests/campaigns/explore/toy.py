@@ -97,7 +97,7 @@ def explored(monkeypatch, motions: ToyMotions, jobs: list[Job], kicks: int) -> T
     """The motions of these places, found, named, and not judged again."""
     monkeypatch.setattr(engine, "massless_covers", lambda scene: False)
     monkeypatch.setattr(stages, "outlasting", lambda *arguments: [])
-    monkeypatch.setattr(stages, "settled_of", lambda run, orbits: run.settled)
+    monkeypatch.setattr(stages, "reached", lambda run, orbits: run.settled)
     monkeypatch.setattr(stages, "proposals", lambda plan, scenes, *arguments: [[] for _ in scenes])
     places = stages.run_from_rest(motions, jobs)
     stages.find(motions, places, Search(None, kicks, 2.0, 1))
