@@ -69,12 +69,12 @@ def approach_evidence(
     distances, rates = min(phases, key=lambda phase: phase[0][2])
     moduli = np.abs(multipliers)
     expected = -np.log(moduli[0]) / period
-    attracts = bool((moduli + errors).max() < 1.0)
+    attracts = (moduli + errors).max() < 1.0
     alike = (expected / agrees <= rates) & (rates <= agrees * expected)
-    comes_nearer = bool(alike.all()) and distances[2] <= min(near, left * distances[0])
-    on_it = bool(distances[2] <= arrived)
+    comes_nearer = alike.all() and distances[2] <= min(near, left * distances[0])
+    on_it = distances[2] <= arrived
     passed = attracts and (comes_nearer or on_it)
-    shown = float(np.exp(-rates.mean() * period))
+    shown = np.exp(-rates.mean() * period)
     attraction = "attracts" if attracts else "is not known to attract"
     way = f"the run comes nearer as that says ({shown:.4f} each time)"
     if on_it:
@@ -86,7 +86,7 @@ def approach_evidence(
         f"it {attraction} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
         f"and {way}"
     )
-    return Evidence("approach", shown, float(moduli[0]), passed, sentence)
+    return Evidence("approach", shown, moduli[0], passed, sentence)
 
 
 def _in_windows(differences: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -7,13 +7,11 @@ between which the slope is constant. Without such a region there is no dimension
 the motion is smooth, not because it returns: Theiler's window w leaves them out, else every smooth curve has D = 1.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
-from analysis.sampling import checked_columns, checked_count, in_deviations, locked
+from analysis.sampling import checked_columns, checked_count, in_deviations, record
 
 LEAST_POINTS = 300
 BINS_PER_NAT = 20
@@ -29,7 +27,7 @@ LEAST_SLOPE = 0.2
 QUARTERS = 4
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class CorrelationDimension:
     """The correlation dimension of a set of points, or why there is none.
 
@@ -73,7 +71,7 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
     x = checked_columns(points, "points")
     theiler = checked_count(theiler, "theiler", least=0)
     z = np.ascontiguousarray(in_deviations(x))
-    needed, empty, none = max(LEAST_POINTS, 4 * theiler), locked(np.zeros(0)), (np.nan, np.nan)
+    needed, empty, none = max(LEAST_POINTS, 4 * theiler), np.zeros(0), (np.nan, np.nan)
     reason = ""
     if len(x) < needed:
         reason = f"too short: {needed} points are needed, given {len(x)}"
@@ -93,9 +91,8 @@ def correlation_dimension(points: ArrayLike, theiler: int = 0) -> CorrelationDim
         for part in np.array_split(z, QUARTERS):
             quarters.append(np.cumsum(_pairs_by_distance(part, theiler, *bins))[:-1])
         inside = (radius >= region[0]) & (radius <= region[1])
-        error = float(np.hypot(error, _sampling_error(quarters, logarithm, inside)))
-    curve = (locked(radius), locked(pairs / total), locked(slope))
-    return CorrelationDimension(value, error, reason, region, *curve, len(x))
+        error = np.hypot(error, _sampling_error(quarters, logarithm, inside))
+    return CorrelationDimension(value, error, reason, region, radius, pairs / total, slope, len(x))
 
 
 @kernel

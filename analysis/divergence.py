@@ -11,7 +11,6 @@ distances are small, and ends at the size of the attractor. Only the middle is a
 a straight middle has none to give, however well a line may be put through it.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +19,7 @@ from numpy.typing import ArrayLike
 from analysis.embedding import choose_embedding, delay_vectors
 from analysis.exponents import Exponent, no_exponent
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_positive, checked_series, locked, record_of_numbers
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 LEAST_SAMPLES = 200
@@ -33,7 +32,7 @@ PIECES = 4
 MOST_CURVATURE = 0.25
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class ScalingRegion:
     """A straight part of y(t).
 
@@ -52,23 +51,15 @@ class ScalingRegion:
     reason: str
 
 
-def rosenstein_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimension: int | None = None,
-    theiler: int | None = None,
-    horizon: int | None = None,
-) -> Exponent:
+def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     """Largest Lyapunov exponent from the mean logarithmic growth between nearest neighbours.
 
         y(k) = < ln |X_{i+k} - X_{j(i)+k}| >,    lambda = slope of y against k step_s in its scaling region
 
     series (n,)    any unit, evenly sampled
     step_s         sampling step [s], or 1 for a map
-    delay, dimension    of the embedding; None: choose_embedding
-    theiler        neighbours nearer in time are none [samples]; None: mean period or span of a delay vector
-    horizon        largest k [samples]; None: eight mean periods, at most a quarter of the record
+    The embedding is that of choose_embedding. Neighbours nearer in time than a mean period or the span of a delay
+    vector do not count. k goes up to eight mean periods, at most a quarter of the record.
     Returns an Exponent [nats/time]. Its error joins the bend of the region with the scatter of eight blocks of centres.
     NaN with a reason where no straight part of the curve spans one nat: regular motion, noise, or too short a record.
     details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres.
@@ -78,11 +69,9 @@ def rosenstein_lyapunov(
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < LEAST_SAMPLES or np.ptp(x) == 0.0:
         return no_exponent(ROSENSTEIN, f"{LEAST_SAMPLES} samples of a series that moves are needed, given {len(x)}")
-    embedding = choose_embedding(x, delay)
-    lag, period = embedding.lag, embedding.mean_period
-    m = embedding.dimension if dimension is None else checked_count(dimension, "dimension")
-    theiler = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
-    horizon = min(max(round(8 * period), 12), len(x) // 4) if horizon is None else checked_count(horizon, "horizon")
+    embedding = choose_embedding(x)
+    lag, m, period = embedding.lag, embedding.dimension, embedding.mean_period
+    theiler, horizon = max(round(period), (m - 1) * lag), min(max(round(8 * period), 12), len(x) // 4)
     usable = len(x) - (m - 1) * lag - horizon
     if usable < LEAST_CENTRES + 2 * theiler:
         span = f"delay vectors of {(m - 1) * lag} samples and a horizon of {horizon}"
@@ -126,7 +115,7 @@ def _slope_of(growth, step_s, period, details):
     for block in np.array_split(growth, BLOCKS, axis=1):
         slopes.append(np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0])
     scatter = np.std(slopes, ddof=1) / np.sqrt(BLOCKS)
-    error = float(np.hypot(region.error, scatter))
+    error = np.hypot(region.error, scatter)
     return Exponent(region.slope, error, "nats/time", ROSENSTEIN, region.reason, details)
 
 
@@ -157,7 +146,7 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
             if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:
                 straight = True
                 if span >= LEAST_SPAN_NATS and (best is None or span > best[0]):
-                    best = span, slope, float(np.std(pieces)), begin, end - 1
+                    best = span, slope, np.std(pieces), begin, end - 1
     if best is None:
         why = "no straight rising part"
         if straight:
@@ -165,7 +154,7 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
         return ScalingRegion(np.nan, np.nan, -1, -1, np.nan, f"{why}; the curve rises by {np.ptp(y):.2g} nats in all")
     span, slope, error, begin, end = best
     reason = f"straight from {t[begin]:.4g} to {t[end]:.4g}, rising by {span:.2g} nats"
-    return ScalingRegion(float(slope), error, begin + cut, end + cut, float(span), reason)
+    return ScalingRegion(slope, error, begin + cut, end + cut, span, reason)
 
 
 def _line(t, y):

@@ -16,14 +16,13 @@ its nearest neighbour in m dimensions and z the distance in coordinate m + 1,
     E2(m) = mean z at m + 1 / mean z at m:   1 for every m when the future does not depend on the past (noise)
 """
 
-from dataclasses import dataclass
 from math import comb
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_count, checked_series, record
 
 LEAST_SAMPLES_PER_PERIOD = 6.0
 PERIODS_SEARCHED = 3.0
@@ -32,6 +31,7 @@ FALSE_SIZE = 2.0
 FALSE_SHARE = 0.01
 FALSE_AT_MOST = 0.2
 CAO_LEVEL = 0.9
+MOST_DIMENSIONS = 8
 # Points asked about where a statistic over the attractor is enough; drawn with a fixed seed, so that the same record
 # gives the same answer.
 CENTRES = 2000
@@ -39,14 +39,13 @@ NOISE_CENTRES = 400
 NOISE_REACH = 3
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class DelayChoice:
     """A delay and the curve from which it was read.
 
     delay                    [samples]
     reason                   one sentence: first minimum, or what was taken for want of one
     information (k + 1,)     I(L) at L = 0 ... k [nats]; I(0) is the entropy of the cells
-    bias                     what independent samples would show on average, (cells - 1)^2/(2 pairs) [nats]
     cells                    cells per axis, equally filled
     mean_period              mean period of the series [samples]
     """
@@ -54,12 +53,11 @@ class DelayChoice:
     delay: int
     reason: str
     information: np.ndarray
-    bias: float
     cells: int
     mean_period: float
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class EmbeddingChoice:
     """Delay and dimension of an embedding with the curves from which they were read; index m - 1 belongs to m.
 
@@ -70,8 +68,8 @@ class EmbeddingChoice:
     reason                   one sentence: what each rule says
     lag                      delay used [samples]
     mean_period              mean period of the series [samples]
-    delay                    DelayChoice: what mutual information says, whether it was used or not
-    theiler                  Theiler window used [samples]
+    delay                    DelayChoice: what mutual information says
+    theiler                  Theiler window, one mean period [samples]
     false_share (k,)         share of false neighbours, m = 1 ... k
     e1, e2 (k - 1,)          Cao's ratios, m = 1 ... k - 1; e2 differs from 1 at some m for a deterministic series and
                              is about 1 at all m for noise
@@ -127,11 +125,11 @@ def mean_period(series: ArrayLike) -> float:
     return float(min(np.sum(power) / weighted, longest))
 
 
-def mutual_information(series: ArrayLike, max_delay: int, cells: int | None = None) -> tuple[np.ndarray, int]:
+def mutual_information(series: ArrayLike, max_delay: int) -> tuple[np.ndarray, int]:
     """Average mutual information I(L) of a series with itself L samples later [nats], L = 0 ... max_delay.
 
-    The cells hold equal shares of the samples, so I does not change under any monotone rescaling of the series.
-    cells    per axis; None: (pairs/20)^(1/2), 4 ... 32, so that even full scatter leaves about 20 pairs a cell
+    The cells hold equal shares of the samples, so I does not change under any monotone rescaling of the series. Per
+    axis they are (pairs/20)^(1/2), 4 ... 32, so that even full scatter leaves about 20 pairs a cell.
     Returns (information (max_delay + 1,), cells).
     Raises ValueError for values that are not finite, or max_delay not below half the length.
     Source: Fraser & Swinney, Physical Review A 33, 1134 (1986), on a fixed partition.
@@ -140,7 +138,7 @@ def mutual_information(series: ArrayLike, max_delay: int, cells: int | None = No
     max_delay = checked_count(max_delay, "max_delay")
     if max_delay >= len(x) // 2:
         raise ValueError(f"max_delay: less than half of the {len(x)} samples is needed, given {max_delay}")
-    cells = int(np.clip(np.sqrt(len(x) / 20.0), 4, 32)) if cells is None else checked_count(cells, "cells", least=2)
+    cells = int(np.clip(np.sqrt(len(x) / 20.0), 4, 32))
     # Equal values share a cell: ranks by value, not by order, or a constant stretch would be cut by chance.
     edges = np.quantile(x, np.arange(1, cells) / cells)
     label = np.searchsorted(edges, x, side="right")
@@ -154,7 +152,7 @@ def mutual_information(series: ArrayLike, max_delay: int, cells: int | None = No
     return information, cells
 
 
-def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice:
+def choose_delay(series: ArrayLike) -> DelayChoice:
     """Delay at the first minimum of the average mutual information.
 
     A minimum is a lag that no other within a tenth of a mean period undercuts, I being smoothed over (1/4, 1/2, 1/4):
@@ -166,7 +164,6 @@ def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice
     its samples: delay 1.
 
     series (n,)    samples, any unit
-    max_delay      largest lag looked at [samples]; None: three mean periods
     Returns a DelayChoice; `reason` says which rule spoke, `information` is the curve to draw.
     Raises ValueError for values that are not finite or fewer than 50 samples.
     Source: Fraser & Swinney, Physical Review A 33, 1134 (1986).
@@ -175,8 +172,7 @@ def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice
     if len(x) < 50:
         raise ValueError(f"series: 50 samples at least are needed, given {len(x)}")
     period = mean_period(x)
-    if max_delay is None:
-        max_delay = int(min(max(np.ceil(PERIODS_SEARCHED * period), 10), len(x) // 2 - 1))
+    max_delay = int(min(max(np.ceil(PERIODS_SEARCHED * period), 10), len(x) // 2 - 1))
     information, cells = mutual_information(x, max_delay)
     if period < LEAST_SAMPLES_PER_PERIOD:
         delay, reason = 1, f"delay 1: {period:.2g} samples per mean period leave nothing between the samples"
@@ -190,7 +186,7 @@ def choose_delay(series: ArrayLike, max_delay: int | None = None) -> DelayChoice
             if minimum:
                 minimum_text = f"at {minimum}"
             reason = f"a quarter of the mean period; first minimum of the mutual information: {minimum_text} samples"
-    return DelayChoice(delay, reason, locked(information), (cells - 1) ** 2 / (2.0 * len(x)), cells, period)
+    return DelayChoice(delay, reason, information, cells, period)
 
 
 def _first_minimum(information, reach):
@@ -203,18 +199,15 @@ def _first_minimum(information, reach):
     return None
 
 
-def choose_embedding(
-    series: ArrayLike, delay: int | None = None, max_dimension: int = 8, theiler: int | None = None
-) -> EmbeddingChoice:
+def choose_embedding(series: ArrayLike) -> EmbeddingChoice:
     """Delay and embedding dimension of a series, with every curve that led to them.
 
     Noise makes false neighbours in every dimension: their share levels off above zero, and rises again. E1 rises to 1
     and stays where the embedding is large enough.
 
     series (n,)       any unit
-    delay             [samples]; None: choose_delay
-    max_dimension     largest m looked at, 2 or more; it is the answer, and `reason` says so, where neither rule speaks
-    theiler           [samples]; None: one mean period
+    The delay is that of choose_delay. The largest m looked at is 8. It is the answer, and `reason` says so, where
+    neither rule speaks.
     Returns an EmbeddingChoice. The dimension is the smallest that unfolds the motion; it is not the dimension of the
     attractor, and twice that of the attractor plus one may be needed (Sauer, Yorke & Casdagli 1991).
     Raises ValueError for values that are not finite or a series too short.
@@ -223,10 +216,9 @@ def choose_embedding(
     """
     x = checked_series(series)
     chosen = choose_delay(x)
-    lag = chosen.delay if delay is None else checked_count(delay, "delay")
-    theiler = round(chosen.mean_period) if theiler is None else int(theiler)
-    share, growth, change = np.full((3, checked_count(max_dimension, "max_dimension", least=2)), np.nan)
-    for m in range(1, max_dimension + 1):
+    lag, theiler = chosen.delay, round(chosen.mean_period)
+    share, growth, change = np.full((3, MOST_DIMENSIONS), np.nan)
+    for m in range(1, MOST_DIMENSIONS + 1):
         separation, radius, next_coordinate = _next_coordinate(x, lag, m, theiler)
         if len(separation):
             driven_away = next_coordinate > FALSE_RATIO * separation
@@ -242,12 +234,11 @@ def choose_embedding(
     if np.nanmin(share) <= FALSE_AT_MOST:
         kennel = _first(share <= np.nanmin(share) + FALSE_SHARE)
     cao = _first(e1 >= CAO_LEVEL)
-    words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {max_dimension}"
+    words = f"false neighbours: {kennel or 'none'}, Cao: {cao or 'none'} of dimensions up to {MOST_DIMENSIONS}"
     if not (kennel or cao):
         words += ": noise, or a motion of higher dimension"
-    curves = locked(share), locked(e1), locked(e2)
-    dimension = kennel or cao or max_dimension
-    return EmbeddingChoice(dimension, kennel, cao, words, lag, chosen.mean_period, chosen, theiler, *curves)
+    dimension = kennel or cao or MOST_DIMENSIONS
+    return EmbeddingChoice(dimension, kennel, cao, words, lag, chosen.mean_period, chosen, theiler, share, e1, e2)
 
 
 def _first(holds):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from analysis.line_spectra import spectral_lines
 from analysis.memory import bands_in_turn, long_memory, widest_band, within_bands
 from analysis.neighbours import neighbour_growth
+from analysis.sampling import record_of_numbers
 from analysis.section_maps import section_lyapunov
 from analysis.stationarity import outlying, record_drift
 from analysis.surrogates import NULLS, SHARE, null_ranks
@@ -33,7 +34,7 @@ LEAST_POWER = 0.01
 SCATTERED, FORGOTTEN = 7.0, 0.25
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class Evidence:
     """One test of a motion.
 
@@ -108,9 +109,9 @@ def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     if estimate.residual[n - 1] == 0.0:
         sentence = "the orbit repeats to the last digit: nothing is left whose decay could be seen"
         return [period, Evidence("contraction", np.nan, 1.0, None, sentence)]
-    multiplier = float(estimate.multiplier[n - 1])
+    multiplier = estimate.multiplier[n - 1]
     sentence = f"factor from one step over {n} period(s) to the next; independent errors have -1/2"
-    return [period, Evidence("contraction", multiplier, 1.0, bool(abs(multiplier) < 1.0), sentence)]
+    return [period, Evidence("contraction", multiplier, 1.0, abs(multiplier) < 1.0, sentence)]
 
 
 def outlier_evidence(series: np.ndarray, name: str = "samples") -> list[Evidence]:
@@ -132,7 +133,7 @@ def exponent_evidence(tangent: Exponent | None, wolf: Exponent | None) -> Eviden
         return Evidence("exponent", np.nan, 0.0, None, "not asked: the orbit repeats, and no exponent was given")
     if not exponent.found:
         return Evidence("exponent", np.nan, 0.0, None, f"no exponent: {exponent.reason}")
-    passed = bool(exponent.value - 2.0 * exponent.error > 0.0)
+    passed = exponent.value - 2.0 * exponent.error > 0.0
     sentence = f"bits per period, of the {source}, with an error of {exponent.error:.2g}; two errors are asked for"
     return Evidence("exponent", exponent.value, 0.0, passed, sentence, exponent.error)
 
@@ -148,19 +149,19 @@ def growth_evidence(section: np.ndarray, least: float = 0.0) -> Evidence:
         return Evidence("neighbours", growth, STAYS, None, neighbours.reason)
     if least > 0.0:
         distance = np.log(np.maximum(neighbours.distance, least))
-        growth = float(distance[(len(distance) - 1) // 2 :].mean() - distance[1:4].mean())
-    passed = bool(abs(growth) < STAYS and neighbours.late < NEAR)
+        growth = distance[(len(distance) - 1) // 2 :].mean() - distance[1:4].mean()
+    passed = abs(growth) < STAYS and neighbours.late < NEAR
     return Evidence("neighbours", growth, STAYS, passed, f"{neighbours.reason} (growth {growth:.2f} nats)")
 
 
 def drift_evidence(section: np.ndarray, growth: Evidence) -> Evidence:
     """Still on its way: spread or mean march with time, or neighbours close in."""
     drift = record_drift(section)
-    closing = bool(growth.value < -STAYS)
+    closing = growth.value < -STAYS
     reason = drift.reason
     if closing and not drift.drifting:
         reason = "neighbours on the section close in on each other"
-    return Evidence("drift", drift.spread_change, np.nan, bool(drift.drifting or closing), reason)
+    return Evidence("drift", drift.spread_change, np.nan, drift.drifting or closing, reason)
 
 
 def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
@@ -184,7 +185,7 @@ def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
         best = standing[np.argmax(turns[standing])]
     line = f"a line at {spectrum.frequency[best]:.5f} cycles a period with {min(share[best], 1.0):.0%} of a coordinate"
     sentence = f"turns over the record between {line} and the nearest subharmonic"
-    return Evidence("incommensurate line", float(turns[best]), LEAST_TURN, len(free) > 0, sentence)
+    return Evidence("incommensurate line", turns[best], LEAST_TURN, len(free) > 0, sentence)
 
 
 def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
@@ -200,9 +201,9 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     answered = np.isfinite(values)
     if 2 * answered.sum() < len(values) or not answered.any():
         return Evidence("0-1 test", np.nan, IRREGULAR, None, tests[int(np.argmin(answered))].reason)
-    value = float(np.median(values[answered]))
+    value = np.median(values[answered])
     sentence = f"median over the coordinates, in the bands visited in turn ({bands} bands)"
-    return Evidence("0-1 test", value, IRREGULAR, bool(value > IRREGULAR), sentence)
+    return Evidence("0-1 test", value, IRREGULAR, value > IRREGULAR, sentence)
 
 
 def memory_evidence(section: np.ndarray, name: str = "memory") -> Evidence:
@@ -212,7 +213,7 @@ def memory_evidence(section: np.ndarray, name: str = "memory") -> Evidence:
     sentence = "largest correlation with the motion an eighth to half of the record later; chaos has to forget"
     passed = None
     if np.isfinite(value):
-        passed = bool(value < threshold)
+        passed = value < threshold
     return Evidence(name, value, threshold, passed, sentence)
 
 
@@ -241,7 +242,7 @@ def exponents_evidence(
     map_of = "the section's map" if bands == 1 else f"the map of one of the {bands} bands"
     halves = f"{first_half.value:.3f} ± {first_half.error:.3f} and {second_half.value:.3f} ± {second_half.error:.3f}"
     sentence = f"bits per period, by the derivative of {map_of}; ± {full.error:.3f}; in the halves {halves}"
-    return from_caller, [Evidence(name, full.value, 3.0 * full.error, bool(passed), sentence, full.error)]
+    return from_caller, [Evidence(name, full.value, 3.0 * full.error, passed, sentence, full.error)]
 
 
 def null_evidence(
@@ -270,4 +271,4 @@ def tighter_evidence(tighter: Verdict | str | None, word: str) -> Evidence:
         return Evidence("tighter tolerance", np.nan, np.nan, None, "no spot check at a tighter tolerance was given")
     tighter_word = tighter if isinstance(tighter, str) else tighter.regime
     sentence = f"the verdict at a tighter tolerance is {tighter_word}"
-    return Evidence("tighter tolerance", np.nan, np.nan, bool(tighter_word == word), sentence)
+    return Evidence("tighter tolerance", np.nan, np.nan, tighter_word == word, sentence)

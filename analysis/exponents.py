@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -32,7 +31,7 @@ class Exponent:
     unit       "nats/time" (per unit of the sampling step) or "bits/period" (per forcing period, eq. 32)
     method     which estimator, with its reference, e.g. "Wolf et al. 1985"
     reason     one sentence: why this value, or, if it is NaN, why there is none
-    details    what the estimator wants shown: settings, curves, plateau (read-only mapping, names by the estimator)
+    details    what the estimator wants shown: settings, curves, plateau (names by the estimator)
 
     ValueError for another unit, a negative error, or a NaN without a reason.
     """
@@ -53,16 +52,11 @@ class Exponent:
             raise ValueError("reason: an exponent that is NaN must say why")
         object.__setattr__(self, "value", float(self.value))
         object.__setattr__(self, "error", float(self.error) if np.isfinite(self.value) else np.nan)
-        object.__setattr__(self, "details", MappingProxyType(dict(self.details)))
 
     def __str__(self) -> str:
         if not self.found:
             return f"none: {self.reason}"
         return f"{self.value:.3f} ± {self.error:.3f} {self.unit}, by {self.method}"
-
-    def __reduce__(self):
-        # Read-only mappings do not pickle, and records travel between processes.
-        return Exponent, (self.value, self.error, self.unit, self.method, self.reason, dict(self.details))
 
     @property
     def found(self) -> bool:
@@ -72,17 +66,10 @@ class Exponent:
     def in_bits_per_period(self, period: float) -> Exponent:
         """The same estimate per forcing period, sigma = lambda T_i/ln 2 of eq. (32); `period` in the unit of time of
         the sampling step. `details` stay in the units in which the estimator wrote them."""
-        return self._in_unit(BITS_PER_PERIOD, lambda: checked_positive(period, "period") / np.log(2.0))
-
-    def in_nats_per_time(self, period: float) -> Exponent:
-        """The same estimate per unit of time, lambda = sigma ln 2/T_i; `period` is the forcing period it was stated for
-        (in the unit of time wanted)."""
-        return self._in_unit(NATS_PER_TIME, lambda: np.log(2.0) / checked_positive(period, "period"))
-
-    def _in_unit(self, unit, factor):
-        if self.unit == unit:
+        if self.unit == BITS_PER_PERIOD:
             return self
-        return replace(self, value=self.value * factor(), error=self.error * factor(), unit=unit)
+        factor = checked_positive(period, "period") / np.log(2.0)
+        return replace(self, value=self.value * factor, error=self.error * factor, unit=BITS_PER_PERIOD)
 
 
 def no_exponent(

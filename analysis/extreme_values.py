@@ -1,30 +1,26 @@
 """Least and greatest value of a series, of each block of it, and the share of time below a threshold (slack)."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series
+from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series, record_of_numbers
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class SlackFraction:
     """Share of the time with tension at or below a threshold.
 
     fraction       slack_s/record_s, 0 ... 1
     slack_s        time at or below the threshold [s]
     record_s       time looked at, transient left out [s]
-    threshold_N    the threshold [N]
     """
 
     fraction: float
     slack_s: float
     record_s: float
-    threshold_N: float
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class Extremes:
     """Least and greatest sample and when each is first reached; times from the first sample of the record [s]."""
 
@@ -65,8 +61,8 @@ def slack_fraction(
     crossing = (left <= 0.0) != (right <= 0.0)
     depth = np.abs(np.minimum(left, right)[crossing])
     below[crossing] = depth / (depth + np.maximum(left, right)[crossing])
-    slack_s, record_s = float(np.sum(below * np.diff(time_s))), float(time_s[-1] - time_s[0])
-    return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s, float(threshold_N))
+    slack_s, record_s = np.sum(below * np.diff(time_s)), time_s[-1] - time_s[0]
+    return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s)
 
 
 def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extremes:
@@ -83,8 +79,8 @@ def extremes(series: ArrayLike, step_s: float, transient_s: float = 0.0) -> Extr
     """
     x = checked_series(series)
     first, time_s = _after(x, step_s, transient_s)
-    low, high = first + int(np.argmin(x[first:])), first + int(np.argmax(x[first:]))
-    return Extremes(float(x[low]), float(time_s[low]), float(x[high]), float(time_s[high]))
+    low, high = first + np.argmin(x[first:]), first + np.argmax(x[first:])
+    return Extremes(x[low], time_s[low], x[high], time_s[high])
 
 
 def block_maxima(series: ArrayLike, samples: int) -> np.ndarray:

@@ -19,17 +19,17 @@ dips on both of their sides (prominence), as far as they reach LEAST_SHARE of th
 What it cannot tell: luck. Where ln|y| is a random walk, three in ten records of 250 periods have such a part.
 """
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_positive, checked_series, record
 
 METHOD = "straight part of the logarithm of the envelope"
 LEAST_SPAN_NATS = 3.0
+WINDOW_PERIODS = 4  # in a span of the envelope that is fitted: half a swing of y has to fit in
 LEAST_POINTS = 9  # three to a quarter, which share their ends
 QUARTERS = 4
 MOST_CURVATURE = 0.25
@@ -38,7 +38,7 @@ LEAST_SHARE = 0.01
 _ENDS = 64  # candidates for each end of the straight part: enough to find it to two per cent of the record
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Growth:
     """What a record of magnitudes does.
 
@@ -60,27 +60,23 @@ class Growth:
     burst_size: np.ndarray
 
 
-def growth_or_bursts(
-    magnitude: ArrayLike, step: float, period: float, window_periods: int = 4, least_span: float = LEAST_SPAN_NATS
-) -> Growth:
+def growth_or_bursts(magnitude: ArrayLike, step: float, period: float, least_span: float = LEAST_SPAN_NATS) -> Growth:
     """Growth, decay, bursts or neither of a record of magnitudes (rules at the head of this file).
 
     magnitude (n,)     |y| or y from t = 0, evenly sampled, any unit
     step, period       sampling step and forcing period, in one unit of time
-    window_periods     periods in a span of the envelope that is fitted; half a swing of y has to fit in
     least_span         nats below which neither a rate nor a burst is spoken of
     Returns a Growth. Raises ValueError for values that are not finite, or a period below two steps.
     """
     y = np.abs(checked_series(magnitude, "magnitude"))
     step, period = checked_positive(step, "step"), checked_positive(period, "period")
-    window_periods = checked_count(window_periods, "window_periods")
     least_span = checked_positive(least_span, "least_span")
     if period < 2.0 * step:
         raise ValueError(f"period: at least two steps are needed, given {period!r} with steps of {step!r}")
-    if not envelope_of(y, step, window_periods * period)[1].any():
+    if not envelope_of(y, step, WINDOW_PERIODS * period)[1].any():
         return _without_rate("neither", "every value is zero" if len(y) else "there are no values")
     lacking = []
-    for span in (window_periods * period, period):
+    for span in (WINDOW_PERIODS * period, period):
         time, size = envelope_of(y, step, span)
         bursts = _straight_part(time, size, least_span)
         if isinstance(bursts, Growth):
@@ -107,7 +103,7 @@ def envelope_of(magnitude: ArrayLike, step: float, span: float) -> tuple[np.ndar
 
 
 def _without_rate(kind, reason, time=(), size=()):
-    bursts = locked(np.array(time, dtype=float)), locked(np.array(size, dtype=float))
+    bursts = np.array(time, dtype=float), np.array(size, dtype=float)
     return Growth(kind, reason, no_exponent(METHOD, reason), np.nan, np.nan, np.nan, *bursts)
 
 
@@ -131,11 +127,11 @@ def _straight_part(time, size, least_span):
                 continue
             straight = True
             if _separates(y, begin, end, slope):
-                error = max(error, float(np.std(quarters, ddof=1)) / np.sqrt(QUARTERS))
+                error = max(error, np.std(quarters, ddof=1) / np.sqrt(QUARTERS))
                 best = span, slope, error, t[begin], t[end - 1]
     if best is not None:
-        span, slope, error, begin, end = map(float, best)
-        reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", locked(np.empty(0))
+        span, slope, error, begin, end = best
+        reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", np.empty(0)
         rate = Exponent(slope, error, NATS_PER_TIME, METHOD, reason)
         return Growth("growth" if slope > 0 else "decay", reason, rate, begin, end, span, none, none)
     if straight:
@@ -177,7 +173,7 @@ def _separates(y, begin, end, slope):
     earlier, later = y[:begin], y[end:]
     if slope < 0.0:
         earlier, later = later, earlier
-    return bool(np.all(earlier < middle) and np.all(later > middle))
+    return np.all(earlier < middle) and np.all(later > middle)
 
 
 def _bursts(size, least_span):

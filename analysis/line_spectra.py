@@ -5,13 +5,11 @@ and below their lines. Lines are found one at a time, largest above its surround
 all fitted together after each (as CLEAN does, so that side lobes of a strong line do not pass for weaker ones).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 from threadpoolctl import threadpool_limits
 
-from analysis.sampling import checked_columns, checked_count, locked
+from analysis.sampling import checked_columns, record
 
 # Noise exceeds this many times its local mean once in e^12 bins.
 LINE_ABOVE_FLOOR = 12.0
@@ -19,11 +17,12 @@ LINE_ABOVE_FLOOR = 12.0
 POINTS_PER_LINE = 6
 # Half the width of a line under the Hann window is two bins; nearer lines are seen as one.
 SEPARATION_BINS = 1.5
+MOST_LINES = 64
 _PADDING = 8
 _NEGLIGIBLE = 1e-12
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class LineSpectrum:
     """Lines of a record and what they leave.
 
@@ -42,7 +41,7 @@ class LineSpectrum:
 # Libraries of linear algebra hand even a fit of 50 lines to 300 points to all cores, which on a busy machine wait for
 # each other: 20 times the time beside one other process.
 @threadpool_limits.wrap(limits=1)
-def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
+def spectral_lines(series: ArrayLike) -> LineSpectrum:
     """The steady oscillations in a record: frequencies, amplitudes and their sum.
 
         fitted_k = mean + sum_l a_l cos(2 pi f_l k) + b_l sin(2 pi f_l k),    least squares over k, all lines together
@@ -51,13 +50,12 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     floor around it; floor: running median over an eighth of the band. At most one line per 6 samples.
 
     series (n,) or (n, d)   any unit; 32 samples at least
-    most                    largest number of lines
     Returns a LineSpectrum, without lines where none stands out.
     Raises ValueError for values that are not finite or fewer than 32 samples.
     Source: J. A. Hogbom (CLEAN), Astron. Astrophys. Suppl. 15 (1974) 417; frequency refinement by a windowed transform:
     J. Laskar, Physica D 67 (1993) 257.
     """
-    columns, most = checked_columns(series), checked_count(most, "most", least=0)
+    columns = checked_columns(series)
     if len(columns) < 32:
         raise ValueError(f"series: 32 samples at least are needed to find lines, given {len(columns)}")
     mean, size = columns.mean(axis=0), columns.std(axis=0)
@@ -65,7 +63,7 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     z = (columns - mean) / size
     frequency, fitted = [], np.zeros_like(z)
     amplitude = np.zeros((0, z.shape[1]))
-    while len(frequency) < min(most, len(z) // POINTS_PER_LINE) and np.mean((z - fitted) ** 2) > _NEGLIGIBLE:
+    while len(frequency) < min(MOST_LINES, len(z) // POINTS_PER_LINE) and np.mean((z - fitted) ** 2) > _NEGLIGIBLE:
         peak = _next_line(z - fitted, frequency)
         if peak is None:
             break
@@ -76,9 +74,7 @@ def spectral_lines(series: ArrayLike, most: int = 64) -> LineSpectrum:
     variance = z.var(axis=0)
     unexplained = np.mean((z - fitted) ** 2, axis=0) / np.where(variance > 0.0, variance, 1.0)
     reconstructed = reconstructed[:, 0] if np.ndim(series) == 1 else reconstructed
-    return LineSpectrum(
-        locked(np.array(frequency)), locked(amplitude * unit), locked(reconstructed), locked(unexplained)
-    )
+    return LineSpectrum(np.array(frequency), amplitude * unit, reconstructed, unexplained)
 
 
 def _next_line(rest, known):

@@ -41,7 +41,7 @@ from analysis.evidence import (
 )
 from analysis.exponents import Exponent
 from analysis.periods import PeriodEstimate, detect_period
-from analysis.sampling import checked_columns, checked_count, checked_series
+from analysis.sampling import checked_columns, checked_count
 from analysis.tangent_growth import LEAST_PERIODS, tangent_lyapunov, turned
 from analysis.verdicts import Verdict
 
@@ -95,7 +95,6 @@ def motion_regime(
     growth = np.full(periods, np.nan) if growth_nats is None else np.asarray(growth_nats, dtype=float)
     if growth.shape != (periods,):
         raise ValueError(f"growth_nats: {periods} values are needed for {periods + 1} states, given {growth.shape}")
-    checked_series(growth[np.isfinite(growth)], "growth_nats")
     checked_count(max_period, "max_period")
     if periods < FIRST_LOOK:
         reason = f"too short: {next_look(FIRST_LOOK)} periods are needed for two looks, given {periods}"
@@ -154,13 +153,10 @@ def _alone(look: _Look, goes_on: bool) -> bool:
     if look.word.startswith("period"):
         bits = look.evidence[-1].value * (look.end - look.start)  # a slow torus repeats too, and hardly shrinks
         return look.start == look.end // 3 and look.evidence[-1].name == NO_GROWTH and bits < -SHEAR
-    return (look.word == "chaotic" and goes_on) or _clear(look)
-
-
-def _clear(look: _Look) -> bool:
-    """A torus whose exponent is below its bound with more than two errors."""
-    exponent = next((item for item in look.evidence if item.name == "exponent"), None)
-    return look.word == "quasi-periodic" and abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+    if look.word == "quasi-periodic":
+        (exponent,) = (item for item in look.evidence if item.name == "exponent")
+        return abs(exponent.value) + CLEAR * exponent.error < ABOUT_ZERO
+    return look.word == "chaotic" and goes_on
 
 
 def _look(x, growth, end, scale, tolerance, max_period) -> _Look:
@@ -186,7 +182,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     def look(word: str, reason: str) -> _Look:
         return _Look(word, reason + repeats, evidence, estimate, start, end)
 
-    rising = bool(later.value > LATER * later.error)
+    rising = later.value > LATER * later.error
     if later.found:
         sentence = "bits per period in the later half, which have to be positive by two errors for chaos"
         evidence.append(Evidence("later half", later.value, LATER * later.error, rising, sentence, later.error))
@@ -203,7 +199,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         too_few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
         return look("transient" if _comes_nearer(estimate) else "undecided", too_few)
     exponent, bits = full.value, full.value * len(known)
-    positive, grown = bool(exponent > POSITIVE * full.error), bool(bits > LEAST_BITS)
+    positive, grown = exponent > POSITIVE * full.error, bits > LEAST_BITS
     sentence = f"bits per period, of the tangent dynamics over {len(known)} periods"
     evidence += [
         Evidence("exponent", exponent, POSITIVE * full.error, positive, sentence, full.error),
@@ -215,7 +211,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     if repeats:
         return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
     bound = abs(exponent) + 2.0 * full.error
-    about_zero = bool(bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * full.error))
+    about_zero = bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * full.error)
     sentence = f"|exponent| and two errors, bits per period; if it is positive, less than {SHEAR:g} bits in all"
     evidence.append(Evidence("about zero", bound, ABOUT_ZERO, about_zero, sentence))
     neighbours = growth_evidence(section, tolerance)
@@ -244,10 +240,10 @@ def _confirmation(estimate: PeriodEstimate, full: Exponent, later: Exponent) -> 
         largest = min(full.value + LATER * full.error, later.value + LATER * later.error)
         rising = later.value > LATER * later.error
         sentence = "bits per period by which perturbations grow at most, two errors included"
-        return Evidence(NO_GROWTH, largest, SEEN, bool(largest < SEEN and not rising), sentence)
-    residual, bound = float(estimate.residual[estimate.period - 1]), CLOSELY * estimate.tolerance
+        return Evidence(NO_GROWTH, largest, SEEN, largest < SEEN and not rising, sentence)
+    residual, bound = estimate.residual[estimate.period - 1], CLOSELY * estimate.tolerance
     sentence = "share of the scale by which the period is missed, where perturbations do not tell"
-    return Evidence(CLOSE, residual, bound, bool(residual <= bound), sentence)
+    return Evidence(CLOSE, residual, bound, residual <= bound, sentence)
 
 
 def _comes_nearer(estimate: PeriodEstimate):
@@ -276,10 +272,9 @@ def _on_the_way(growth):
 
 def _tighter(exponent):
     if not exponent.found:
-        return Evidence(
-            "tighter tolerance", np.nan, 0.0, False, f"no exponent at a tighter tolerance: {exponent.reason}"
-        )
-    passed = bool(exponent.value > LATER * exponent.error)
+        sentence = f"no exponent at a tighter tolerance: {exponent.reason}"
+        return Evidence("tighter tolerance", np.nan, 0.0, False, sentence)
+    passed = exponent.value > LATER * exponent.error
     grows = "grow too" if passed else "do not grow for certain"
     sentence = (
         f"at a tighter tolerance perturbations {grows}: {exponent.value:.3f} ± {exponent.error:.3f} bits per period"

@@ -16,14 +16,13 @@ How often each is wrong, and after how many periods it answers: docs/motions.md#
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.periods import PeriodEstimate, detect_period
-from analysis.sampling import checked_columns, checked_count, checked_positive, locked
+from analysis.sampling import checked_columns, checked_count, checked_positive, record, record_of_numbers
 from analysis.stationarity import record_drift
 
 LEAST_WINDOW = 30  # periods of each of two windows of a motion without a period
@@ -38,7 +37,7 @@ OF_CLOUD = 0.3  # the same, in tolerances
 APART = 0.1  # distance from which two settled motions are two
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Settled:
     """A motion that has settled.
 
@@ -56,7 +55,7 @@ class Settled:
     reason: str
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class Share:
     """The share of starts that end in one motion, and the ends of its confidence interval."""
 
@@ -89,7 +88,7 @@ def settled(
         rounds = max(len(late) // 2 // period, 1)
         mean = e[-rounds * period :].reshape(rounds, period, -1).mean(axis=0)
         # The orbit ends with the last state, the measures with the period before it.
-        return _kept(period, np.roll(estimate.orbit, 1, axis=0), mean, scale, estimate.reason)
+        return Settled(period, np.roll(estimate.orbit, 1, axis=0), mean, scale, estimate.reason)
     window = (len(e) - len(e) // 3) // 2
     if window < LEAST_WINDOW or _comes_nearer(late, estimate):
         return None
@@ -101,7 +100,7 @@ def settled(
         return None
     distances = f"lie {across:.2g} of the scale apart, neighbours within them {within:.2g}"
     reason = f"no period up to {max_period}; two windows of {window} periods {distances}"
-    return _kept(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
+    return Settled(None, x[-2 * window - 1 : -1], e[-2 * window :], scale, reason)
 
 
 def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, tolerance: float = 0.2) -> int | None:
@@ -191,21 +190,17 @@ def share_of(count: int, of: int, confidence: float = 0.95) -> Share:
 
     count, of = checked_count(count, "count", least=0), checked_count(of, "of")
     interval = binomtest(count, of).proportion_ci(confidence, method="wilson")
-    return Share(count / of, float(interval.low), float(interval.high))
+    return Share(count / of, interval.low, interval.high)
 
 
 def _checked(strobed, measures, scale):
     x, e = checked_columns(strobed, "strobed"), checked_columns(measures, "measures")
     if len(x) != len(e) + 1:
         raise ValueError(f"measures: {len(x) - 1} rows are needed for {len(x)} states, given {len(e)}")
-    scale = np.broadcast_to(np.asarray(scale, dtype=float), x.shape[1])
+    scale = np.broadcast_to(np.array(scale, dtype=float), x.shape[1])
     for entry in scale:
         checked_positive(entry, "scale")
     return x, e, scale
-
-
-def _kept(period, points, measures, scale, reason):
-    return Settled(period, *map(locked, map(np.array, (points, measures, scale))), reason)
 
 
 def _size(measures):

@@ -13,15 +13,14 @@ size at once. Noise of a record on a torus lifts d at n = 1, since the nearest p
 further: growth is counted from the mean over n = 1, 2, 3.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, checked_count, in_deviations, locked, states_of
+from analysis.sampling import checked_columns, in_deviations, record, rows_of_state, states_of
 
 LEAST_POINTS = 40
 EARLY = slice(1, 4)
+THEILER = 1  # periods of a section within which points are no neighbours
 
 
 def nearest_outside(
@@ -44,21 +43,18 @@ def nearest_outside(
     tree, missing = cKDTree(points, balanced_tree=False), np.arange(len(rows))
     width = min(count + min(2 * theiler + 1, 7), n)
     while len(missing):
-        d, j = tree.query(points[rows[missing]], width)
-        d, j = d.reshape(len(missing), -1), j.reshape(len(missing), -1)
-        fine = np.abs(j - rows[missing, None]) > theiler
-        enough = np.sum(fine, axis=1) >= count if width < n else np.ones(len(missing), dtype=bool)
-        order = np.argsort(~fine[enough], axis=1, kind="stable")[:, :count]
-        nearest = np.take_along_axis(fine[enough], order, axis=1)
-        index[missing[enough], : order.shape[1]] = np.where(nearest, np.take_along_axis(j[enough], order, axis=1), -1)
-        distance[missing[enough], : order.shape[1]] = np.where(
-            nearest, np.take_along_axis(d[enough], order, axis=1), np.inf
-        )
+        d, j = tree.query(points[rows[missing]], range(1, width + 1))
+        near_in_time = np.abs(j - rows[missing, None]) <= theiler
+        d[near_in_time], j[near_in_time] = np.inf, -1
+        order = np.argsort(d, axis=1, kind="stable")[:, :count]
+        d, j = np.take_along_axis(d, order, axis=1), np.take_along_axis(j, order, axis=1)
+        enough = (np.sum(j >= 0, axis=1) >= count) | (width == n)
+        index[missing[enough], : j.shape[1]], distance[missing[enough], : j.shape[1]] = j[enough], d[enough]
         missing, width = missing[~enough], min(2 * width, n)
     return index, distance
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class NeighbourGrowth:
     """How far pairs of neighbours part.
 
@@ -77,38 +73,36 @@ class NeighbourGrowth:
     reason: str
 
 
-def neighbour_growth(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> NeighbourGrowth:
+def neighbour_growth(section: ArrayLike) -> NeighbourGrowth:
     """Growth of the distance between neighbours on a section over a quarter of the record (head of this file).
 
     section (m,) or (m, d)   one row a forcing period, 40 at least
-    delays                   rows taken together as one state; default: as few as make a state of 3 or more numbers
-    theiler                  points within this many periods are no neighbours
     Returns a NeighbourGrowth; NaN with the reason for a short record or one without motion. An exponent below 4/m nats
     per period does not show in a record of m periods: a weakly chaotic motion passes for a torus as long as that.
     Raises ValueError for values that are not finite.
     Source: the pairs are those of M. T. Rosenstein, J. J. Collins & C. J. De Luca, Physica D 65 (1993) 117.
     """
-    x, theiler = checked_columns(section, "section"), checked_count(theiler, "theiler", least=0)
+    x = checked_columns(section, "section")
     z = in_deviations(x)
     why_not = "no motion: the section is one point to the last digits" if z.shape[1] == 0 else ""
     if len(x) < LEAST_POINTS:
         why_not = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
     if why_not:
-        return NeighbourGrowth(np.nan, np.nan, np.nan, locked(np.zeros(0)), why_not)
-    state = states_of(z, x.shape[1], delays)
+        return NeighbourGrowth(np.nan, np.nan, np.nan, np.zeros(0), why_not)
+    state = states_of(z, rows_of_state(x.shape[1]))
     horizon = len(state) // 4
-    distance = _distance(state, horizon, theiler) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
+    distance = _distance(state, horizon) / np.sqrt(2.0 * np.sum(state.var(axis=0)))
     early, late = np.log(distance[EARLY]).mean(), np.log(distance[horizon // 2 :]).mean()
     later = f"are {np.exp(late):.2g} apart {horizon // 2} and more periods on"
     reason = f"neighbours {np.exp(early):.2g} of the section apart {later}"
-    rate = float((late - early) / (0.75 * horizon - 2.0))
-    return NeighbourGrowth(float(late - early), float(np.exp(late)), rate, locked(distance), reason)
+    rate = (late - early) / (0.75 * horizon - 2.0)
+    return NeighbourGrowth(late - early, np.exp(late), rate, distance, reason)
 
 
-def _distance(state, horizon, theiler):
+def _distance(state, horizon):
     """d(n) for n = 0 ... horizon."""
     pool = state[: len(state) - horizon]
-    partner = nearest_outside(pool, theiler)[0][:, 0]
+    partner = nearest_outside(pool, THEILER)[0][:, 0]
     # The logarithm of a distance needs a least one: half a step of a record that takes few values, else rounding.
     least = np.sqrt(state.shape[1]) * max(1e-14, 0.5 * min(_resolution(column) for column in state.T))
     logarithm = [

@@ -6,15 +6,14 @@ of a thousand (equalisation of the histogram, as in the rasterisers used for ver
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_count, checked_series, locked, record
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class OrbitDiagram:
     """One column of points per parameter value.
 
@@ -31,7 +30,7 @@ class OrbitDiagram:
         return np.repeat(self.parameter, counts), np.concatenate(self.columns)
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class DensityImage:
     """An orbit diagram as counts; `pcolormesh(parameter_edges, value_edges, counts)` draws it.
 
@@ -65,7 +64,7 @@ def orbit_diagram(parameters: ArrayLike, strobed: Iterable[ArrayLike], last: int
     arrays = [checked_series(points, f"strobed[{i}]")[first:] for i, points in enumerate(strobed)]
     values = np.unique(parameter)
     columns = tuple(locked(np.concatenate([arrays[i] for i in np.flatnonzero(parameter == value)])) for value in values)
-    return OrbitDiagram(locked(values), columns)
+    return OrbitDiagram(values, columns)
 
 
 def density_image(
@@ -84,7 +83,7 @@ def density_image(
     edges = np.linspace(low, high, value_bins + 1)
     counts = np.stack([np.histogram(column, bins=edges)[0] for column in diagram.columns], axis=1)
     outside = np.array([len(column) for column in diagram.columns]) - counts.sum(axis=0)
-    return DensityImage(locked(counts), locked(_cell_edges(diagram.parameter)), locked(edges), locked(outside))
+    return DensityImage(counts, _cell_edges(diagram.parameter), edges, outside)
 
 
 def scale_density(counts: ArrayLike, how: str = "rank") -> np.ndarray:

@@ -23,12 +23,10 @@ Related: the recurrence of states up to epsilon in ChaosTools.jl's and other pac
 residual alone.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, checked_count, checked_positive, locked
+from analysis.sampling import checked_columns, checked_count, checked_positive, record
 
 LEAST_POINTS = 16
 POINTS_PER_CANDIDATE = 4
@@ -36,7 +34,7 @@ CLEARLY_MORE = 3.0
 FADES = 0.95  # the later half over the earlier one
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class PeriodEstimate:
     """What the strobed record says about its period; index N - 1 of each array belongs to candidate N.
 
@@ -106,9 +104,8 @@ def detect_period(
     rivals = {n: _rivals(n, x / scale, residual, tolerance) for n in repeats}
     period = next((n for n in repeats if not rivals[n]), None)
     reason = _reason(period, rivals, points, testable, max_period, tolerance, residual, trend)
-    curves = (locked(curve) for curve in (scale, *measures))
-    orbit = None if period is None else locked(_orbit(x, period))
-    return PeriodEstimate(period, reason, tolerance, *curves, points, orbit)
+    orbit = None if period is None else _orbit(x, period)
+    return PeriodEstimate(period, reason, tolerance, scale, *measures, points, orbit)
 
 
 def _scale(x, given):

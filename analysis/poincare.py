@@ -5,7 +5,6 @@ closed curve and chaos a fractal set. The phase at which one looks moves the poi
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,14 +15,14 @@ from analysis.sampling import (
     checked_count,
     checked_positive,
     checked_series,
-    locked,
+    record,
     values_at,
 )
 
 PHASES = 4
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class PoincareSection:
     """States at t_k = (k + phase) T.
 
@@ -87,7 +86,7 @@ def poincare_section(
     index = np.arange(first, last + 1)
     time_s = (index + phase) * period_s
     points, interpolated = values_at(x, step_s, time_s)
-    return PoincareSection(locked(points), locked(index), locked(time_s), names, float(phase), interpolated)
+    return PoincareSection(points, index, time_s, names, float(phase), interpolated)
 
 
 def section_at_phases(series: ArrayLike, step_s: float, period_s: float, transient_periods: int = 0) -> PoincareSection:
@@ -98,7 +97,7 @@ def section_at_phases(series: ArrayLike, step_s: float, period_s: float, transie
     """
     seen = [poincare_section(series, step_s, period_s, phase / PHASES, transient_periods) for phase in range(PHASES)]
     rows = min(len(section.points) for section in seen)
-    points = locked(np.hstack([section.points[:rows] for section in seen]))
+    points = np.hstack([section.points[:rows] for section in seen])
     names, interpolated = tuple(str(phase) for phase in range(PHASES)), any(section.interpolated for section in seen)
     return PoincareSection(points, seen[0].period_index[:rows], seen[0].time_s[:rows], names, 0.0, interpolated)
 

@@ -1,4 +1,8 @@
-"""What every measure needs of an evenly sampled record: checked arrays, and its value at a given time."""
+"""What every measure needs: checked arrays, the value of a series at a given time, and the records of results."""
+
+from dataclasses import dataclass
+from functools import partial
+from typing import dataclass_transform
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -40,10 +44,13 @@ def in_deviations(x: np.ndarray, centred: bool = False) -> np.ndarray:
     return (moving - moving.mean(axis=0) if centred else moving) / size[moves]
 
 
-def states_of(z: np.ndarray, coordinates: int, rows: int | None = None) -> np.ndarray:
-    """Consecutive rows of z (n, c) side by side, the last one first: (n - rows + 1, c rows). None: as many rows as make
-    3 or more of a state's numbers, where a row has this many coordinates, unmoved ones counted."""
-    rows = -(-3 // coordinates) if rows is None else checked_count(rows, "delays")
+def rows_of_state(coordinates: int) -> int:
+    """As few rows of a section with so many coordinates, unmoved ones counted, as make a state of 3 or more numbers."""
+    return -(-3 // coordinates)
+
+
+def states_of(z: np.ndarray, rows: int) -> np.ndarray:
+    """Consecutive rows of z (n, c) side by side, the last one first: (n - rows + 1, c rows)."""
     return np.hstack([z[rows - 1 - lag : len(z) - lag] for lag in range(rows)])
 
 
@@ -91,3 +98,24 @@ def locked(array: ArrayLike) -> np.ndarray:
     array = np.asarray(array)
     array.flags.writeable = False
     return array
+
+
+@dataclass_transform(frozen_default=True, eq_default=False)
+def record(fields: type, eq: bool = False) -> type:
+    """A frozen dataclass of these fields: its arrays are read-only, its numbers are Python's and not NumPy's.
+
+    eq: whether two of them are equal that have equal entries. Arrays have no such answer.
+    """
+
+    def finish(self):
+        for name, entry in vars(self).items():
+            if isinstance(entry, np.ndarray):
+                object.__setattr__(self, name, locked(entry.view()))
+            elif isinstance(entry, np.generic):
+                object.__setattr__(self, name, entry.item())
+
+    fields.__post_init__ = finish
+    return dataclass(frozen=True, eq=eq)(fields)
+
+
+record_of_numbers = partial(record, eq=True)

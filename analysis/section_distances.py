@@ -7,17 +7,15 @@ one motion are not independent, so D has no table of significance here; its meas
 of one record, taken with as many points.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_series
+from analysis.sampling import checked_series, record_of_numbers
 
 LEAST_POINTS = 20
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class SectionDistance:
     """Distances of two sections, from halves of equal size.
 
@@ -46,14 +44,14 @@ def section_distance(first: ArrayLike, second: ArrayLike) -> SectionDistance:
     half = min(len(a), len(b)) // 2
     if half < LEAST_POINTS:
         reason = f"too short: {2 * LEAST_POINTS} points are needed, given {len(a)} and {len(b)}"
-        return SectionDistance(float("nan"), float("nan"), reason)
+        return SectionDistance(np.nan, np.nan, reason)
     a, b = a[-2 * half :], b[-2 * half :]
     scale = np.concatenate([a, b]).std(axis=0)
     scale[scale == 0.0] = 1.0
     halves = [part / scale for part in (a[:half], a[half:], b[:half], b[half:])]
     within = [energy_distance(halves[0], halves[1]), energy_distance(halves[2], halves[3])]
     across = [energy_distance(early_part, late_part) for early_part in halves[:2] for late_part in halves[2:]]
-    return SectionDistance(float(np.mean(across)), float(np.mean(within)), f"halves of {half} points")
+    return SectionDistance(np.mean(across), np.mean(within), f"halves of {half} points")
 
 
 def energy_distance(first: np.ndarray, second: np.ndarray) -> float:

@@ -24,14 +24,14 @@ No pair of neighbours has to be followed past the reach of noise, which is why 2
 Noise on the record flattens the slopes: the exponent comes out too small, and below 0 for a noisy cycle.
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import BITS_PER_PERIOD, Exponent, no_exponent
-from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_columns, checked_count, in_deviations, states_of
+from analysis.neighbours import THEILER, nearest_outside
+from analysis.sampling import checked_columns, in_deviations, record, rows_of_state, states_of
 from analysis.tangent_growth import tangent_lyapunov
 
 METHOD = "derivative of the section's map, Eckmann & Ruelle 1985"
@@ -42,7 +42,7 @@ _RIDGE = 1e-3
 _LEAST_GROWTH = 1e-12
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class PredictionGain:
     """Errors of two predictors of the next point, and their ratio.
 
@@ -76,52 +76,50 @@ class PredictionGain:
         return growth
 
 
-def prediction_gain(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> PredictionGain:
+def prediction_gain(section: ArrayLike) -> PredictionGain:
     """Gain of local-linear over linear one-step prediction on a section (formula at the head of this file).
 
     section (m,) or (m, d)   one row a forcing period
-    delays                   rows taken together as one state, (x_k, x_{k-1}, ...); default: from one to as few as make
-                             a state of 3 or more numbers, whichever predicts best
-    theiler                  points within this many periods of the one predicted are no neighbours of it
     Returns a PredictionGain: NaN, with the reason, where nothing moves or the record is short: it
-    takes eight states per number in a state, and the window.
+    takes eight states per number in a state, and the window. Rows taken together as one state, (x_k, x_{k-1}, ...), are
+    from one to as few as make a state of 3 or more numbers, whichever predict best.
     Raises ValueError for values that are not finite.
     Source: E. N. Lorenz (analogues), J. Atmos. Sci. 26 (1969) 636; J. D. Farmer & J. J. Sidorowich, Phys. Rev. Lett. 59
     (1987) 845; gain over linear prediction as a test: M. Casdagli, J. R. Stat. Soc. B 54 (1992) 303.
     """
-    x, theiler = checked_columns(section, "section"), checked_count(theiler, "theiler", least=0)
+    x = checked_columns(section, "section")
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
         return PredictionGain(np.nan, np.nan, np.nan, "no motion: the section is one point to the last digits")
-    longest = -(-3 // x.shape[1]) if delays is None else checked_count(delays, "delays")
+    longest = rows_of_state(x.shape[1])
     size, points = longest * z.shape[1], len(z) - longest
-    needed = LEAST_PER_COORDINATE * (size + 1) + 2 * theiler
+    needed = LEAST_PER_COORDINATE * (size + 1) + 2 * THEILER
     if points < needed:
         wanted = f"{needed + longest} points are needed for a state of {size} numbers"
         return PredictionGain(np.nan, np.nan, np.nan, f"too short: {wanted}, given {len(x)}")
     target, linear, local, best = z[longest:], np.inf, np.inf, None
-    for rows in range(1 if delays is None else longest, longest + 1):
-        state = states_of(z, x.shape[1], rows)[:-1][-points:]
+    for rows in range(1, longest + 1):
+        state = states_of(z, rows)[:-1][-points:]
         linear = min(linear, _linear_error(state, target))
-        for error, neighbours, slopes in _local_maps(state, target, theiler):
+        for error, neighbours, slopes in _local_maps(state, target):
             if error < local:
                 local, best = error, (rows, neighbours, slopes)
     # Errors at rounding cannot be compared: a clean period-N motion is predicted to the last digit by both.
-    gain = float(np.log(max(linear, 1e-9) / max(local, 1e-9)))
+    gain = np.log(max(linear, 1e-9) / max(local, 1e-9))
     reason = f"errors {linear:.3g} linear and {local:.3g} local, of a standard deviation: a gain of {gain:.2f} nats"
     return PredictionGain(gain, linear, local, reason, *(best or ()))
 
 
-def section_lyapunov(section: ArrayLike, delays: int | None = None, theiler: int = 1) -> tuple[Exponent, ...]:
+def section_lyapunov(section: ArrayLike) -> tuple[Exponent, ...]:
     """The largest exponent of a section's map, of the whole record and of each half, in bits per row of the section.
 
-    section, delays, theiler   as in `prediction_gain`
+    section   as in `prediction_gain`
     Returns three Exponents, NaN with the reason where the section is too short or does not move. The error is that of
     the mean growth; what noise does to the slopes is not in it.
     Source: J.-P. Eckmann & D. Ruelle, Rev. Mod. Phys. 57 (1985) 617; in noise: D. Nychka, S. Ellner, D. McCaffrey &
     A. R. Gallant, J. R. Stat. Soc. B 54 (1992) 399; error: `analysis.tangent_growth`.
     """
-    gain = prediction_gain(section, delays, theiler)
+    gain = prediction_gain(section)
     if not np.isfinite(gain.gain):
         return (no_exponent(METHOD, gain.reason, BITS_PER_PERIOD),) * 3
     growth = gain.growth_nats()
@@ -137,16 +135,16 @@ def _linear_error(state, target):
     u = u[:, s > 1e-9 * s[0]]
     residual = target - u @ (u.T @ target)
     leverage = np.minimum(np.sum(u**2, axis=1, keepdims=True), 1.0 - 1e-6)
-    return float(np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2)))
+    return np.sqrt(np.mean((residual / (1.0 - leverage)) ** 2))
 
 
-def _local_maps(state, target, theiler):
+def _local_maps(state, target):
     """(rms error, neighbours, slopes (points, s, c)) of affine maps fitted to the nearest neighbours of each state,
     itself not among them, for each number of neighbours."""
     points, size = state.shape
-    largest = points - 2 * theiler - 1
+    largest = points - 2 * THEILER - 1
     counts = sorted({min(per_coefficient * (size + 1), largest) for per_coefficient in NEIGHBOURS_PER_COEFFICIENT})
-    near, _ = nearest_outside(state, theiler, count=counts[-1])
+    near, _ = nearest_outside(state, THEILER, count=counts[-1])
     offset, aim = state[near] - state[:, None, :], target[near]
     for count in counts:
         centre, mean = offset[:, :count].mean(axis=1, keepdims=True), aim[:, :count].mean(axis=1, keepdims=True)
@@ -156,4 +154,4 @@ def _local_maps(state, target, theiler):
         square = square + (_RIDGE * trace / size + 1e-24) * np.eye(size)
         slope = np.linalg.solve(square, spread @ (aim[:, :count] - mean))
         predicted = mean[:, 0] - (centre @ slope)[:, 0]
-        yield float(np.sqrt(np.mean((predicted - target) ** 2))), count, slope
+        yield np.sqrt(np.mean((predicted - target) ** 2)), count, slope

@@ -10,7 +10,7 @@ In the paper: eq. (31) spectral amplitude.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,12 +21,13 @@ from analysis.sampling import (
     checked_not_negative,
     checked_positive,
     checked_series,
-    locked,
+    record,
+    record_of_numbers,
     values_at,
 )
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Spectrum:
     """Eq. (31) at its bins.
 
@@ -34,7 +35,7 @@ class Spectrum:
     transform (m,) complex        X(w_j), unit of the series; t in e^{i w t} counts from the first sample
     amplitude (m,)                |X(w_j)|: HALF the amplitude of a sine at bin j >= 1; at j = 0 the size of the mean
     bin_radps                     2 pi/(n T_i)
-    forcing_period_s, start_periods, periods   T_i, tau_0/T_i and n
+    periods                       n
     interpolated                  True where the window was resampled because its ends are not on samples
     """
 
@@ -42,13 +43,11 @@ class Spectrum:
     transform: np.ndarray
     amplitude: np.ndarray
     bin_radps: float
-    forcing_period_s: float
-    start_periods: float
     periods: int
     interpolated: bool
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class SpectralPeak:
     """A local maximum of a spectrum; beside a reference frequency where one was asked for.
 
@@ -98,8 +97,7 @@ def spectrum(
         wanted = f"eq. (31) needs {start_periods + periods:g} forcing periods ({parts}) of record"
         raise ValueError(f"{wanted}, given {given_s / forcing_period_s:.4g} ({given_s:g} s)")
     # As sampled where the window fits, else the next whole number above (never coarser).
-    fit = window_s / step_s
-    intervals = max(round(fit) if abs(fit - round(fit)) <= ON_SAMPLE else int(np.ceil(fit)), 2)
+    intervals = max(int(np.ceil(window_s / step_s - ON_SAMPLE)), 2)
     window, interpolated = values_at(x, step_s, begin_s + window_s / intervals * np.arange(intervals + 1))
     folded = window[:-1].copy()
     folded[0] = 0.5 * (window[0] + window[-1])  # both ends carry weight 1/2 and the same e^{i w_j t}
@@ -107,8 +105,7 @@ def spectrum(
     # e^{+i w t}, as printed, is numpy's inverse transform; start_periods/periods keeps the phase exact for large tau_0.
     transform = np.fft.ifft(folded)[bins] * np.exp(2j * np.pi * np.mod(bins * (start_periods / periods), 1.0))
     bin_radps = 2.0 * np.pi / window_s
-    lines = (locked(array) for array in (bin_radps * bins, transform, np.abs(transform)))
-    return Spectrum(*lines, bin_radps, forcing_period_s, start_periods, periods, interpolated)
+    return Spectrum(bin_radps * bins, transform, np.abs(transform), bin_radps, periods, interpolated)
 
 
 def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[SpectralPeak, ...]:
@@ -134,7 +131,7 @@ def spectral_peaks(spectrum: Spectrum, least_prominence: float = 0.01) -> tuple[
         return ()
     indices, _ = find_peaks(amplitude, prominence=least_prominence * largest)
     return tuple(
-        SpectralPeak(float(spectrum.angular_frequency_radps[j]), float(amplitude[j]), int(j))
+        SpectralPeak(spectrum.angular_frequency_radps[j], amplitude[j], j)
         for j in indices[np.argsort(-amplitude[indices], kind="stable")]
     )
 

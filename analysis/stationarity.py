@@ -8,12 +8,10 @@ same to their means; on an attractor both scatter. Two signs count as a drift ov
               transient that has died out in noise, or on a motion much smaller than itself
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_columns, in_deviations
+from analysis.sampling import checked_columns, in_deviations, record_of_numbers
 
 BLOCKS = 8
 LEAST_POINTS = 40
@@ -23,25 +21,17 @@ COLLAPSE = 3.0
 FAR = 5.0  # ranges of the rest
 
 
-@dataclass(frozen=True)
+@record_of_numbers
 class Drift:
     """What the blocks of a record say about its being stationary.
 
     drifting         True where the record marches or collapses; None where it is too short to say
     spread_change    ln(spread of the last block/of the first) along the fitted line [nats]
-    spread_march     correlation of ln(spread) with time
-    mean_change      largest change of a coordinate's mean along its fitted line, in its standard deviations
-    mean_march       its correlation with time
-    collapse         width of the first block over the widest of the later half
     reason           one sentence
     """
 
     drifting: bool | None
     spread_change: float
-    spread_march: float
-    mean_change: float
-    mean_march: float
-    collapse: float
     reason: str
 
 
@@ -57,10 +47,10 @@ def record_drift(section: ArrayLike) -> Drift:
     x = checked_columns(section, "section")
     if len(x) < LEAST_POINTS:
         reason = f"too short: {LEAST_POINTS} strobed points are needed, given {len(x)}"
-        return Drift(None, *[np.nan] * 5, reason)
+        return Drift(None, np.nan, reason)
     z = in_deviations(x, centred=True)
     if z.shape[1] == 0:
-        return Drift(False, 0.0, 0.0, 0.0, 0.0, 1.0, "no motion: the section is one point to the last digits")
+        return Drift(False, 0.0, "no motion: the section is one point to the last digits")
     blocks = np.array_split(z, BLOCKS)
     mean = np.array([block.mean(axis=0) for block in blocks])
     spread = np.sqrt([np.mean(block.var(axis=0)) for block in blocks])
@@ -72,7 +62,7 @@ def record_drift(section: ArrayLike) -> Drift:
     mean_change, mean_march = max(marching, key=lambda pair: abs(pair[0]))
     settled = mean[BLOCKS // 2 :].mean(axis=0)
     width = np.sqrt(np.mean((mean - settled) ** 2, axis=1) + spread**2)
-    collapse = float(width[0] / max(width[BLOCKS // 2 :].max(), 1e-14))
+    collapse = width[0] / max(width[BLOCKS // 2 :].max(), 1e-14)
     signs = []
     if abs(spread_march) > MARCH and abs(spread_change) > LEAST_CHANGE:
         signs.append(f"the spread of the section changes steadily, by a factor {np.exp(spread_change):.2g} in all")
@@ -81,7 +71,7 @@ def record_drift(section: ArrayLike) -> Drift:
     if collapse > COLLAPSE:
         signs.append(f"its first eighth is {collapse:.2g} times wider than any of the later half")
     reason = "; ".join(signs) if signs else "spread and mean of eight blocks show no steady change"
-    return Drift(bool(signs), spread_change, spread_march, mean_change, mean_march, collapse, reason)
+    return Drift(bool(signs), spread_change, reason)
 
 
 def outlying(series: ArrayLike) -> np.ndarray:
@@ -110,10 +100,7 @@ def outlying(series: ArrayLike) -> np.ndarray:
 
 def _line(values):
     """Change along the least-squares line over the blocks, first to last, and the correlation with time."""
-    time = np.arange(len(values)) - 0.5 * (len(values) - 1)
-    deviation = values - values.mean()
-    total = np.sqrt(np.sum(deviation**2))
-    if total <= 1e-12 * max(1.0, np.abs(values).max()):
+    if np.std(values) <= 1e-12 * max(1.0, np.abs(values).max()):
         return 0.0, 0.0
-    slope = np.sum(time * deviation) / np.sum(time**2)
-    return float(slope * (len(values) - 1)), float(np.sum(time * deviation) / (np.sqrt(np.sum(time**2)) * total))
+    time = np.arange(len(values))
+    return np.polyfit(time, values, 1)[0] * time[-1], np.corrcoef(time, values)[0, 1]

@@ -18,17 +18,17 @@ The statistic is the gain of prediction (`section_maps`). A rank test that can n
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.line_spectra import spectral_lines
-from analysis.sampling import checked_columns, checked_count, checked_series, locked
+from analysis.sampling import checked_columns, checked_count, checked_series, record
 from analysis.section_maps import prediction_gain
 
 LEAST_POINTS = 32
 SHARE = 0.95
+LEAST_SURROGATES = 19  # that can show this share
 Seed = int | list[int]
 # The order mostly stops changing by 50; with several columns it may go on over pairs of nearly equal values.
 MOST_ROUNDS = 100
@@ -38,7 +38,7 @@ NULL_POINTS = 1000
 AT_ONCE = 4  # surrogates made together
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class NullRank:
     """Where a record stands among its surrogates.
 
@@ -111,27 +111,23 @@ def normal_scores(series: ArrayLike) -> np.ndarray:
     return ndtri((rankdata(x, axis=0) - 0.5) / max(len(x), 1))
 
 
-def rank_among(statistic: float, surrogates: ArrayLike, share: float = SHARE) -> NullRank:
-    """Is the statistic of a record above the given share of its surrogates'? One-sided rank test.
+def rank_among(statistic: float, surrogates: ArrayLike) -> NullRank:
+    """Is the statistic of a record above SHARE of its surrogates'? One-sided rank test.
 
     statistic         of the record; larger speaks against the null
     surrogates (s,)   the same statistic of surrogates; enough of them that 1/(s + 1) <= 1 - share: 19 for 95 %
-    share             of the surrogates that have to lie below, in (0, 1)
     Returns a NullRank. Under the null the record is one more draw, so that `above` has probability 1 - share at most.
-    Raises ValueError for values that are not finite, too few surrogates or a share outside (0, 1).
+    Raises ValueError for values that are not finite, or too few surrogates.
     Source: J. Theiler et al., Physica D 58 (1992) 77; ranks: Schreiber & Schmitz (2000), sec. 2.
     """
     drawn = checked_series(surrogates, "surrogates")
     value = float(checked_series([statistic], "statistic")[0])
-    if not 0.0 < share < 1.0:
-        raise ValueError(f"share: a number in (0, 1) is needed, given {share!r}")
-    if (len(drawn) + 1) * (1.0 - share) < 1.0 - 1e-9:
-        needed = int(np.ceil(1.0 / (1.0 - share) - 1e-9)) - 1
-        raise ValueError(f"surrogates: {needed} at least are needed for a share of {share:g}, given {len(drawn)}")
+    if len(drawn) < LEAST_SURROGATES:
+        wanted = f"{LEAST_SURROGATES} at least are needed for a share of {SHARE:g}"
+        raise ValueError(f"surrogates: {wanted}, given {len(drawn)}")
     below = (np.sum(drawn < value) + 0.5 * np.sum(drawn == value)) / len(drawn)
-    # Of s + 1 equally likely places the record must hold one of the best (1 - share)(s + 1); a tie counts against it.
-    above = bool(np.sum(drawn >= value) + 1 <= (1.0 - share) * (len(drawn) + 1) + 1e-9)
-    return NullRank(above, float(below), value - float(np.median(drawn)), value, locked(drawn))
+    above = np.sum(drawn >= value) <= _most_as_large(len(drawn))  # a tie counts against the record
+    return NullRank(above, below, value - np.median(drawn), value, drawn)
 
 
 def null_ranks(section: np.ndarray, surrogates: int, seed: Seed) -> list[NullRank]:
@@ -159,11 +155,10 @@ def _gains(points, fitted, rng):
             yield prediction_gain(surrogate).gain
 
 
-def rank_until_lost(statistic: float, drawn: Iterator[float], surrogates: int, share: float = SHARE) -> NullRank:
+def rank_until_lost(statistic: float, drawn: Iterator[float], surrogates: int) -> NullRank:
     """`rank_among` of a statistic among `surrogates` values of an iterator, which is asked for no more of them once so
     many are as large that the share cannot be reached; NaN where the statistic or one drawn is none."""
-    allowed = np.floor((1.0 - share) * (surrogates + 1) + 1e-9) - 1.0  # that may be as large as the record's
-    values = []
+    allowed, values = _most_as_large(surrogates), []
     while np.isfinite(statistic) and len(values) < surrogates and np.sum(np.array(values) >= statistic) <= allowed:
         values.append(next(drawn))
         if not np.isfinite(values[-1]):
@@ -171,9 +166,15 @@ def rank_until_lost(statistic: float, drawn: Iterator[float], surrogates: int, s
     if not values or not np.isfinite(values[-1]):
         return NullRank(None, np.nan, np.nan, np.nan, np.empty(0))
     if len(values) == surrogates:
-        return rank_among(statistic, values, share)
+        return rank_among(statistic, values)
     below = np.mean(np.array(values) < statistic)
-    return NullRank(False, float(below), float(statistic - np.median(values)), statistic, locked(np.array(values)))
+    return NullRank(False, below, statistic - np.median(values), statistic, np.array(values))
+
+
+def _most_as_large(surrogates):
+    """How many statistics of surrogates may be as large as the record's: of s + 1 equally likely places it must hold
+    one of the best (1 - SHARE)(s + 1)."""
+    return np.floor((1.0 - SHARE) * (surrogates + 1) + 1e-9) - 1.0
 
 
 def _drawn(series, count, seed, fitted):

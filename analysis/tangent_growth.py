@@ -31,29 +31,22 @@ LEAST_PERIODS = 32
 ALIGNED = 10  # periods that perturbations need to turn to the fastest growth
 
 
-def tangent_lyapunov(
-    growth_nats: ArrayLike, transient_periods: int = 0, left_out: ArrayLike | None = None
-) -> tuple[Exponent, ...]:
+def tangent_lyapunov(growth_nats: ArrayLike, transient_periods: int = 0) -> tuple[Exponent, ...]:
     """The exponents of a tangent map, one `Exponent` a perturbation, in bits per forcing period.
 
     growth_nats (m,) or (m, k)   logarithm of the growth in each forcing period, nats; fastest first
     transient_periods            periods at the start that do not count (the perturbations also need some to turn)
-    left_out (m,)                true for periods to leave out, as those with a loop release, whose jump is not a
-                                 derivative; None: all count
     Returns a tuple of Exponent; NaN with the reason where fewer than 32 periods count. Raises ValueError for values
-    that are not finite or lengths that do not fit.
+    that are not finite.
     Source of the error: P. Heidelberger & P. D. Welch, Commun. ACM 24 (1981) 233, with windows in place of a fit.
     """
     growth = checked_columns(growth_nats, "growth_nats")
     start = checked_count(transient_periods, "transient_periods", least=0)
-    counted = np.ones(len(growth), dtype=bool) if left_out is None else ~np.asarray(left_out, dtype=bool)
-    if counted.shape != (len(growth),):
-        raise ValueError(f"left_out: {len(growth)} values are needed, given {counted.shape}")
-    bits = growth[start:][counted[start:]] / np.log(2.0)
+    bits = growth[start:] / np.log(2.0)
     periods = len(bits)
     if periods < LEAST_PERIODS:
         reason = f"too short: {LEAST_PERIODS} periods of growth are needed, given {periods}"
-        return tuple(no_exponent(METHOD, reason, BITS_PER_PERIOD) for _ in range(growth.shape[1]))
+        return (no_exponent(METHOD, reason, BITS_PER_PERIOD),) * growth.shape[1]
     values, errors = _tapered_mean(bits)
     reason = f"tapered mean growth over {periods} forcing periods, error from this one run's slowest fluctuations"
     return tuple(

@@ -23,8 +23,6 @@ derivative grows. Samples far outside the rest (a -9999) leave no verdict at all
 Error rates: benchmarks/record_rates.py, docs/time_series.md.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -41,7 +39,7 @@ from analysis.exponents import BITS_PER_PERIOD, Exponent
 from analysis.memory import bands_in_turn
 from analysis.periods import detect_period
 from analysis.poincare import poincare_section, section_at_phases
-from analysis.sampling import checked_columns, checked_count, checked_series
+from analysis.sampling import checked_columns, checked_count, checked_series, record
 
 LEAST_POINTS = 40
 LEAST_CHAOTIC = 200
@@ -50,7 +48,7 @@ ABOUT_ZERO = 0.02
 FLAT = -1.0  # bits a round of the bands: below it, the map has no slope: noise about points, not along a curve
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Verdict:
     """The regime of a motion and why.
 

@@ -21,14 +21,12 @@ old pair is retained. Ours, and why:
   32 reach past the floor.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
 from analysis.embedding import delay_vectors
-from analysis.sampling import checked_count, checked_not_negative, checked_positive, checked_series, locked
+from analysis.sampling import checked_count, checked_not_negative, checked_positive, checked_series, record
 
 ANGLE = 0.3
 WIDENINGS = 5
@@ -41,7 +39,7 @@ LEAST_STEPS = 20
 BLOCKS = 16
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class WolfRun:
     """One fiducial trajectory from end to end of the record.
 
@@ -55,9 +53,6 @@ class WolfRun:
     time_s (k,)           end of each evolution, from the start of the record [s]
     convergence (k,)      exponent from everything up to that time [nats/time]: fig. 14 of the paper
     noise_bias            what noise adds to or takes from the exponent, by the lengths before and after [nats/time]
-    replacements          times a new vector was taken
-    unfit                 times an old vector beyond the bounds was kept for want of a new one
-    gaps                  evolutions without any neighbour
     """
 
     value: float
@@ -75,9 +70,6 @@ class WolfRun:
     time_s: np.ndarray
     convergence: np.ndarray
     noise_bias: float
-    replacements: int
-    unfit: int
-    gaps: int
 
 
 def wolf_run(
@@ -107,29 +99,28 @@ def wolf_run(
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     evolution = checked_count(evolution, "evolution")
     points = np.ascontiguousarray(delay_vectors(x, delay, dimension))
-    size = float(np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1))))
+    size = np.sqrt(np.mean(np.sum((points - points.mean(axis=0)) ** 2, axis=1)))
     noise = checked_not_negative(noise, "noise")
     noise_length = FLOOR_SIGMAS * noise * np.sqrt(2.0 * dimension)
     lengths = checked_positive(lengths, "lengths")
     floor = lengths * max(noise_length, ROUNDING_SHARE * size)
     longest = max(lengths * 2.0 * LONGEST_SHARE * size, 2.0 * floor)
     count = max((len(points) - 1) // evolution, 0)
-    growth, end_length, tally = np.full(count, np.nan), np.full(count, np.nan), (0, 0, 0)
+    growth, end_length = np.full((2, count), np.nan)
     room = longest <= 2.0 * lengths * MOST_SHARE * size
     if size > 0.0 and room and count >= LEAST_STEPS:
         near, distance = _candidates(points, evolution, count, floor, longest)
-        tally = follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length)
+        follow(points, near, distance, evolution, int(theiler), floor, longest, growth, end_length)
     value, error, reason = _mean_growth(growth, evolution * step_s, room, floor, size)
     followed = np.isfinite(growth)
     with np.errstate(invalid="ignore"):
         convergence = np.cumsum(np.where(followed, growth, 0.0)) / (np.cumsum(followed) * evolution * step_s)
     start_length = end_length / np.exp(growth)
     excess = noise**2 * dimension * (start_length**-2.0 - end_length**-2.0) / (evolution * step_s)
-    bias = float(np.mean(excess[followed])) if np.any(followed) else np.nan
+    bias = np.mean(excess[followed]) if np.any(followed) else np.nan
     time_s = (np.arange(count) + 1.0) * evolution * step_s
-    curves = (locked(curve) for curve in (growth, end_length, time_s, convergence))
     settings = (int(delay), int(dimension), evolution, int(theiler), floor, longest, size)
-    return WolfRun(value, error, reason, *settings, *curves, bias, *tally)
+    return WolfRun(value, error, reason, *settings, growth, end_length, time_s, convergence, bias)
 
 
 def _candidates(points, evolution, count, floor, longest):
@@ -142,12 +133,12 @@ def _candidates(points, evolution, count, floor, longest):
     remaining, k = np.arange(len(points)), min(NEIGHBOURS, len(points))
     while True:
         tree = cKDTree(points[remaining], balanced_tree=False, compact_nodes=False)
-        reach = np.median(tree.query(points[probe], k)[0].reshape(len(probe), -1)[:, -1])
+        reach = np.median(tree.query(points[probe], [k])[0])
         if reach >= min(2.0 * floor, 0.75 * longest) or len(remaining) < 4 * NEIGHBOURS:
             break
         remaining = np.sort(rng.choice(remaining, len(remaining) // 2, replace=False))
-    distance, near = tree.query(points[stops], k)
-    return remaining[near.reshape(count, -1)], np.ascontiguousarray(distance.reshape(count, -1))
+    distance, near = tree.query(points[stops], range(1, k + 1))
+    return remaining[near], np.ascontiguousarray(distance)
 
 
 def _mean_growth(growth, time, room, floor, size):
@@ -162,32 +153,27 @@ def _mean_growth(growth, time, room, floor, size):
         return np.nan, np.nan, f"no neighbours: {followed}, {LEAST_STEPS} and half of all are needed"
     blocks = min(BLOCKS, len(finite) // 4)
     means = np.array([block.mean() for block in np.array_split(finite, blocks)]) / time
-    error = float(np.std(means, ddof=1) / np.sqrt(blocks))
-    return float(finite.mean() / time), error, f"{len(finite)} of {len(growth)} evolutions followed"
+    error = np.std(means, ddof=1) / np.sqrt(blocks)
+    return finite.mean() / time, error, f"{len(finite)} of {len(growth)} evolutions followed"
 
 
 @kernel
 def follow(points, near, distance, evolution, theiler, floor, longest, growth, end_length):
-    """Carry the vector along the fiducial; fills growth and end_length; returns how often it was replaced, was kept
-    unfit, and was missing."""
+    """Carry the vector along the fiducial; fills growth and end_length, but where no neighbour was found."""
     n, m = points.shape
     last = n - 1 - evolution
     direction, bounds = np.zeros(m), (last, theiler, floor, longest)
-    j, length, replaced, unfit, gaps = -1, 0.0, 0, 0, 0
+    j, length = -1, 0.0
     for k in range(growth.size):
         i = k * evolution
         if j > last:
             j = -1
-        old = j
         fit = j >= 0 and floor <= length <= longest
         worst = length / longest if fit else np.inf
         j, length = _replacement(points, i, j, length, direction, near[k], distance[k], bounds, worst, fit)
         if j < 0:
             direction[:] = 0.0
-            gaps += 1
             continue
-        replaced += j != old
-        unfit += j == old and not fit
         i += evolution
         j += evolution
         square = 0.0
@@ -197,14 +183,12 @@ def follow(points, near, distance, evolution, theiler, floor, longest, growth, e
         grown = np.sqrt(square)
         if grown == 0.0:
             j = -1
-            gaps += 1
             continue
         growth[k] = np.log(grown / length)
         end_length[k] = grown
         length = grown
         for q in range(m):
             direction[q] /= grown
-    return replaced, unfit, gaps
 
 
 @kernel

@@ -18,7 +18,6 @@ The paper does not say how the settings behind its figure 14 were chosen.
 In the paper: eq. (32) Lyapunov exponent.
 """
 
-from collections.abc import Iterable
 from itertools import product
 
 import numpy as np
@@ -26,7 +25,7 @@ from numpy.typing import ArrayLike
 
 from analysis.embedding import choose_embedding, noise_level
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_positive, checked_series, locked
+from analysis.sampling import checked_positive, checked_series, locked
 from analysis.wolf_pairs import wolf_run
 
 METHOD = "Wolf et al. 1985, plateau"
@@ -38,26 +37,15 @@ LEAST_PERIODS = 20
 LEAST_SAMPLES = 200
 
 
-def wolf_lyapunov(
-    series: ArrayLike,
-    step_s: float,
-    delay: int | None = None,
-    dimensions: Iterable[int] | None = None,
-    evolutions: Iterable[int] | None = None,
-    theiler: int | None = None,
-    noise: float | None = None,
-) -> Exponent:
+def wolf_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     """Largest Lyapunov exponent of a series: the median of Wolf's method over a plateau of settings.
 
         lambda = 1/(K e) sum_k ln(L'_k/L_k)   for each (m, e);   value = median, error: head of this file
 
     series (n,)     any unit, evenly sampled; what was left of a transient counts as motion
     step_s          sampling step [s], or 1 for a map
-    delay           [samples]; None: choose_embedding
-    dimensions      embedding dimensions; None: m_0, m_0 + 1, m_0 + 2 with m_0 by choose_embedding
-    evolutions      evolution times [samples]; None: 1/4, 1/2, 3/4 and 1 mean period
-    theiler         [samples]; None: the mean period or the span of a delay vector, whichever is longer
-    noise           standard deviation of the noise [unit of the series]; None: noise_level
+    The delay and m_0 are those of choose_embedding, the noise that of noise_level. Theiler's window is the mean period
+    or the span of a delay vector, whichever is longer. For one setting of one's own there is `wolf_run`.
     Returns an Exponent in nats per unit of time; positive: neighbours part exponentially; about 0: they do not. A
     stable periodic motion shows 0 at best, not its negative exponent: once settled, nothing in the record decays.
     NaN with a reason, never 0, when fewer than three settings qualify or the record has fewer than 20 mean periods.
@@ -70,21 +58,17 @@ def wolf_lyapunov(
     x, step_s = checked_series(series), checked_positive(step_s, "step_s")
     if len(x) < LEAST_SAMPLES or np.ptp(x) == 0.0:
         return no_exponent(METHOD, f"{LEAST_SAMPLES} samples of a series that moves are needed, given {len(x)}")
-    embedding = choose_embedding(x, delay)
+    embedding = choose_embedding(x)
     lag, period = embedding.lag, embedding.mean_period
     if len(x) < LEAST_PERIODS * period:
         return no_exponent(METHOD, f"{LEAST_PERIODS} mean periods are needed, given {len(x) / period:.3g}")
-    if dimensions is None:
-        dimensions = range(embedding.dimension, embedding.dimension + DIMENSIONS)
-    if evolutions is None:
-        evolutions = sorted({max(1, round(share * period)) for share in EVOLUTION_PERIODS})
-    dimensions = tuple(checked_count(m, "dimensions") for m in dimensions)
-    evolutions = tuple(checked_count(e, "evolutions") for e in evolutions)
-    noise = noise_level(x, lag) if noise is None else float(noise)
+    dimensions = tuple(range(embedding.dimension, embedding.dimension + DIMENSIONS))
+    evolutions = tuple(sorted({max(1, round(share * period)) for share in EVOLUTION_PERIODS}))
+    noise = noise_level(x, lag)
 
     def run(m, e, lengths=1.0):
-        window = max(round(period), (m - 1) * lag) if theiler is None else int(theiler)
-        return wolf_run(x, step_s, lag, m, e, window, noise, lengths)
+        theiler = max(round(period), (m - 1) * lag)
+        return wolf_run(x, step_s, lag, m, e, theiler, noise, lengths)
 
     used = {"dimensions": dimensions, "evolutions": evolutions, "noise": noise, "embedding": embedding}
     return _plateau(run, used)

@@ -13,19 +13,17 @@ Sampled many times per period, any smooth motion looks regular to this test, cha
 "irregular", not "chaotic": noise passes as well. Hence the section only, and the nulls of `surrogates` beside it.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.sampling import checked_count, checked_series, locked
+from analysis.sampling import checked_count, checked_series, record
 
 LEAST_POINTS = 100
 # Range over mean step: a sine sampled P times a cycle has pi/2/sin(pi/P), which is 10 at P = 20.
 MOST_RANGE_PER_STEP = 10.0
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class ZeroOneTest:
     """Outcome of the 0-1 test.
 
@@ -64,11 +62,11 @@ def zero_one_test(section: ArrayLike, angles: int = 200, seed: int | list[int] =
     c = 0.2 * np.pi + width * (np.arange(angles) + np.random.default_rng(seed).random(angles))
     why_not = _why_not(phi)
     if why_not:
-        return ZeroOneTest(np.nan, why_not, locked(c), locked(np.full(angles, np.nan)), len(phi))
+        return ZeroOneTest(np.nan, why_not, c, np.full(angles, np.nan), len(phi))
     growth = _growth((phi - phi.mean()) / np.ptp(phi), c)
-    value = float(np.median(growth))
+    value = np.median(growth)
     reason = f"median of {angles} walks over {len(phi)} points: K = {value:.3f}"
-    return ZeroOneTest(value, reason, locked(c), locked(growth), len(phi))
+    return ZeroOneTest(value, reason, c, growth, len(phi))
 
 
 def _why_not(phi):

@@ -10,6 +10,7 @@ Closed forms are those that tests/engine/spatial checks.
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import quad
@@ -20,9 +21,41 @@ from benchmarks.shared import DOCS, shrink
 from engine import load_scene, simulate
 from reports.figures.curves import Curve, Panel, curves
 from reports.parts.content import Picture
-from tests.engine.spatial.rods import Localised
 from tests.engine.spatial.test_held_lines import LENGTH as L
 from tests.engine.spatial.test_held_lines import G, fall
+
+
+@dataclass(frozen=True)
+class Localised:
+    """The buckle of an infinitely long rod under tension T and torque M (Coyne 1990; van der Heijden & Thompson 2000).
+
+    With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
+    1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)).
+    """
+
+    EI: float
+    GI: float
+    T: float
+    m: float
+
+    @property
+    def torque(self):
+        return 2 * self.m * np.sqrt(self.EI * self.T)
+
+    @property
+    def shortening(self):
+        """D: what the ends come closer, m, extension left out."""
+        return 4 * np.sqrt(self.EI / self.T) * np.sqrt(1 - self.m**2)
+
+    @property
+    def deflection(self):
+        """Largest distance from the axis, m: half the shortening."""
+        return 0.5 * self.shortening
+
+    def angles(self, s):
+        """theta and psi at s from the middle."""
+        k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
+        return 2 * np.arcsin(a / np.cosh(k * a * s)), m * k * s + np.arctan(a / m * np.tanh(k * a * s))
 
 
 def localised(scene, slack_m):

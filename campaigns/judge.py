@@ -10,6 +10,11 @@ LEAST_JUDGED = 40  # wave periods after the transient; a shorter record is not j
 LATERAL = "output.lateral_growth"
 
 
+def periods_of(scene, columns) -> float:
+    """Wave periods of a record."""
+    return (len(columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
+
+
 def tangent_of(trajectory, transient_periods: int):
     """The exponent of a run's tangent dynamics in bits per wave period; no value if it carried no perturbation."""
     from analysis.exponents import BITS_PER_PERIOD, no_exponent
@@ -19,7 +24,7 @@ def tangent_of(trajectory, transient_periods: int):
     return exponent(trajectory, transient_periods)
 
 
-def motion_of(trajectory, checks=None):
+def motion_of(trajectory, checks):
     """The Verdict on a run from rest, look by look, from its strobed state and its tangent dynamics.
 
     checks: Trajectories that went on from this run at a tighter tolerance, by the wave periods at which they began;

@@ -63,7 +63,7 @@ def content_of(directory: str | Path):
     if not name:
         known = ", ".join(CONTENTS)
         fault = f"provenance.json names the campaign {campaign!r} and nothing that it varied; reports exist for {known}"
-        raise FolderError(directory, [fault])
+        raise FolderError(directory, fault)
     contents = import_module(f"reports.{name}.report")
     beside = {}
     if hasattr(contents, "beside"):

@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from pathlib import Path
 
 from engine.streams import open_streams, printed
 
@@ -26,7 +25,7 @@ def main(arguments: list[str] | None = None) -> int:
     from .parts.unchanged import is_unchanged
 
     message = f"drawing the report of {directory} ..."
-    if is_unchanged(Path(directory)):
+    if is_unchanged(directory):
         message = f"{directory} has not changed since its report was drawn"
     print(message, file=sys.stderr)
     try:

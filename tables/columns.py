@@ -63,6 +63,11 @@ class Column:
         return decimals(value, self.digits)
 
 
+def of_words(name: str, meaning: str, symbol: str = "") -> Column:
+    """A column of words; its short title is its name where none is given."""
+    return Column(name, "", symbol or name, meaning)
+
+
 def on(page: str, *columns: Column) -> tuple[Column, ...]:
     """The columns on another page."""
     return tuple(replace(column, page=page) for column in columns)

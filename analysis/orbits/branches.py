@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analysis.orbits.events import ACCURACY, Event, Place, events_between, near_orbits
-from analysis.orbits.finding import TOLERANCE, Orbit, described, real_span, solved_near
+from analysis.orbits.events import ACCURACY, NEAR_ORBITS, Event, Place, events_between
+from analysis.orbits.finding import Orbit, described, real_span, solved_near
 from analysis.orbits.maps import NoImage, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_positive
@@ -31,14 +31,12 @@ class Branch:
     """Orbits along a branch, in order.
 
     orbits    tuple of Orbit; of an island, the last is the first again
-    rates     (m,) change of the parameter along the branch, in parameter_size a unit of arclength: 0 at a fold
     closed    whether it is an island
     ends      why it ends where it begins, and where it ends: two sentences
     events    tuple of Event, in order
     """
 
     orbits: tuple[Orbit, ...]
-    rates: np.ndarray
     closed: bool
     ends: tuple[str, str]
     events: tuple[Event, ...]
@@ -60,7 +58,6 @@ def follow_branch(
     longest: float = 0.2,
     most: int = 200,
     count: int = 6,
-    tolerance: float = TOLERANCE,
     accuracy: float = ACCURACY,
     told: Callable[[Orbit], object] | None = None,
 ) -> Branch:
@@ -71,7 +68,7 @@ def follow_branch(
     step, least, longest   arclength from one orbit to the next: first, smallest, largest. `least` must not fall below
                            what a new set of steps of the system changes of an orbit
     most                   orbits each way
-    count, tolerance       as in `find_orbit`
+    count                  as in `find_orbit`
     accuracy               of events, in lengths of a step
     told                   is called with every orbit as it is found; where it gives True, the branch ends
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
@@ -79,15 +76,14 @@ def follow_branch(
     """
     if not orbit.found or not low <= orbit.parameter <= high:
         raise ValueError(f"orbit: one within {low:g} and {high:g} is needed, given {orbit.parameter:g}, {orbit.reason}")
-    follower = _Follower(system, low, high, least, longest, most, count, tolerance, accuracy, told)
+    follower = _Follower(system, low, high, least, longest, most, count, accuracy, told)
     first = follower.place(orbit)
     ahead, events, end, closed = follower.one_way(first, checked_positive(step, "step"))
     places, begin = [first, *ahead], end
     if not closed:
         back, earlier_events, begin, _ = follower.one_way(_reversed(first), step)
         places, events = [*map(_reversed, back[::-1]), *places], earlier_events[::-1] + events
-    rates = np.array([place.rate for place in places])
-    return Branch(tuple(place.orbit for place in places), rates, closed, (begin, end), tuple(events))
+    return Branch(tuple(place.orbit for place in places), closed, (begin, end), tuple(events))
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +97,6 @@ class _Follower:
     longest: float
     limit: int
     count: int
-    tolerance: float
     accuracy: float
     callback: Callable[[Orbit], object] | None
 
@@ -132,7 +127,7 @@ class _Follower:
                 if len(places) > 2:
                     closing = _come_back(self.system, first, last, place)
                 place = closing or place
-                events += events_between(self.system, last, place, self.count, self.tolerance, self.accuracy)
+                events += events_between(self.system, last, place, self.count, self.accuracy)
             except ArithmeticError as why:
                 step = 0.5 * limited
                 if step < self.least:
@@ -163,8 +158,7 @@ class _Follower:
         points = place.orbit.points + step * place.change
         parameter = place.orbit.parameter + step * place.rate * size if end is None else end
         across, directions = tangent if end is None else None, real_span(place.orbit.vectors)
-        newton = near_orbits(self.tolerance)
-        solved = solved_near(self.system, points, parameter, newton, across, directions, place.slopes)
+        solved = solved_near(self.system, points, parameter, NEAR_ORBITS, across, directions, place.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
             raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:

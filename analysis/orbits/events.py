@@ -22,7 +22,6 @@ from scipy.optimize import brentq
 
 from analysis.orbits.finding import (
     KEPT,
-    TOLERANCE,
     Newton,
     Orbit,
     corrected,
@@ -39,6 +38,8 @@ ACCURACY = 1e-9  # of a chord, to which an event is located
 CLOSER, LEAST = 1e-2, 1e-9  # an event is located this much better, to so much at best, until its multiplier is CLOSE
 ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
 WIDE = 0.1, 0.2, 0.4  # chords: so near to an event one set of steps of the system suits the orbits on both sides
+# From one orbit to the next: where Newton's method is slow, a shorter step is better.
+NEAR_ORBITS = Newton(iterations=8, halvings=2, kept=KEPT)
 # An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter; slopes (N, n)
 Place = namedtuple("Place", "orbit change rate slopes")
 
@@ -75,14 +76,7 @@ FACTORS = {
 }
 
 
-def near_orbits(tolerance: float) -> Newton:
-    """From one orbit to the next: where Newton's method is slow, a shorter step is better."""
-    return Newton(tolerance, 8, 2, KEPT)
-
-
-def events_between(
-    system: OrbitMap, begin: Place, end: Place, count: int, tolerance: float, accuracy: float
-) -> list[Event]:
+def events_between(system: OrbitMap, begin: Place, end: Place, count: int, accuracy: float) -> list[Event]:
     """Events between two neighbours of a branch; none where their multipliers are not settled.
 
     Raises NoImage where multipliers leap across the unit circle, or an orbit in between is not found.
@@ -91,7 +85,7 @@ def events_between(
     if not (begin.orbit.settled and end.orbit.settled):
         return events
     for kind, factors in FACTORS.items():
-        chord = _Chord(system, factors, begin.orbit, end, count, tolerance)
+        chord = _Chord(system, factors, begin.orbit, end, count)
         ends = [chord.test(place.orbit) for place in (begin, end)]
         if min(np.abs(ends)) > ROUNDING and ends[0] * ends[1] < 0.0:
             event = chord.event(kind, accuracy)
@@ -103,9 +97,8 @@ def events_between(
 class _Chord:
     """Orbits between two neighbours, in the planes across the way from one to the other."""
 
-    def __init__(self, system, factors, begin, end, count, tolerance):
-        self.system, self.factors, self.slopes = system, factors, end.slopes
-        self.count, self.tolerance = count, tolerance
+    def __init__(self, system, factors, begin, end, count):
+        self.system, self.factors, self.slopes, self.count = system, factors, end.slopes, count
         way = end.orbit.points[0] - begin.points[0]
         by = (end.orbit.parameter - begin.parameter) / system.parameter_size
         self.across = system.row(way, by) / system.length(way, by)
@@ -128,12 +121,12 @@ class _Chord:
 
     def look(self, maps, share):
         """The orbit at a share of the way."""
-        guess, newton = self.between(share), near_orbits(self.tolerance)
+        guess = self.between(share)
         directions = real_span(self.orbits[0.0].vectors)
         if maps is None:
-            solved = solved_near(self.system, *guess, newton, self.across, directions, self.slopes)
+            solved = solved_near(self.system, *guess, NEAR_ORBITS, self.across, directions, self.slopes)
         else:
-            solved = corrected(maps, *guess, newton, self.across, directions, self.slopes)
+            solved = corrected(maps, *guess, NEAR_ORBITS, self.across, directions, self.slopes)
         return described(solved, self.count)[0]
 
     def value(self, share):
@@ -221,9 +214,7 @@ def _angle(kind, multipliers):
     return float(np.angle(pairs[np.argmin(off)])) if len(off) and off.min() < CLOSE else None
 
 
-def doubled_orbit(
-    system: OrbitMap, flip: Event, *, amplitude: float = 0.01, count: int = 6, tolerance: float = TOLERANCE
-) -> Orbit:
+def doubled_orbit(system: OrbitMap, flip: Event, *, amplitude: float = 0.01, count: int = 6) -> Orbit:
     """The orbit of twice the period that leaves a flip (head of this file).
 
     flip        an Event of that kind
@@ -240,7 +231,7 @@ def doubled_orbit(
         shots = shoot(system.near(twice, orbit.parameter), twice, orbit.parameter)
         ways = Space(shots.linearised, v[:, None]).ways[:-1]
         guess = twice + amplitude * np.linalg.norm(v) * np.array(ways)[:, :, 0]
-        solved = solved_near(system, guess, orbit.parameter, Newton(tolerance), system.row(v, 0.0), directions)
+        solved = solved_near(system, guess, orbit.parameter, Newton(), system.row(v, 0.0), directions)
         first, half = solved.points[[0, orbit.period]]
         if system.length(first - half, 0.0) < amplitude:
             raise NoImage("Newton's method came back to the orbit of half the period")

@@ -134,13 +134,13 @@ def find_orbit(
         return not_found(np.atleast_2d(guess), parameter, why)
 
 
-def scatter_of(system: OrbitMap, orbit: Orbit, *, tolerance: float = TOLERANCE) -> Scatter:
+def scatter_of(system: OrbitMap, orbit: Orbit) -> Scatter:
     """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
     points, rivals = np.zeros_like(orbit.points), []
     try:
         for mesh in range(1, system.meshes):
             place = orbit.points, orbit.parameter
-            solved = solved_near(system, *place, Newton(tolerance), None, real_span(orbit.vectors), mesh=mesh)
+            solved = solved_near(system, *place, Newton(), None, real_span(orbit.vectors), mesh=mesh)
             rivals.append(described(solved, len(orbit.multipliers))[0])
             points = np.maximum(points, np.abs(rivals[-1].points - orbit.points))
     except ArithmeticError:

@@ -14,7 +14,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "attractors": [
-            "Grazing", "clearance", "grazing_force", "search_periodic_orbits", "settled_periods", "snap_map",
+            "grazing_force", "search_periodic_orbits", "settled_periods", "snap_map",
             "start_grid",
         ],
         "equation": ["SnapOscillator"],

@@ -28,7 +28,7 @@ below 1e-13.
 import math
 
 from analysis.compiled import kernel
-from analysis.oscillator.pieces import curvature_bound, motion
+from analysis.oscillator.pieces import Piece, curvature_bound, motion
 
 NONE = -1.0
 _ROUNDING = 2e-15  # of the terms of g: below, g is rounding error
@@ -36,8 +36,9 @@ _TIME_ERROR = 2e-13
 
 
 @kernel
-def state_at(a, tau, x, v, theta, k, p0, w0):
-    """g and g' of the piece a of (x, v) at tau."""
+def state_at(piece, tau):
+    """g and g' at tau."""
+    a, x, v, theta, k, p0, w0 = piece
     p11, p12, p21, p22, q1, q2 = motion(a, tau, theta, k, p0, w0)
     return p11 * x + p12 * v + q1, p21 * x + p22 * v + q2
 
@@ -57,11 +58,11 @@ def cubic_guess(g0, v0, g1, v1, width):
 
 
 @kernel
-def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, curvature, theta, k, p0, w0):
+def bracketed_root(piece, lo, hi, g_lo, v_lo, g_hi, v_hi, curvature):
     """The crossing between lo and hi, where g has opposite signs."""
     tau = lo + (hi - lo) * cubic_guess(g_lo, v_lo, g_hi, v_hi, hi - lo)
     for _ in range(80):
-        g, slope = state_at(a, tau, x, v, theta, k, p0, w0)
+        g, slope = state_at(piece, tau)
         if (g > 0.0) == (g_lo > 0.0):
             lo = tau
         else:
@@ -78,12 +79,12 @@ def bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, curvature, theta, k,
 
 
 @kernel
-def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, curvature, floor, theta, k, p0, w0):
+def search(piece, lo, g_lo, v_lo, end, g_end, v_end, curvature, floor):
     """The first crossing in (lo, end], or NONE; see the head of this file. `curvature` bounds |g''|.
 
-    g_lo, v_lo: state at lo, on the side of a up to rounding; g_end, v_end: state at end.
+    g_lo, v_lo: state at lo, on the side of the piece up to rounding; g_end, v_end: state at end.
     """
-    side = 1.0 if a == 1 else -1.0
+    side = 1.0 if piece.a == 1 else -1.0
     hi, g_hi, v_hi = end, g_end, v_end
     while True:
         bulge = 0.125 * curvature * (hi - lo) ** 2
@@ -91,7 +92,7 @@ def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, curvature, floor, theta, 
         hidden = bulge <= floor or hi - lo < 1e-13 * end
         one_way = v_lo * v_hi > 0.0 and abs(v_lo) + abs(v_hi) > curvature * (hi - lo)
         if crossed and one_way and side * g_lo > 0.0:
-            return bracketed_root(a, lo, hi, g_lo, v_lo, g_hi, v_hi, x, v, curvature, theta, k, p0, w0)
+            return bracketed_root(piece, lo, hi, g_lo, v_lo, g_hi, v_hi, curvature)
         if crossed and hidden:
             return hi
         if not crossed and (hidden or min(side * g_lo, side * g_hi) > bulge):
@@ -102,20 +103,20 @@ def search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, curvature, floor, theta, 
         else:
             width = 0.5 * (hi - lo)
         hi = min(lo + width, end)
-        g_hi, v_hi = state_at(a, hi, x, v, theta, k, p0, w0)
+        g_hi, v_hi = state_at(piece, hi)
 
 
 @kernel
-def leave(a, start, end, x, v, curvature, floor, theta, k, p0, w0):
+def leave(piece, start, end, curvature, floor):
     """`search` after a crossing at `start` that is close to grazing."""
-    _, slope = state_at(a, start, x, v, theta, k, p0, w0)
+    _, slope = state_at(piece, start)
     clear = abs(slope) / curvature if curvature > 0.0 else math.inf
     lo = min(start + max(clear, 1e-12), end)
     if lo >= end:
         return NONE
-    g_lo, v_lo = state_at(a, lo, x, v, theta, k, p0, w0)
-    g_end, v_end = state_at(a, end, x, v, theta, k, p0, w0)
-    return search(a, lo, g_lo, v_lo, end, g_end, v_end, x, v, curvature, floor, theta, k, p0, w0)
+    g_lo, v_lo = state_at(piece, lo)
+    g_end, v_end = state_at(piece, end)
+    return search(piece, lo, g_lo, v_lo, end, g_end, v_end, curvature, floor)
 
 
 @kernel
@@ -131,7 +132,7 @@ def first_crossing(a, start, x, v, window, table):
     phi, q = table.phi[a], table.q[window, a]
     if a == 0 and x + max(v, 0.0) * phi[1, last] + table.reach[window] < 0.0:
         return NONE  # slack and too deep to come up within the window
-    curvature = curvature_bound(a, x, v, k, p0, w0)
+    piece, curvature = Piece(a, x, v, theta, k, p0, w0), curvature_bound(a, x, v, k, p0, w0)
     floor = _ROUNDING * (abs(x) + abs(v) * tau[last] + table.size[window])
     side = 1.0 if a == 1 else -1.0
     j, g = 0, x
@@ -139,7 +140,7 @@ def first_crossing(a, start, x, v, window, table):
         j = min(int(start / tau[1]) + 1, last)
         g = phi[0, j] * x + phi[1, j] * v + q[0, j]
         if side * g <= 0.5 * curvature * (tau[j] - start) ** 2 and start < tau[j]:
-            crossing = leave(a, start, tau[j], x, v, curvature, floor, theta, k, p0, w0)
+            crossing = leave(piece, start, tau[j], curvature, floor)
             if crossing != NONE:
                 return crossing
     bulge = 0.125 * curvature * tau[1] * tau[1]
@@ -156,7 +157,7 @@ def first_crossing(a, start, x, v, window, table):
         else:
             v_j = phi[2, j] * x + phi[3, j] * v + q[1, j]
             v_i = phi[2, i] * x + phi[3, i] * v + q[1, i]
-            crossing = search(a, tau[j], g, v_j, tau[i], g_next, v_i, x, v, curvature, floor, theta, k, p0, w0)
+            crossing = search(piece, tau[j], g, v_j, tau[i], g_next, v_i, curvature, floor)
             if crossing != NONE:
                 return crossing
             j, g = i, g_next

@@ -1,6 +1,6 @@
 """Both Lyapunov exponents of eq. (33) with errors one may believe, at its parameters and over one of them."""
 
-from dataclasses import astuple, dataclass, replace
+from dataclasses import astuple, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,14 +10,14 @@ from analysis.oscillator.attractors import PAPER_BOX, settled_periods
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.strobing import growth_over_values
-from analysis.sampling import checked_count, checked_series
+from analysis.sampling import checked_count, checked_series, record
 
 METHOD = "tangent map of eq. (33), QR every period (Benettin et al. 1980)"
 PARAMETERS = ("damping", "frequency", "force", "lift")
 _WATCHED = 640  # periods after the averages in which a start may show that it was on a periodic orbit
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class SnapExponents:
     """Both exponents of one attractor, averaged over independent starts.
 
@@ -28,7 +28,6 @@ class SnapExponents:
     dimension_error
     of_start (n, 2)      exponents of each start on the attractor
     of_block (n, b, 2)   and of each block of each start
-    periods_of_start     forcing periods of each start's average
     starts, elsewhere    starts that count, and starts left out because they settled on a periodic orbit
     slack_fraction       share of the time without tension
     convergence (b, 3)   running mean of first over the blocks: time, mean over starts, standard error of that mean
@@ -41,7 +40,6 @@ class SnapExponents:
     dimension_error: float
     of_start: np.ndarray
     of_block: np.ndarray
-    periods_of_start: int
     starts: int
     elsewhere: int
     slack_fraction: float
@@ -147,10 +145,10 @@ def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     )
     uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
     measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
-    return SnapExponents(*exponents, *measures, periods, starts, elsewhere, float(slack.mean()), convergence)
+    return SnapExponents(*exponents, *measures, starts, elsewhere, float(slack.mean()), convergence)
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class SnapDiagram:
     """An orbit diagram with exponents; p values, n starts each.
 

@@ -1,24 +1,14 @@
 """Motions of eq. (33): the strobed states, and the motion between them with its switching times."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
 from analysis.oscillator.crossings import state_at
 from analysis.oscillator.equation import SnapOscillator
-from analysis.oscillator.pieces import tables
+from analysis.oscillator.pieces import Piece, tables
 from analysis.oscillator.strobing import MOST_PIECES, next_state, strobed_orbits
-from analysis.sampling import checked_count, checked_series
-
-
-def checked_start(start: ArrayLike) -> tuple[float, float]:
-    """(g, g') as two finite floats; ValueError otherwise."""
-    state = checked_series(start, "start")
-    if state.shape != (2,):
-        raise ValueError(f"start: a pair (g, g') is needed, given shape {state.shape}")
-    return float(state[0]), float(state[1])
+from analysis.sampling import checked_count, checked_series, record
 
 
 def checked_starts(starts: ArrayLike) -> np.ndarray:
@@ -38,9 +28,11 @@ def strobed_states(oscillator: SnapOscillator, start: ArrayLike, points: int, tr
     NaN from the first state on that could not be computed (more than 4096 pieces in a period).
     Source: Tjavaras et al. 1998, eq. (33).
     """
-    state = np.array([checked_start(start)])
+    state = checked_series(start, "start")
+    if state.shape != (2,):
+        raise ValueError(f"start: a pair (g, g') is needed, given shape {state.shape}")
     points, transient = checked_count(points, "points"), checked_count(transient_periods, "transient_periods", 0)
-    return strobed_orbits(state, transient, points, tables(oscillator))[0]
+    return strobed_orbits(state[None], transient, points, tables(oscillator))[0]
 
 
 def strobed_states_within(
@@ -68,7 +60,7 @@ def strobed_states_within(
     return tuple(states[i, : counts[i]].copy() for i in range(len(boxes))), int(seen)
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class SnapMotion:
     """A motion of eq. (33) between strobes; time in units of 1/omega_r.
 
@@ -89,18 +81,17 @@ def snap_motion(
     start: ArrayLike,
     periods: int,
     samples_per_period: int = 64,
-    transient_periods: int = 0,
 ) -> SnapMotion:
     """The motion of eq. (33) evaluated from its closed form, with the switching times between taut and slack.
 
-    start                (g, g') at time 0;  transient_periods  left out in front
+    start                (g, g') at time 0
     periods              length of the record in forcing periods
     samples_per_period   samples are not steps: their number changes neither states nor switching times
     Returns SnapMotion with periods*samples_per_period + 1 samples. ValueError for a start that is not finite; NaN from
     the first period on that could not be computed.
     """
     periods, samples = checked_count(periods, "periods"), checked_count(samples_per_period, "samples_per_period")
-    x, v = strobed_states(oscillator, start, 1, transient_periods)[0]
+    x, v = strobed_states(oscillator, start, 1)[0]
     motion, switches, slack = _sampled(x, v, periods, samples, oscillator.period, tables(oscillator))
     time = np.arange(periods * samples + 1) * (oscillator.period / samples)
     return SnapMotion(time, motion[:, 0], motion[:, 1], switches, slack / (periods * oscillator.period))
@@ -131,10 +122,8 @@ def _sampled(x, v, periods, samples, period, table):
                 piece += 1
             window, a = int(log[piece, 0]), int(log[piece, 2])
             steady = table.steady[window, a]
-            g, u = state_at(
-                a, time - window * span, log[piece, 3], log[piece, 4], table.theta[window], table.constants,
-                steady[0], steady[1],
-            )  # fmt: skip
+            shown = Piece(a, log[piece, 3], log[piece, 4], table.theta[window], table.constants, steady[0], steady[1])
+            g, u = state_at(shown, time - window * span)
             motion[n * samples + j, 0], motion[n * samples + j, 1] = g, u
         if pieces == 0:
             motion[n * samples + 1 :] = np.nan

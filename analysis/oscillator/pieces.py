@@ -47,6 +47,18 @@ class Piecewise(NamedTuple):
     size: np.ndarray  # (windows,) largest |q| of either piece, for the rounding floor
 
 
+class Piece(NamedTuple):
+    """A piece of a motion: whether taut (1) or slack (0), and what its closed form needs within a window."""
+
+    a: int
+    x: float  # the state that the piece would have had at the start of the window
+    v: float
+    theta: float  # phase of the forcing there
+    k: np.ndarray  # see `constants_of`
+    p0: float  # the steady motion there
+    w0: float
+
+
 MU, OMEGA, LIFT, NU, TAUT_SIN, TAUT_COS, SLACK_SIN, SLACK_COS, TAUT_ACC, SLACK_ACC = range(10)
 
 

@@ -23,6 +23,7 @@ from campaigns.machinery import cli
 from campaigns.machinery.progress import stage
 from campaigns.study import Order, Study
 
+TOLD = ("title", "measure", "period_s", "duration_s", "rough")  # of every work, in the provenance
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
 
 
@@ -88,8 +89,7 @@ def parameters(order: Order) -> dict[str, object]:
     works, notes = {}, {}
     for name in options.effort.works:
         work = BY_NAME[name]
-        works[name] = {"title": work.title, "measure": work.measure, "period_s": work.period_s}
-        works[name] |= {"duration_s": work.duration_s, "rough": work.rough, "unit": UNITS[work.measure]}
+        works[name] = {entry: getattr(work, entry) for entry in TOLD} | {"unit": UNITS[work.measure]}
     if not options.no_peers:
         for peer, _, _ in taking_part(options.effort.works, options.quick):
             notes[f"{peer.name} {version(peer) or '(not installed)'}"] = peer.notes
@@ -126,4 +126,4 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
 
 
 STUDY = Study(name="accuracy", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer)
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

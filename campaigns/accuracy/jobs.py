@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict
 from functools import partial
 from importlib import metadata
-from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -101,18 +100,11 @@ def engine_job(point: Point, known: Samples) -> Job:
 def side_by_side(ours: list[Job], peers: list[Job], rounds: int) -> list[Job]:
     """Timed jobs in the order in which they run: those of other codes, which run once, in the middle round of ours on
     the same work, so that the machine's noise meets both."""
-    middle = rounds // 2
-    earlier, of_works, later = [], {}, []
-    for job in ours:
-        if job.labels["round"] < middle:
-            earlier.append(job)
-        elif job.labels["round"] > middle:
-            later.append(job)
-        else:
-            of_works.setdefault(job.labels["work"], []).append(job)
-    for job in peers:
-        of_works.setdefault(job.labels["work"], []).append(job)
-    return [*earlier, *chain.from_iterable(of_works.values()), *later]
+    turns = [(job.labels["round"], job) for job in ours]
+    turns += [(rounds // 2, job) for job in peers]
+    works = list(dict.fromkeys(job.labels["work"] for _, job in turns))
+    turns.sort(key=lambda turn: (turn[0], works.index(turn[1].labels["work"])))
+    return [job for _, job in turns]
 
 
 def version(peer: Peer) -> str:

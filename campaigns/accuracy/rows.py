@@ -19,26 +19,26 @@ import numpy as np
 
 from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
 from campaigns.machinery.folder import run_of
-from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted, number_of
+from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted, number_of, of_words
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
 COLUMNS = (
-    Column("work", symbol="work", meaning="what is simulated"),
-    Column("kind", symbol="kind", meaning="what the run is for"),
-    Column("method", symbol="method", meaning="integrator or scheme of the engine, or the other code"),
+    of_words("work", "what is simulated"),
+    of_words("kind", "what the run is for"),
+    of_words("method", "integrator or scheme of the engine, or the other code"),
     Column("nodes", "", "nodes", "nodes of the line; segments or elements of other codes", 0),
-    Column("control", symbol="control", meaning="what is varied: a tolerance, a step, a Courant number"),
+    of_words("control", "what is varied: a tolerance, a step, a Courant number"),
     Column("setting", "", "setting", "its value in the first round", 6),
     Column("round", "", "round", "turn of a timed setting", 0),
     STATUS,
     Column("error", "", "error", "distance from the reference, or from the exact solution, in error_unit", 4),
     Column("error_early", "", "early", "the same over the first half of the run", 4),
-    Column("error_unit", symbol="unit", meaning="mm, or per cent of the static strain"),
+    of_words("error_unit", "mm, or per cent of the static strain", "unit"),
     Column("error_against_ours", "", "off ours", "distance of another code from our refined run, in error_unit", 4),
     WALL_S,
     *COUNTED,
-    Column("peer_version", symbol="version", meaning="of the other code"),
+    of_words("peer_version", "of the other code", "version"),
     RUN_KEY,
     MESSAGE,
 )
@@ -114,18 +114,18 @@ KINDS = ("time", "space", "both", "tolerance")  # of runs that are series
 WITHIN = 0.15  # of theory, the last slope
 STEADY = 0.6  # of theory, every slope: where they jump about, the last is right by chance
 ORDER_COLUMNS = (
-    Column("work", symbol="work", meaning="what is simulated"),
-    Column("kind", symbol="refined", meaning="what is halved: time, space or both; or the tolerance"),
-    Column("method", symbol="method", meaning="integrator or scheme"),
+    of_words("work", "what is simulated"),
+    of_words("kind", "what is halved: time, space or both; or the tolerance", "refined"),
+    of_words("method", "integrator or scheme"),
     Column("theory", "", "theory", "order that theory gives", 2),
     Column("order", "", "measured", "last of the slopes", 2),
-    Column("slopes", symbol="slopes", meaning="log2 of the ratios of neighbours, coarse to fine"),
-    Column("errors", symbol="errors", meaning="differences of neighbours, or errors, coarse to fine"),
-    Column("unit", symbol="unit", meaning="of the errors"),
-    Column("settings", symbol="settings", meaning="steps, nodes or tolerances of the series"),
+    of_words("slopes", "log2 of the ratios of neighbours, coarse to fine"),
+    of_words("errors", "differences of neighbours, or errors, coarse to fine"),
+    of_words("unit", "of the errors"),
+    of_words("settings", "steps, nodes or tolerances of the series"),
     Column("within", "", "within", f"1 where the last slope is within {WITHIN:g} of theory and none is far off", 0),
-    Column("rough", symbol="not smooth", meaning="why no order is expected"),
-    Column("note", symbol="note", meaning="runs that ended early"),
+    of_words("rough", "why no order is expected", "not smooth"),
+    of_words("note", "runs that ended early"),
 )
 # an adaptive method keeps its estimate of the error of a step, of order p_e + 1, at rtol: the error goes with
 # rtol^(p/(p_e + 1)), p_e = 3 for esdirk43 (p = 4) and 2 for trbdf2 (p = 2), whose estimate is that of its own order

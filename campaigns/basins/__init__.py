@@ -13,13 +13,12 @@ searched over its direction, and bisected in size to 1 %, on both grids. The edg
 from rest is found by bisection of states. The order of the starts is drawn by --seed; nothing else is random.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from campaigns.basins.grid import PAIRS, StartGrid
-from campaigns.explore.settings import BUDGET, columns_of, measures_of
-from campaigns.explore.sweep import ONLY, kick_speed, tables_of
+from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -73,7 +72,7 @@ def cases(order: Order) -> Iterator[Job]:
     if scene is None:
         return
     if not carries_tangents(scene):
-        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY.removeprefix('a number for ')}"])
+        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY}"])
         return
     scene = judged_scene(order, REST)
     if scene is not None:
@@ -88,36 +87,31 @@ def measures(order: Order) -> Measures:
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
+    from campaigns.basins.edge import edge_state
+    from campaigns.basins.exploration import COLUMNS, Exploration
+    from campaigns.basins.shocks import shocks
+    from campaigns.explore.ends import confirm
+    from campaigns.explore.motions import Search
 
-    def every_start(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.basins.edge import edge_state
-        from campaigns.basins.exploration import COLUMNS, Exploration
-        from campaigns.basins.shocks import shocks
-        from campaigns.explore.ends import confirm
-        from campaigns.explore.motions import Search
-
-        grid = order.options.grid
-        search = Search(order, kicks=0, speed_mps=order.options.kick_speed, seed=order.options.seed)
-        exploration = Exploration(plan, jobs[0], grid, search)
-        exploration.find()
-        rest, *kicked = exploration.motions or [None]
-        if kicked:
-            worst = max(kicked, key=lambda motion: motion.tension_N)
-            shocks(exploration, worst)
-            edge_state(exploration, rest, worst)
-        confirm(exploration.places)
-        exploration.places.write()
-        rows = [*exploration.rows()]
-        write_table(plan.how.out / "table.csv", COLUMNS, rows)
-        computed, timing = exploration.computed, exploration.places.timing()
-        return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
-
-    return every_start
+    search = Search(order, 0, order.options.kick_speed, order.options.seed)
+    exploration = Exploration(plan, jobs[0], order.options.grid, search)
+    exploration.find()
+    rest, *kicked = exploration.motions or [None]
+    if kicked:
+        worst = max(kicked, key=lambda motion: motion.tension_N)
+        shocks(exploration, worst)
+        edge_state(exploration, rest, worst)
+    confirm(exploration.places)
+    exploration.places.write()
+    rows = exploration.rows()
+    write_table(plan.how.out / "table.csv", COLUMNS, rows)
+    computed, timing = exploration.computed, exploration.places.timing()
+    return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     options = order.options
     return {
         "across": list(options.grid.across),

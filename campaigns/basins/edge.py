@@ -13,11 +13,11 @@ import numpy as np
 from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import Motion, subfolder
 from campaigns.explore.rows import EXTREMES
-from campaigns.explore.starts import Start, section_of
+from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
 from campaigns.machinery.folder import run_of
 from engine.views import LONGEST_PERIOD
-from tables import MESSAGE, RUN_KEY, STATUS, Column, names, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -29,8 +29,8 @@ LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = EXTREMES[0], EXTREMES[1], EXTREMES[5]  # of the radius, and of the largest tension
 COLUMNS = (
-    Column("motion", symbol="on one side", meaning="motion to which a run falls on one side"),
-    Column("other", symbol="on the other", meaning="motion to which it falls on the other side"),
+    Column("motion", "", "on one side", "motion to which a run falls on one side"),
+    Column("other", "", "on the other", "motion to which it falls on the other side"),
     Column("periods", "", "periods", "wave periods over which it was followed; extremes are of the later half", 0),
     Column("strobed_period", "", "N", "wave periods after which it repeats; empty where none is found", 0),
     Column("growth_bits_per_period", "bits/period", "growth", "rate at which runs leave it", 2),
@@ -77,7 +77,7 @@ class Edge:
             for _, side, state, row in border:
                 self.states[side] = state
                 if row is not None:
-                    self.runs[side] = run_of(self.exploration.starts.plan.how.out, row)
+                    self.runs[side] = run_of(self.exploration.starts.folder, row)
             self.known, beyond = True, 0.0
             if None in self.runs:
                 continue
@@ -94,19 +94,15 @@ class Edge:
         """
         from engine.run.going_on import between
 
-        shares, states, requests = [], [], []
+        shares, starts = [], []
         for number in range(1, SHARES + 1):
-            share = (1.0 + 2.0 * beyond) * number / (SHARES + 1) - beyond
-            state = between(*self.states, share)
-            shares.append(share)
-            states.append(state)
-            requests.append(self.exploration.request(_start(state), most=LONGEST, settles=False))
-        endings = self.exploration.starts.run("states between two motions", requests)
+            shares.append((1.0 + 2.0 * beyond) * number / (SHARES + 1) - beyond)
+            starts.append(_start(between(*self.states, shares[-1])))
+        endings = self.exploration.run("states between two motions", starts, most=LONGEST, settles=False)
         decided = []
-        for share, state, ending in zip(shares, states, endings, strict=True):
-            motion = self.exploration.motion_of(ending)
-            if motion in self.sides:
-                decided.append((share, self.sides.index(motion), state, ending.row))
+        for share, start, ending in zip(shares, starts, endings, strict=True):
+            if ending.motion in self.sides:
+                decided.append((share, self.sides.index(ending.motion), start.state, ending.row))
         if self.known:
             decided = [(0.0, 0, self.states[0], None), *decided, (1.0, 1, self.states[1], None)]
         borders = [pair for pair in pairwise(decided) if pair[0][1] != pair[1][1]]
@@ -124,7 +120,11 @@ class Edge:
         # of as many samples as the runs that told them apart: a state that goes over to others begins a moment later
         scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
-        runs = self.exploration.runs_within(FOLDER, "along the edge", jobs)
+        plan, places = self.exploration.plan, self.exploration.places
+        folder = plan.how.out / FOLDER
+        timing, summary = run_within(plan, folder, jobs, title="along the edge")
+        places.times.update(timing)
+        runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
         if None in runs:
             return None, ""
         self.states = [run.final_state.at_zero() for run in runs]
@@ -141,14 +141,14 @@ def _start(state) -> Start:
     return Start("edge", state=state, often=SAMPLES)
 
 
-def edge_state(exploration: Exploration, first: Motion, second: Motion) -> dict[str, object]:
+def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     """The row of COLUMNS on the edge state between two motions; writes edge/table.csv and edge/orbit.csv.
 
     Raises as `runner.run`.
     """
     edge = Edge(exploration, first, second)
     runs, distances_so_far, doublings = [], [], 0.0
-    row: dict[str, object] = {"motion": first.branch.letter, "other": second.branch.letter}
+    row = {"motion": first.branch.letter, "other": second.branch.letter}
     row["status"] = "lost"
     while len(distances_so_far) < MOST:
         distances = edge.narrow()

@@ -177,4 +177,4 @@ STUDY = Study(
     answer=answer,
     together=False,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

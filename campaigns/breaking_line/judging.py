@@ -5,15 +5,16 @@ the fast and the slow break of one tension, "case to case" is in rising tension.
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache, partial
 from itertools import pairwise
 from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING
 
-from campaigns.breaking_line.lines import CASES, FAST, SLOW, Line, find, named, of_kind, pairs
+from campaigns.breaking_line.lines import CASES, FAST, SLOW, Line, ended, named, pairs
 from campaigns.statements import Check, Claim, Measured, formula, read_claims, shown, told
+from tables import number_of
 
 if TYPE_CHECKING:
     from campaigns.paper.measured import Results
@@ -24,16 +25,13 @@ PRINTED_CROSSING_S = (0.55, 0.91)
 DELAYED = 0.5  # of the difference of the fracture times: by so much a slow break delays the way of the end
 
 
-def values(lines: Iterable[Line], cases: Iterable[str], of: str) -> list[Check]:
+def values(lines: Sequence[Line], cases: Iterable[str], of: str) -> list[Check]:
     """(name, number) of the cases that have one, in their order; of: a formula over the columns."""
-    number, checks = formula(of), []
+    number, lines_of_cases, checks = formula(of), ended(lines), []
     for case in cases:
-        line = find(lines, case)
-        if line is None:
-            continue
-        value = number(line)
+        value = number(lines_of_cases.get(case, {}))
         if math.isfinite(value):
-            checks.append((named(line["case"]), value))
+            checks.append((named(case), value))
     return checks
 
 
@@ -157,20 +155,18 @@ def dominant(results: "Results") -> Measured:
 
 def doubled(results: "Results") -> Measured:
     """The largest relative change that twice the elements bring, by case."""
-    largest, checks = [], []
-    for line in of_kind(results.lines, "case"):
-        fine = find(results.lines, line["case"], "doubled")
-        if fine is None:
-            continue
+    finer, largest = ended(results.lines, "doubled"), []
+    for case, line in ended(results.lines).items():
         changes = []
+        if case not in finer:
+            continue
         for name in ("end_speed_mps", "recoil_m", "kinetic_largest_J"):
-            change = abs(fine[name] / line[name] - 1.0)
+            change = abs(finer[case][name] / line[name] - 1.0)
             if math.isfinite(change):
                 changes.append(change)
         if changes:
-            case = named(line["case"])
-            largest.append((case, max(changes)))
-            checks.append((f"case {case}", max(changes)))
+            largest.append((named(case), max(changes)))
+    checks = [(f"case {name}", change) for name, change in largest]
     return Measured(checks, told(largest, ".3%"))
 
 
@@ -178,8 +174,8 @@ def shock_incomplete(results: "Results") -> Measured:
     """Whether no shock exists before the fixed end in cases 2 and 3."""
     births, checks = [], []
     for case in ("2", "3"):
-        line = find(results.lines, case)
-        if line is None or not math.isfinite(line["front_speed_theory_mps"]):
+        line = ended(results.lines).get(case, {})
+        if math.isnan(number_of(line, "front_speed_theory_mps")):
             continue
         name, birth_m = f"case {named(case)}", line["shock_birth_theory_m"]
         births.append((name, birth_m))

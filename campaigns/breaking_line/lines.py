@@ -82,7 +82,7 @@ def from_motion(line: Line, profiles: object) -> Line:
 
 def over_case_4(lines: Sequence[Line]) -> tuple[Line, ...]:
     """The lines, with force and front speed over those of case 4, and with what the paper prints of their tension."""
-    strongest = find(lines, "4")
+    strongest = ended(lines).get("4")
     wider_lines = []
     for line in lines:
         further: Line = {}
@@ -99,24 +99,15 @@ def named(case: str) -> str:
     return case.replace("p", "′")
 
 
-def of_kind(lines: Sequence[Line], kind: str) -> list[Line]:
-    """The runs of one kind that ended as asked."""
-    return [line for line in lines if line["kind"] == kind and line["status"] == "ok"]
-
-
-def find(lines: Sequence[Line], case: str, kind: str = "case") -> Line | None:
-    """The run of a case and kind that ended as asked, None where there is none."""
-    for line in of_kind(lines, kind):
-        if line["case"] == case:
-            return line
-    return None
+def ended(lines: Sequence[Line], kind: str = "case") -> dict[str, Line]:
+    """The runs of one kind that ended as asked, by case."""
+    return {line["case"]: line for line in lines if line["kind"] == kind and line["status"] == "ok"}
 
 
 def pairs(lines: Sequence[Line]) -> list[tuple[Line, Line]]:
     """Fast and slow break of the same tension, where both ended as asked."""
-    matches = []
-    for fast_case, slow_case in zip(FAST, SLOW, strict=True):
-        fast, slow = find(lines, fast_case), find(lines, slow_case)
-        if fast is not None and slow is not None:
-            matches.append((fast, slow))
+    cases, matches = ended(lines), []
+    for fast, slow in zip(FAST, SLOW, strict=True):
+        if fast in cases and slow in cases:
+            matches.append((cases[fast], cases[slow]))
     return matches

@@ -32,10 +32,10 @@ def contour(profiles: Profiles, values: np.ndarray, level: float) -> np.ndarray:
     above = values > level
     falls = above[:, :-1] & ~above[:, 1:]
     places = np.full(len(values), math.nan)
-    for row in np.flatnonzero(falls.any(axis=1)):
-        k = int(np.argmax(falls[row]))
-        a, b = values[row, k] - level, values[row, k + 1] - level
-        places[row] = profiles.s_m[k] + (profiles.s_m[k + 1] - profiles.s_m[k]) * a / (a - b)
+    rows, s = np.flatnonzero(falls.any(axis=1)), profiles.s_m
+    k = np.argmax(falls[rows], axis=1)
+    a, b = values[rows, k] - level, values[rows, k + 1] - level
+    places[rows] = s[k] + (s[k + 1] - s[k]) * a / (a - b)
     return places
 
 
@@ -125,7 +125,7 @@ def shock_track(profiles: Profiles, theory: Theory) -> tuple[np.ndarray, np.ndar
 
     The run's is where the strain passes the mean of the exact strains on the two sides.
     """
-    exact, ahead, behind, _ = theory.motion.shock.at(profiles.time_s)
+    exact, ahead, behind = theory.motion.shock.at(profiles.time_s)
     places = np.full(len(exact), math.nan)
     for row in np.flatnonzero(np.isfinite(exact)):
         places[row] = contour(profiles, profiles.strain[row : row + 1], 0.5 * (ahead[row] + behind[row]))[0]

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from campaigns.breaking_line.judging import claims
-from campaigns.breaking_line.lines import motion_of, of_kind, read_lines
+from campaigns.breaking_line.lines import ended, motion_of, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import attribute_of, store
@@ -41,15 +41,17 @@ def write_results(plan: Plan, summary: Summary) -> float:
     folder = plan.how.out
     results = SimpleNamespace(lines=read_lines(folder))
     write_statements(folder, claims().values(), results)
-    cases, path = of_kind(results.lines, "case"), folder / EXACT
-    key = made_by({"runs": [line["run_key"] for line in cases]}, "analysis", "engine", "campaigns/breaking_line")
+    cases, path = ended(results.lines), folder / EXACT
+    key = made_by(
+        {"runs": [line["run_key"] for line in cases.values()]}, "analysis", "engine", "campaigns/breaking_line"
+    )
     if attribute_of(path) == key:
         return 0.0
     runs = {}
-    for line in cases:
+    for case, line in cases.items():
         run = motion_of(folder, line)
         if run is not None and run.profiles is not None:
-            runs[line["case"]] = run
+            runs[case] = run
     content = exact(runs)
     if content is None:
         path.unlink(missing_ok=True)

@@ -10,12 +10,12 @@ import numpy as np
 
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
-from tables import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, counted
+from tables import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, counted, of_words
 
 _COUNTED = tuple(column for column in STATISTICS if column not in (LOOPS, REJECTED))
 COLUMNS = (
-    Column("case", "", "case", "case of the paper; p: fracture in 50 ms"),
-    Column("kind", "", "run", "case, doubled (grid), stiffness, straight (no gravity), series (of grids)"),
+    of_words("case", "case of the paper; p: fracture in 50 ms"),
+    of_words("kind", "case, doubled (grid), stiffness, straight (no gravity), series (of grids)", "run"),
     STATUS,
     Column("force_N", "N", "F", "static force on the end", 0),
     Column("breaking_time_s", "s", "t_br", "fracture time", 3),

@@ -20,11 +20,10 @@ from pathlib import Path
 import engine
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, Varied
-from campaigns.explore.settings import BUDGET, measures_of
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 
@@ -70,10 +69,13 @@ def grid_of(values) -> Grid:
     return Grid((Varied(SWEPT, SWEPT, None, tuple(values), COLUMN),))
 
 
-def cases(order: Order) -> Iterator[Job]:
+def cases(order: Order) -> list[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
+    return motions.with_kicks(order, _jobs(order))
+
+
+def _jobs(order: Order) -> Iterator[Job]:
     dimensions, base = dimensions_of(order), order.base()
-    scenes = []
     for place in order.options.grid.places():
         changes, _ = order.options.grid.changes(place, base)
         scene = judged_scene(order, {**_changes(dimensions), **changes})
@@ -86,13 +88,11 @@ def cases(order: Order) -> Iterator[Job]:
             if dimensions == "3":
                 scene = spatial
         if scene is not None:
-            scenes.append(scene)
             labels = place | {"dimensions": scene.motion.dimensions}
             yield judged_job(order, labels, scene, motions.start_of(order, scene))
-    motions.kicks_of(order, scenes)
 
 
-def _changes(dimensions: str) -> dict[str, object]:
+def _changes(dimensions: str) -> dict:
     """What a scene is changed by so that its runs have these dimensions; `auto` begins in the plane."""
     return {"motion.dimensions": (2, 3)[dimensions == "3"]}
 
@@ -107,26 +107,21 @@ def dimensions_of(order: Order) -> str:
     return str(scene.motion.dimensions)
 
 
-def kicks_of(order: Order) -> int | None:
-    """Kicks at each value; None: runs from rest only (`campaigns.explore.sweep`)."""
-    return motions.kicks_of(order, order.scenes)
-
-
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """The runs in a plane, in space where needed, or of every motion."""
     if dimensions_of(order) == "auto":
-        return run_where_needed
-    return motions.runs(order, kicks_of(order))
+        return run_where_needed(plan, jobs)
+    return motions.runs(order, plan, jobs)
 
 
 def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.explore.rows import COLUMNS
 
-    return measures_of(order, COLUMNS, full=order.options.evidence == "full")
+    return motions.measures_of(order, COLUMNS)
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
     dimensions, push_mps = dimensions_of(order), None
     if dimensions != "2":
@@ -140,7 +135,7 @@ def parameters(order: Order) -> dict[str, object]:
         "dimensions": dimensions,
         "push_mps": push_mps,
         "accuracy": not order.options.no_accuracy,
-        **motions.parameters(order, kicks_of(order)),
+        **motions.parameters(order),
     }
 
 
@@ -164,7 +159,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     folders = []
     if not order.options.no_accuracy:
         folders.append("companions")
-    if kicks_of(order) is not None:
+    if motions.kicks_of(order) is not None:
         folders.append("ends")
     tables = motions.tables_of(order.how.out, *folders)
     return sentences(rows, "steepness", "kA", order.cases[0].scene, **tables)
@@ -174,7 +169,7 @@ STUDY = Study(
     name="buoy_sweep",
     protocol=__doc__,
     scene="tethered_buoy",
-    lengths=Lengths(periods=300, transient=100, budget=BUDGET),
+    lengths=Lengths(periods=300, transient=100, budget=motions.BUDGET),
     in_waves=True,
     taken={
         SWEPT: "use --steepness",

@@ -8,11 +8,13 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import pairwise
+from operator import itemgetter
 from statistics import median
 
 from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of, regimes
 from campaigns.explore.motions import from_rest
 from campaigns.machinery.session import MOST_LINES
+from engine.natural_frequencies import natural_frequencies
 from engine.views import in_regular_waves
 from tables import (
     BUOY_HEIGHT,
@@ -62,33 +64,31 @@ def sentences(
 
 def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """The largest jump in numbers, and where the next ones are. rows: sorted."""
-    pairs, sizes = [], []
+    pairs = []
     for below, above in pairwise(rows):
-        if number_of(below, PEAK) > 0.0 and number_of(above, PEAK) > 0.0:
-            size = abs(math.log(number_of(above, PEAK) / number_of(below, PEAK)))
-            sizes.append(size)
-            pairs.append((size, below, above))
+        if below[PEAK] > 0.0 and above[PEAK] > 0.0:
+            pairs.append((abs(math.log(above[PEAK] / below[PEAK])), below, above))
     if not pairs:
         return
-    least = max(LEAST_JUMP, TYPICAL * median(sizes))
+    least = max(LEAST_JUMP, TYPICAL * median(map(itemgetter(0), pairs)))
     large = [pair for pair in pairs if pair[0] > least]
-    large.sort(key=lambda pair: -pair[0])
+    large.sort(key=itemgetter(0), reverse=True)
     for _, below, above in large[:1]:
         swing_below, swing_above, growth = _swing(below), _swing(above), math.inf
         if swing_below:
             growth = swing_above / swing_below
         slack_below, slack_above = number_of(below, "slack_fraction"), number_of(above, "slack_fraction")
         yield (
-            f"Between {symbol} = {number_of(below, key):.4g} and {number_of(above, key):.4g} the motion jumps to one "
+            f"Between {symbol} = {below[key]:.4g} and {above[key]:.4g} the motion jumps to one "
             f"{growth:.2g} times as large: peak tension {_change(below, above)}, "
             f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, time with less than 5 % of the static tension "
             f"{100.0 * slack_below:.0f} -> {100.0 * slack_above:.0f} %."
         )
-    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: number_of(pair[1], key))
+    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: pair[1][key])
     if smaller:
         places = []
         for _, below, above in smaller:
-            places.append(f"{number_of(below, key):.4g} and {number_of(above, key):.4g} ({_change(below, above)})")
+            places.append(f"{below[key]:.4g} and {above[key]:.4g} ({_change(below, above)})")
         yield f"{SMALLER} {symbol} = {listed(places)}."
 
 
@@ -100,17 +100,15 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
     """Where one value has several motions, and that of them which pulls most beyond the usual one."""
     by_value: dict[float, list[Row]] = {}
     for row in rows:
-        by_value.setdefault(number_of(row, key), []).append(row)
-    worst, usual, largest_ratio = None, None, -math.inf
+        by_value.setdefault(row[key], []).append(row)
+    pairs = []
     for motions in by_value.values():
         if len(motions) > 1:
-            hardest = greatest(motions, PEAK)
-            base = min(motions, key=lambda row: (not from_rest(row), number_of(row, PEAK)))
-            ratio = number_of(hardest, PEAK) / max(number_of(base, PEAK), 1e-9)
-            if ratio > largest_ratio:
-                worst, usual, largest_ratio = hardest, base, ratio
-    if worst is None:
+            base = min(motions, key=lambda row: (not from_rest(row), row[PEAK]))
+            pairs.append((greatest(motions, PEAK), base))
+    if not pairs:
         return
+    worst, usual = max(pairs, key=lambda pair: pair[0][PEAK] / max(pair[1][PEAK], 1e-9))
     several = ranges([*by_value], [len(motions) > 1 for motions in by_value.values()], 2)
     sentence = f"One wave has several motions at {symbol} = {several}"
     if worst is not usual:
@@ -118,8 +116,8 @@ def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
         if from_rest(usual):
             rest = "the one from rest"
         sentence += (
-            f"; at {symbol} = {number_of(worst, key):.4g} motion {worst['motion']} pulls "
-            f"{kilonewton(number_of(worst, PEAK))}, {rest} {kilonewton(number_of(usual, PEAK))}"
+            f"; at {symbol} = {worst[key]:.4g} motion {worst['motion']} pulls "
+            f"{kilonewton(worst[PEAK])}, {rest} {kilonewton(usual[PEAK])}"
         )
         kicks = of_kicks(worst)
         if kicks != EMPTY:
@@ -135,39 +133,36 @@ def _ends(rows: Sequence[Row], key: str, ends: Sequence[Row]) -> Iterator[str]:
     sides = {"upper": "above", "lower": "below"}
     words = []
     for end in ends:
-        exact = number_of(end, f"{key}_end")
+        exact, inside, outside = (number_of(end, f"{key}_{side}") for side in ("end", "with", "without"))
+        value = f"{0.5 * (inside + outside):.3g}"
         if math.isfinite(exact):
             value = f"{exact:.4g} ({end['kind']})"
-        else:
-            value = f"{0.5 * (number_of(end, f'{key}_with') + number_of(end, f'{key}_without')):.3g}"
         sentence = f"{end['motion']} {sides[end['end']]} {value}"
         if end.get("leads_to"):
             sentence += f", into {end['leads_to']}"
         words.append(sentence)
-    unnamed, rest = words[MOST_ENDS:], ""
-    if unnamed:
-        rest = f"; {len(unnamed)} more in ends/table.csv"
-    yield f"Motions end: {listed(words[:MOST_ENDS])}{rest}."
+    sentence = f"Motions end: {listed(words[:MOST_ENDS])}"
+    if len(words) > MOST_ENDS:
+        sentence += f"; {len(words) - MOST_ENDS} more in ends/table.csv"
+    yield f"{sentence}."
 
 
 def _change(before: Row, after: Row) -> str:
     """ "4.4 -> 9.4 kN"."""
-    return f"{number_of(before, PEAK) / 1e3:.2g} -> {number_of(after, PEAK) / 1e3:.2g} kN"
+    return f"{before[PEAK] / 1e3:.2g} -> {after[PEAK] / 1e3:.2g} kN"
 
 
 def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> Iterator[str]:
     """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
-    peak, static_N = greatest(rows, PEAK), static_tension(scene)
-    sentence = f"Largest tension {largest(peak)} at {symbol} = {number_of(peak, key):.4g}"
+    peak, modes = greatest(rows, PEAK), scene and natural_frequencies(scene)
+    sentence = f"Largest tension {largest(peak)} at {symbol} = {peak[key]:.4g}"
     if not from_rest(peak):
         sentence += f", motion {peak['motion']}"
-    if static_N:
-        sentence += f" ({number_of(peak, PEAK) / static_N:.1f} times static)"
+    if modes and modes.static_tension_N:  # else there is no closed form
+        sentence += f" ({peak[PEAK] / modes.static_tension_N:.1f} times static)"
     sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
     for row in sound:
-        if number_of(row, key) == number_of(peak, key) and str(row.get("motion") or "") == str(
-            peak.get("motion") or ""
-        ):
+        if number_of(row, key) == peak[key] and (row.get("motion") or "") == (peak.get("motion") or ""):
             sentence += f"; with the {CAPPED} {kilonewton(number_of(row, PEAK))}"
     yield f"{sentence}."
     if scene is None:
@@ -180,7 +175,7 @@ def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[
     head = "Largest tension without that:"
     if usable in sound:
         head = f"With the {CAPPED} the largest tension is"
-    yield f"{head} {largest(usable)} at {symbol} = {number_of(usable, key):.4g}. {use_of(usable, scene, searched)}"
+    yield f"{head} {largest(usable)} at {symbol} = {usable[key]:.4g}. {use_of(usable, scene, searched)}"
 
 
 def use_of(row: Row, scene, searched: bool) -> str:
@@ -191,11 +186,6 @@ def use_of(row: Row, scene, searched: bool) -> str:
     doubts = [*reasons(row, scene)]
     if doubts:
         return f"It is no load to design for, because {listed(doubts)}."
-    return _checks(row, scene, searched)
-
-
-def _checks(row: Row, scene, searched: bool) -> str:
-    """The checks that the tension of a row has passed, and those that were not made."""
     error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
     grid = "grid and steps"
     if math.isfinite(error):
@@ -237,11 +227,3 @@ def reasons(row: Row, scene) -> Iterator[str]:
         yield f"it holds to {100.0 * number_of(row, PEAK_ERROR) / number_of(row, PEAK):.0f} % only"
     if OTHER_MOTION in str(row.get("message")):
         yield f"with smaller elements and steps it {OTHER_MOTION}"
-
-
-def static_tension(scene) -> float | None:
-    """The tension of the buoy at rest (N), None where there is no closed form."""
-    from engine.natural_frequencies import natural_frequencies
-
-    modes = scene and natural_frequencies(scene)
-    return modes and modes.static_tension_N

@@ -7,7 +7,6 @@ profiles of every run would be gigabytes. Where no run goes slack nothing snaps,
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
 
@@ -17,14 +16,15 @@ from campaigns.answers import greatest
 from campaigns.explore.judgement import Judgement
 from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
+from campaigns.explore.starts import run_within
 from campaigns.judge import LATERAL, TANGENTS, job_from
-from campaigns.machinery.folder import claimed, run_of
+from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.runner import groups_of, run
+from campaigns.machinery.runner import groups_of
 from engine.scene import scene_from_toml
-from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, counted, names
+from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, Row, counted, names
 
-ROLE = Column("role", symbol="role", meaning="what was changed in the run of table.csv")
+ROLE = Column("role", "", "role", "what was changed in the run of table.csv")
 NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
@@ -36,34 +36,19 @@ BETWEEN_PERIODS, COMPANION_PERIODS = 42, 60  # of each the later third, or half,
 PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
 
 
-@dataclass(frozen=True)
-class Batch:
-    """Jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
+def batch(
+    plan: Plan, folder: str, title: str, columns: tuple[Column, ...], row: Callable, jobs: list[Job], **changes
+) -> float:
+    """Do the jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
 
-    together: whether runs may share a worker, where times are not those of a run alone; title: of the progress.
+    Without a job the table of an earlier batch in this folder is emptied. title: of the progress. changes: further ones
+    of the plan. Returns seconds of analysis. Raises as `runner.run`.
     """
-
-    folder: str
-    title: str
-    columns: tuple[Column, ...]
-    row: Callable
-    jobs: list[Job]
-    together: bool = False
-
-    def do(self, plan: Plan) -> float:
-        """Do the runs that are not there yet; returns seconds of analysis.
-
-        Without a job the table of an earlier batch in this folder is emptied. Raises as `runner.run`.
-        """
-        out = plan.how.out / self.folder
-        if not self.jobs and not out.exists():
-            return 0.0
-        how = replace(plan.how, out=out)
-        batch = replace(plan, how=how, columns=self.columns, title=self.title, describe=self.row, judge=None)
-        if not self.together:
-            batch = replace(batch, simulate_each=None)
-        with claimed(out):
-            return run(batch, self.jobs)[1].analysis_s
+    out = plan.how.out / folder
+    if not jobs and not out.exists():
+        return 0.0
+    _, summary = run_within(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
+    return summary.analysis_s
 
 
 def unfollowed(scene, changes: dict):
@@ -71,7 +56,7 @@ def unfollowed(scene, changes: dict):
     return scene_from_toml(scene.to_toml(), UNFOLLOWED | changes)
 
 
-def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> dict[str, object]:
+def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> Row:
     """What a run fills of these columns without a verdict."""
     row = buoy_row(trajectory, Judgement(transient_periods)) | {"nodes": trajectory.scene.tether.nodes}
     return {name: row[name] for name in names(columns) if name in row}
@@ -80,19 +65,17 @@ def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) ->
 def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
-    values, fine = sorted(scenes), []
+    values, jobs = sorted(scenes), []
     ends = np.linspace(0, max(LEAST_COLUMNS - len(values), 0), len(values)).round().astype(int)  # of those in the gaps
     for (low, high), count in zip(pairwise(values), np.diff(ends), strict=True):
         for number in range(1, count + 1):
-            fine.append(float(f"{low + (high - low) * number / (count + 1):.12g}"))
-    jobs = []
-    for value in fine:
-        scene = unfollowed(scenes[values[0]], {key: value})
-        jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
+            value = float(f"{low + (high - low) * number / (count + 1):.12g}")
+            scene = unfollowed(scenes[values[0]], {key: value})
+            jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
     if not groups_of(plan, jobs):
         jobs = []
     row = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
-    return Batch("between", "values between", BETWEEN, row, jobs, together=True).do(plan)
+    return batch(plan, "between", "values between", BETWEEN, row, jobs)
 
 
 def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
@@ -113,7 +96,7 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
         if not groups_of(plan, jobs):
             jobs = largest
     row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
-    return Batch("companions", "runs with the wetted cap", COMPANIONS, row, jobs, together=True).do(plan)
+    return batch(plan, "companions", "runs with the wetted cap", COMPANIONS, row, jobs)
 
 
 def start_of(plan: Plan, row: dict):
@@ -138,4 +121,6 @@ def close_up(plan: Plan, summary: Summary, periods: int) -> float:
         profiles = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         labels = {"steepness": row["steepness"], "motion": row.get("motion"), "periods": length}
         jobs.append(job_from(labels, unfollowed(scene, profiles), length, start))
-    return Batch("close_up", "the close-up", CLOSE_UP, partial(counted, columns=(WALL_S,)), jobs).do(plan)
+    row = partial(counted, columns=(WALL_S,))
+    # its time is that of a run alone
+    return batch(plan, "close_up", "the close-up", CLOSE_UP, row, jobs, simulate_each=None)

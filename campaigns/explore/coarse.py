@@ -3,11 +3,14 @@
 Every motion that is known at a place is carried to the coarse line, and has its coarse form there. A start that joins
 the coarse form of a motion ends in that motion. All others run on the line itself: those that find something else, or
 nothing; and all of a place one of whose motions has no coarse form. What a coarse line says is checked: of the starts
-that joined a motion on it every CHECKED-th runs on the line itself, too; of places where one ends otherwise, all do.
+that joined a motion on it every CHECKED-th runs on the line itself, too. Where more than MISSED of them end otherwise,
+all starts of the place run there. The border of two basins may lie a little elsewhere on a coarse line: starts beside
+one that ends otherwise run on the line itself (`Motions.run_starts`).
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
     from campaigns.explore.starts import Ending
 
 COARSER, LEAST_NODES = 4, 33  # times fewer elements; nodes of a line that has a coarse one
-CHECKED = 8
+CHECKED, MISSED = 8, 0.15
 ALIKE = 0.2  # distance of a motion from its coarse form; motions are 0.3 apart or more (docs/motions.md)
 CARRIED = "carried to the coarse line"
 
@@ -82,20 +85,13 @@ def coarse_forms(motions: Motions, places: Sequence[int], scenes: Mapping[int, o
 def wrong_places(
     motions: Motions, title: str, starts: Sequence[tuple[int, Start]], joined: Mapping[int, Ending]
 ) -> set[int]:
-    """The places where a start ends otherwise on the line itself, of those that are checked."""
-    known = [[motion.settled for motion in motions_here] for motions_here in motions.at]
+    """The places where more than MISSED of the starts that are checked end otherwise on the line itself."""
     checked = list(joined)[::CHECKED]
-    requests = []
-    for number in checked:
-        place, start = starts[number]
-        requests.append(Request(motions.name_of(place), motions.jobs[place].scene, start, known[place]))
+    requests = [motions.request(*starts[number]) for number in checked]
     endings = motions.starts.run(f"{title}, checked on the line itself", requests, listed=False)
-    wrong = set()
+    checks, misses = Counter(), Counter()
     for number, ending in zip(checked, endings, strict=True):
         place, _ = starts[number]
-        joins = ending.joins
-        if ending.settled is not None:
-            joins = ending.same_as(known[place])
-        if joins != joined[number].joins:
-            wrong.add(place)
-    return wrong
+        checks[place] += 1
+        misses[place] += motions.known(place, ending) is not joined[number].motion
+    return {place for place in misses if misses[place] > MISSED * checks[place]}

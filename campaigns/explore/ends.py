@@ -3,22 +3,21 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, settled_in, subfolder
+from analysis import distance
+from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import JOINED, MESSAGE, RUN_KEY, STATUS, Column, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
-LEADS_TO = Column(
-    "leads_to", symbol="leads to", meaning="letter of the motion that it becomes there; empty where none settled"
-)
+LEADS_TO = Column("leads_to", "", "leads to", "letter of the motion that it becomes there; empty where none settled")
 _EXACT = "where the motion ends, by its orbit, which stops being stable there; empty where no orbit tells it"
 SHIFTED = 0.01  # of a value: by what the tolerance of a sweep may move an end
 FOLDER = "ends"
-KIND = Column("kind", symbol="by", meaning="what ends it: fold, flip or torus point of its orbit; empty: not known")
+KIND = Column("kind", "", "by", "what ends it: fold, flip or torus point of its orbit; empty: not known")
 BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
-END = Column("end", symbol="end", meaning="lower or upper end of the range of the motion")
+END = Column("end", "", "end", "lower or upper end of the range of the motion")
 TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
 
 
@@ -43,7 +42,7 @@ class _End:
     def middle(self) -> float:
         return float(f"{0.5 * (self.inside + self.outside):.12g}")
 
-    def columns(self, key: Column) -> dict[str, object]:
+    def columns(self, key: Column) -> Row:
         """Those that do not come from an orbit."""
         return {
             "motion": self.motion.branch.letter,
@@ -75,14 +74,14 @@ def columns(key: Column) -> tuple[Column, ...]:
     )
 
 
-def find_ends(motions: Motions, scene_at: Callable) -> list[dict[str, object]]:
+def find_ends(motions: Motions, scene_at: Callable) -> list[Row]:
     """The ends of all branches of a sweep, each bisected with the state of its motion; rows of `columns`.
 
     scene_at: the scene of a value; None where there is none, as between two whole numbers.
     Writes ends/table.csv. Raises as `runner.run`.
     """
     (key,) = motions.keys
-    values = _values(motions)
+    values = [job.labels[key.name] for job in motions.jobs]
     ends = [*_ends_of(motions, values)]
     width = (max(values) - min(values)) / SHARPNESS
     while True:
@@ -95,16 +94,10 @@ def find_ends(motions: Motions, scene_at: Callable) -> list[dict[str, object]]:
             requests.append(Request({key.name: end.middle()}, scene_at(end.middle()), start, most=MOST))
         for end, ending in zip(wide, motions.starts.run("ends of ranges", requests), strict=True):
             _narrow(motions, end, ending)
-    exact = by_orbits(motions, ends, scene_at)
+    exact = by_orbits(motions, values, ends, scene_at)
     rows = [{**end.columns(key), **exact.get(end, {})} for end in ends]
     write_table(subfolder(motions.plan, FOLDER) / "table.csv", columns(key), rows)
     return rows
-
-
-def _values(motions: Motions) -> list[float]:
-    """The values of a sweep over one key."""
-    (key,) = motions.keys
-    return [job.labels[key.name] for job in motions.jobs]
 
 
 def _ends_of(motions: Motions, values: Sequence[float]) -> Iterator[_End]:
@@ -142,22 +135,17 @@ def _narrow(motions: Motions, end: _End, ending: Ending) -> None:
 
 def nearest(settled, motions: Sequence[Motion]) -> Motion:
     """The motion that is nearest to what a start has settled to."""
-    from analysis import distance
-
     return min(motions, key=lambda motion: distance(settled, motion.settled))
 
 
-def by_orbits(motions: Motions, ends: Sequence[_End], scene_at: Callable) -> dict[_End, dict[str, object]]:
+def by_orbits(motions: Motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable) -> dict[_End, Row]:
     """The columns of the ends at which an orbit stops being stable, as the bisection says; the others have none.
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
-    from campaigns.explore.orbit_tasks import lost
-    from campaigns.explore.tracing import Line, line_task, work
+    from campaigns.explore.tracing import Line, line_task, lost, work
 
-    (key,) = motions.keys
-    values = _values(motions)
-    span, tasks = max(values) - min(values), {}
+    (key,), span, tasks = motions.keys, max(values) - min(values), {}
     for end in ends:
         period = end.motion.settled.period
         if period and end.row["status"] == "ok":
@@ -186,15 +174,15 @@ def confirm(motions: Motions) -> None:
         motion = max(branch, key=lambda motion: motion.tension_N)
         if motion.state is None:
             continue
-        scene, known = motions.jobs[motion.place].scene, settled_in(motions.at[motion.place])
+        scene = motions.jobs[motion.place].scene
         changed = {TIGHTER: finer(scene, steps=10), FINER.format(2 * scene.tether.nodes - 1): finer(scene, elements=2)}
         for change, changed_scene in changed.items():
             start = motions.fine(motion.place, Start(change, state=motion.state.at_zero()))
-            requests.append(Request(motions.name_of(motion.place), changed_scene, start, known))
+            requests.append(motions.request(motion.place, start, changed_scene))
             chosen.append((motion, change))
     words: dict[Motion, list[str]] = {}
     for (motion, change), ending in zip(chosen, motions.starts.run("motions confirmed", requests), strict=True):
-        if ending.row.get("outcome") == JOINED:
+        if ending.joins is not None:
             ending.motion = motions.at[motion.place][ending.joins]
         elif ending.settled is not None:
             ending.motion = nearest(ending.settled, motions.at[motion.place])

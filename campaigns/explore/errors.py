@@ -30,13 +30,14 @@ from typing import NamedTuple
 
 import numpy as np
 
+from analysis import block_maxima, joins
 from campaigns.answers import kilonewton
-from campaigns.explore.approach import orbit_ahead
-from campaigns.explore.batches import UNFOLLOWED, Batch
+from campaigns.explore.batches import UNFOLLOWED, batch
+from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
-from campaigns.explore.starts import OUTCOME, as_it_is, section_of, settled_of
+from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
-from campaigns.judge import job_from
+from campaigns.judge import job_from, periods_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
@@ -56,6 +57,7 @@ from tables import (
     UNSETTLED,
     WALL_S,
     Column,
+    Row,
     counted,
     finite,
     number_of,
@@ -65,7 +67,7 @@ from tables import (
 
 FOLDER = "errors"
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
-FOR = Column("of_run", symbol="of", meaning="content key of the run of table.csv whose companion this is")
+FOR = Column("of_run", "", "of", "content key of the run of table.csv whose companion this is")
 USUAL = Column(
     "tension_usual_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods at the end", 0
 )
@@ -86,8 +88,7 @@ def errors(plan: Plan, summary: Summary) -> float:
     if plan.simulate is simulate:
         compared = list(filter(None, map(partial(_companion, plan), summary.rows)))
     jobs = [companion.job for companion in compared]
-    batch = Batch(FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs, together=True)
-    analysis_s = batch.do(plan)
+    analysis_s = batch(plan, FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs)
     if not jobs:
         return analysis_s
     ended = {row["of_run"]: row for row in read_table(plan.how.out / FOLDER / "table.csv")}
@@ -114,11 +115,8 @@ class _Companion(NamedTuple):
 
 def _companion(plan: Plan, row: dict) -> _Companion | None:
     """The companion of a row; None where there can be none."""
-    transient = row.get("transient_periods")
-    if transient is None:
-        return None
-    run = run_of(plan.how.out, row)
-    if run is None:
+    transient, run = row.get("transient_periods"), run_of(plan.how.out, row)
+    if transient is None or run is None:
         return None
     orbits = orbits_in(plan.how.out)
     scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)
@@ -130,19 +128,17 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     if period:
         length = max(REPEATING, 3 * period)
     if row.get("regime"):
-        motion = settled_of(run, orbits) or as_it_is(run)
+        motion = reached(run, orbits)
     length = min(length, round(row["periods"]))
     job = job_from({"of_run": row["run_key"]}, scene, length, run.final_state.at_zero())
     job = replace(job, describe=partial(companion_row, period=period, motion=motion))
     return _Companion(job, row, usual_max_N(run, transient, period), slack_shares(run, transient, period))
 
 
-def companion_row(trajectory, period: int | None = None, motion=None) -> dict[str, object]:
+def companion_row(trajectory, period: int | None = None, motion=None) -> Row:
     """The columns of COLUMNS that a companion fills. period, motion (`analysis.Settled`): of its row, where known."""
-    from analysis import joins
-
     scene, row = trajectory.scene, counted(trajectory, (WALL_S,))
-    row["periods"] = (len(trajectory.columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
+    row["periods"] = periods_of(scene, trajectory.columns)
     if trajectory.status == "ok":
         row[USUAL.name] = usual_max_N(trajectory, LEFT_OUT * row["periods"], period)
         shares = slack_shares(trajectory, LEFT_OUT * row["periods"], period)
@@ -162,19 +158,12 @@ def usual_max_N(trajectory, transient_periods: float, period: int | None) -> flo
     if period:
         samples = round(_whole(period) * scene.waves.period_s / scene.sample_step_s())
         return float(columns["tension_top_high_N"][-samples:].max())
-    largest = _maxima_of_blocks(scene, columns, transient_periods)
+    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
+    first = round(transient_periods * period_s / step_s) + 1
+    largest = block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
     if not len(largest):
         return math.nan
     return float(largest.mean())
-
-
-def _maxima_of_blocks(scene, columns, transient_periods: float) -> np.ndarray:
-    """The largest tension (N) of every BLOCK wave periods after the transient."""
-    from analysis import block_maxima
-
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    first = round(transient_periods * period_s / step_s) + 1
-    return block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
 
 
 def slack_shares(trajectory, transient_periods: float, period: int | None) -> np.ndarray:

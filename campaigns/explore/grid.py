@@ -14,7 +14,7 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Order
-from tables import Column, names
+from tables import Column, Row, names
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Varied:
     column: Column
     part: str = ""
 
-    def put(self, value: float, base, changes: dict[str, object]) -> Iterator[str]:
+    def put(self, value: float, base, changes: dict) -> Iterator[str]:
         """Put a value into the changes of a scene; yields the fault of a list that has no such element.
 
         base: the scene whose list it is; two keys may change two elements of one list.
@@ -69,45 +69,38 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
     from engine.scene.reference import keys
 
     key = words[0]
-    element = re.fullmatch(r"(.+)\[(\d+)\](?:\.(\w+))?", key)
-    list_name, index, part = key, None, ""
-    if element:
-        list_name, index, part = element[1], int(element[2]), element[3] or ""
-    name = list_name
-    if part:
-        name = f"{list_name}.{part}"
-    declared_keys = keys()
-    text = of_words and name in declared_keys and declared_keys[name].kind == "text"
+    list_name, element, part = re.fullmatch(r"(.*?)(?:\[(\d+)\](?:\.(\w+))?)?", key).groups("")
+    name = ".".join(filter(None, (list_name, part)))
+    declared = keys().get(name)
+    kind = declared and declared.kind
+    text, digits = of_words and kind == "text", None
     if text:
-        values = list(dict.fromkeys(words[1:]))
+        values = words[1:]
+        if not values:
+            faults.append(f"{option} {key}: given nothing; allowed: its words")
     else:
         values = cli.evenly(words[1:], f"{option} {key}", faults)
-    if name not in declared_keys:
-        faults.append(f"{option} {key}: no such key{suggestion(name, list(declared_keys))}")
+        digits = max((len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values), default=0)
+    if declared is None:
+        faults.append(f"{option} {key}: no such key{suggestion(name, list(keys()))}")
         return None
-    declared = declared_keys[name]
-    kind = declared.kind
-    if kind not in ("number", "whole number") and not (kind == "list" and element) and not text:
-        allowed = "a key that holds a number"
-        if kind == "list":
-            allowed = f"one element of it, as {name}[0]"
-        faults.append(f"{option} {key}: holds a {kind}; allowed: {allowed}")
+    if kind == "list" and not element:
+        faults.append(f"{option} {key}: holds a list; allowed: one element of it, as {name}[0]")
         return None
-    if text and not values:
-        faults.append(f"{option} {key}: given nothing; allowed: its words")
+    if kind not in ("number", "whole number", "list") and not text:
+        faults.append(f"{option} {key}: holds a {kind}; allowed: a key that holds a number")
+        return None
     if kind == "whole number":
-        values = list(dict.fromkeys(map(round, values)))
+        values, digits = map(round, values), 0
+    values = tuple(dict.fromkeys(values))
     if not values:
         return None
-    unit, symbol, digits = declared.unit, declared.symbol, None
-    if unit == "1":
-        unit = ""
+    symbol = declared.symbol
     if symbol in ("", "-", "–"):
         symbol = key.rpartition(".")[2]
-    if not text:
-        digits = max(len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values)
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
-    return Varied(key, list_name, index, tuple(values), Column(key, unit, symbol, meaning, digits), part)
+    column = Column(key, declared.unit.removesuffix("1"), symbol, meaning, digits)
+    return Varied(key, list_name, int(element) if element else None, values, column, part)
 
 
 @dataclass(frozen=True)
@@ -121,20 +114,24 @@ class Grid:
         """Those that name a place."""
         return tuple(key.column for key in self.keys)
 
-    def places(self) -> Iterator[dict[str, object]]:
+    def places(self) -> Iterator[Row]:
         """The columns of every place."""
         for values in product(*(key.values for key in self.keys)):
             yield dict(zip(names(self.columns), values, strict=True))
 
-    def changes(self, place: dict[str, object], base) -> tuple[dict[str, object], list[str]]:
+    def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
+        """A key that is varied cannot be set too."""
+        order.tell(f"--set {key.key}: this campaign sets it{instead}" for key in self.keys if key.key in order.changes)
+
+    def changes(self, place: Row, base) -> tuple[dict, list[str]]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
-        changes: dict[str, object] = {}
+        changes = {}
         faults: list[str] = []
         for key in self.keys:
             faults += key.put(place[key.column.name], base, changes)
         return changes, faults
 
-    def job(self, order: Order, place: dict[str, object], most: int | None = None, **labels: object) -> Job | None:
+    def job(self, order: Order, place: Row, most: int | None = None, **labels: object) -> Job | None:
         """The judged run from rest of a place, with more labels; None where there is no such scene: it is told.
 
         most: as of `campaigns.judge.judged_job`.

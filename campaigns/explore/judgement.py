@@ -8,14 +8,13 @@ from dataclasses import dataclass, replace
 
 from analysis import Exponent, Verdict, next_look
 from analysis.looks import CLOSE
-from campaigns.explore.approach import orbit_ahead
-from campaigns.explore.multipliers import OrbitUnder, orbit_under
+from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_under
 from campaigns.explore.rows import sound_part
-from campaigns.judge import LEAST_JUDGED, motion_of, record_regime, tangent_of
+from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, tangent_of
 from campaigns.machinery.long_runs import OPEN
 from campaigns.machinery.store import Store
 from engine.trajectory import Trajectory
-from engine.views import carried, carries_tangents
+from engine.views import carried, carries_tangents, in_regular_waves
 
 
 @dataclass(frozen=True)
@@ -44,13 +43,15 @@ class Judgement:
     @property
     def tighter(self) -> str | None:
         """The regime of a motion that went on at a tighter tolerance; None where it did not."""
-        return _tighter(self.verdict)
+        if any(test.name == "tighter tolerance" and test.passed is not None for test in self.verdict.evidence):
+            return self.verdict.regime
+        return None
 
 
 def judgement_of(
     trajectory: Trajectory, checks: dict | None, orbits: Store, transient_periods: int | None, full: int | None = None
-) -> Judgement:
-    """How a run of the tethered buoy is judged (`campaigns.judge`).
+) -> Judgement | None:
+    """How a run of a buoy in regular waves is judged (`campaigns.judge`); None of any other line.
 
     It gets a verdict if it reached its end and lasts for two looks; in three dimensions, where no perturbations are
     carried, for 40 periods.
@@ -60,61 +61,46 @@ def judgement_of(
     full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
     origin are asked for too; the verdict does not rest on them. None: they are not made.
     """
-    periods = periods_of(trajectory)
-    verdict, wolf = judged(trajectory, periods, transient_periods, checks)
+    transient, scene, verdict, wolf = transient_periods or 0, trajectory.scene, None, None
+    if not in_regular_waves(scene):
+        return None
+    periods = periods_of(scene, sound_part(trajectory.columns))
+    if trajectory.status != "ok":
+        return Judgement(transient)
+    if carries_tangents(scene):
+        if transient_periods is None or (carried(trajectory) and periods >= next_look(next_look())):
+            verdict = motion_of(trajectory, checks)
+    elif scene.motion.dimensions == 3 and periods - transient >= LEAST_JUDGED:
+        verdict, wolf = record_regime(trajectory, transient)
+    judgement = Judgement(transient, verdict, wolf=wolf)
     if verdict is None:
-        return Judgement(transient_periods or 0)
-    judgement = Judgement(0, verdict, wolf=wolf)
+        return judgement
     if transient_periods is None:
         judgement = _with_orbit(trajectory, judgement, orbits)
-        transient_periods = judgement.verdict.transient
-    verdict = judgement.verdict
-    tangent = tangent_of(trajectory, transient_periods)
-    record = None
-    goes_on = verdict.regime in OPEN or (verdict.regime == "chaotic" and _tighter(verdict) is None)
-    if full is not None and wolf is None and (periods > full - 0.5 or not goes_on):
-        record, wolf = record_regime(trajectory, transient_periods, tangent)
-    return replace(judgement, transient=transient_periods, record=record, wolf=wolf, tangent=tangent)
-
-
-def periods_of(trajectory: Trajectory) -> float:
-    """Wave periods of a run, up to the first sample that is not finite."""
-    scene = trajectory.scene
-    return (len(sound_part(trajectory.columns)["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
-
-
-def judged(trajectory: Trajectory, periods: float, transient_periods: int | None, checks: dict | None):
-    """The Verdict on a run, and where its samples alone were judged Wolf's exponent; None where there is none."""
-    scene = trajectory.scene
-    transient = transient_periods or 0
-    if trajectory.status != "ok":
-        return None, None
-    if carries_tangents(scene):
-        wanted = transient_periods is None or (carried(trajectory) and periods >= next_look(next_look()))
-        return (motion_of(trajectory, checks) if wanted else None), None
-    if scene.motion.dimensions == 3 and periods - transient >= LEAST_JUDGED:
-        return record_regime(trajectory, transient)
-    return None, None
+        transient = judgement.verdict.transient
+    judgement = replace(judgement, transient=transient, tangent=tangent_of(trajectory, transient))
+    regime = judgement.verdict.regime
+    goes_on = regime in OPEN or (regime == "chaotic" and judgement.tighter is None)
+    if full is None or wolf is not None or (goes_on and periods <= full - 0.5):
+        return judgement
+    record, wolf = record_regime(trajectory, transient, judgement.tangent)
+    return replace(judgement, record=record, wolf=wolf)
 
 
 def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> Judgement:
     """The judgement with the orbit under the run, and with what that orbit says of the verdict."""
-    verdict = judgement.verdict
+    verdict, orbit = judgement.verdict, None
     if verdict.regime in (*OPEN, "quasi-periodic"):
         verdict, orbit = judged_by_orbit(trajectory, verdict, orbits)
-        if orbit is not None:
-            return replace(judgement, verdict=verdict, orbit=orbit, limit=True)
-    if not verdict.period or trajectory.final_state is None:
-        return replace(judgement, verdict=verdict)
-    orbit, note = None, ""
+    if orbit is not None or not verdict.period or trajectory.final_state is None:
+        return replace(judgement, verdict=verdict, orbit=orbit, limit=orbit is not None)
     try:
         orbit = orbit_under(trajectory, verdict.period, orbits)
+        if orbit.period != verdict.period:
+            raise ArithmeticError(f"the orbit under it has period {orbit.period}")
         note = orbit.words()
     except (ArithmeticError, ValueError) as why:
-        note = f"no multipliers: {why}"
-    if orbit is not None and orbit.period != verdict.period:
-        note = f"no multipliers: the orbit under it has period {orbit.period}"
-        orbit = None
+        orbit, note = None, f"no multipliers: {why}"
     loose = any(test.name == CLOSE and not test.passed for test in verdict.evidence)
     if loose and orbit is None:
         reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
@@ -138,8 +124,3 @@ def judged_by_orbit(trajectory: Trajectory, verdict: Verdict, orbits: Store) -> 
     reason = f"repeats after {orbit.period} wave period(s) in the limit: {approach.sentence}; extremes are the orbit's"
     transient = verdict.transient + verdict.points - points
     return Verdict(f"period-{orbit.period}", reason, evidence, orbit.period, points, verdict.seed, transient), orbit
-
-
-def _tighter(verdict: Verdict) -> str | None:
-    checked = any(test.name == "tighter tolerance" and test.passed is not None for test in verdict.evidence)
-    return verdict.regime if checked else None

@@ -4,23 +4,23 @@ The stages that find them are in `campaigns.explore.stages`. A motion at one pla
 a motion there which becomes it in turn, is one branch with that, and has one letter.
 """
 
-import contextlib
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
+from analysis import share_of
 from campaigns.explore.coarse import coarse_endings
-from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts
-from campaigns.machinery.folder import claimed, run_of
+from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
+from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.runner import run
 from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
-from tables import REGIMES, SHEET, Column, write_table
+from tables import REGIMES, SHEET, Column, Row, write_table
 
-MOTION = Column("motion", symbol="motion", meaning="letter of the motion, the same along a branch over the values")
+MOTION = Column("motion", "", "motion", "letter of the motion, the same along a branch over the values")
 MOTIONS = (
     MOTION,
     Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
@@ -30,9 +30,11 @@ MOTIONS = (
     FOUND_BY,
     Column(
         "confirmed",
-        symbol="confirmed",
-        meaning="whether its branch stays at a tenth of the tolerance and on a finer grid",
-        page=SHEET,
+        "",
+        "confirmed",
+        "whether its branch stays at a tenth of the tolerance and on a finer grid",
+        None,
+        SHEET,
     ),
 )
 UP, DOWN = 1, -1
@@ -105,10 +107,7 @@ def in_a_row(count: int) -> Callable[[int], dict[int, str]]:
     """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
 
     def neighbours(place: int) -> dict[int, str]:
-        beside = {place + step: found_by for step, found_by in CARRIED.items()}
-        for outside in (-1, count):
-            beside.pop(outside, None)
-        return beside
+        return {place + step: found_by for step, found_by in CARRIED.items() if 0 <= place + step < count}
 
     return neighbours
 
@@ -153,10 +152,9 @@ class Motions:
 
     def all_motions(self) -> Iterator[Motion]:
         """All motions, place by place."""
-        for motions in self.at:
-            yield from motions
+        return chain.from_iterable(self.at)
 
-    def name_of(self, place: int) -> dict[str, object]:
+    def name_of(self, place: int) -> Row:
         """The columns that name a place."""
         labels = self.jobs[place].labels
         return {key.name: labels[key.name] for key in self.keys}
@@ -165,12 +163,7 @@ class Motions:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
-        claim = contextlib.nullcontext()
-        if self.folder != self.plan.how.out:
-            claim = claimed(self.folder)
-        with claim:
-            plan = replace(self.plan, how=replace(self.plan.how, out=self.folder), title=title)
-            timing, summary = run(plan, list(jobs), ahead)
+        timing, summary = run_within(self.plan, self.folder, jobs, ahead, title=title)
         self.times.update(timing)
         self.computed |= summary.made
         self.rows |= summary.by_key
@@ -186,39 +179,53 @@ class Motions:
         return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
 
     def run_starts(
-        self, title: str, starts: Sequence[tuple[int, Start]], coarse_first: bool = False
+        self,
+        title: str,
+        starts: Sequence[tuple[int, Start]],
+        beside: Callable[[int], Iterable[int]] | None = None,
     ) -> list[Motion | None]:
         """Run starts at places; returns the motion in which each ended, None where it did not settle.
 
-        coarse_first: where they end is asked on a coarse line first (`campaigns.explore.coarse`).
+        beside: the numbers of the starts beside a start. Where it is given, a coarse line is asked first
+        (`campaigns.explore.coarse`). Starts beside one that ends in another motion then run on the line itself.
         """
-        endings: dict[int, Ending] = {}
-        if coarse_first:
-            endings = coarse_endings(self, title, starts)
-        settled = list(map(settled_in, self.at))
-        requests = {}
-        for number, (place, start) in enumerate(starts):
-            if number not in endings:
-                requests[number] = Request(self.name_of(place), self.jobs[place].scene, start, settled[place])
-        for number, ending in zip(requests, self.starts.run(title, [*requests.values()], listed=False), strict=True):
-            place, start = starts[number]
-            if ending.joins is not None:
-                ending.motion = self.at[place][ending.joins]  # new motions stand behind those it may join
-            elif ending.settled is not None:
-                ending.motion = self._motion_of(place, start, ending)
-            endings[number] = ending
+        coarse: dict[int, Ending] = {}
+        if beside is not None:
+            coarse = coarse_endings(self, title, starts)
+        endings = dict(coarse)
+        waiting = [number for number in range(len(starts)) if number not in coarse]
+        while waiting:
+            requests = [self.request(*starts[number]) for number in waiting]
+            for number, ending in zip(waiting, self.starts.run(title, requests, listed=False), strict=True):
+                place, start = starts[number]
+                ending.motion = self.known(place, ending)
+                if ending.motion is None and ending.settled is not None:
+                    ending.motion = Motion(place, ending.settled, ending.state, start.found_by)
+                    self.at[place].append(ending.motion)
+                endings[number] = ending
+            waiting = []
+            for number in coarse:
+                if any(endings[other].motion is not endings[number].motion for other in beside(number)):
+                    waiting.append(number)
+            for number in waiting:
+                del coarse[number]
         in_order = [endings[number] for number in range(len(starts))]
         self.starts.endings += in_order
         return [ending.motion for ending in in_order]
 
-    def _motion_of(self, place: int, start: Start, ending: Ending) -> Motion:
-        """The motion on which a start has settled: a known one, or a new one."""
-        motions = self.at[place]
-        number = ending.same_as(settled_in(motions))
-        if number is not None:
-            return motions[number]
-        motions.append(Motion(place, ending.settled, ending.state, start.found_by))
-        return motions[-1]
+    def request(self, place: int, start: Start, scene=None, **options) -> Request:
+        """A start in the scene of a place, or in another one with the same motions. options: fields of `Request`."""
+        scene = scene or self.jobs[place].scene
+        return Request(self.name_of(place), scene, start, settled_in(self.at[place]), **options)
+
+    def known(self, place: int, ending: Ending) -> Motion | None:
+        """The known motion in which a start at a place has ended; None where it has not settled, or on another one."""
+        number = ending.joins  # new motions stand behind those it may join
+        if number is None and ending.settled is not None:
+            number = ending.same_as(settled_in(self.at[place]))
+        if number is None:
+            return None
+        return self.at[place][number]
 
     def branches(self) -> list[list[Motion]]:
         """The motions of each branch, by place."""
@@ -227,22 +234,17 @@ class Motions:
             members.setdefault(motion.branch, []).append(motion)
         return [*members.values()]
 
-    def labels(self, motion: Motion) -> dict[str, object]:
+    def labels(self, motion: Motion) -> Row:
         """The columns MOTIONS of a motion."""
-        labels: dict[str, object] = {"motion": motion.branch.letter, "found_by": motion.found_by}
+        labels = {"motion": motion.branch.letter, "found_by": motion.found_by}
         if self.kicks:
-            from analysis import share_of
-
             share = share_of(motion.kicks, self.kicks)
             labels |= {"share": share.share, "share_low": share.low, "share_high": share.high, "kicks": self.kicks}
         return labels | {"confirmed": motion.branch.confirmed or None}
 
     def row_of(self, motion: Motion) -> dict:
         """The row of the judged run of a motion; {} where there is none yet."""
-        key = self.job_keys.get(motion, "")
-        if motion.found_by == FROM_REST:
-            key = self.jobs[motion.place].key
-        return self.rows.get(key, {})
+        return self.rows.get(self.job_keys.get(motion), {})
 
     def table(self) -> list[dict]:
         """A row for each motion, by place and letter; of a place whose run from rest has no motion, also that run's."""
@@ -266,8 +268,8 @@ class Motions:
 
     def timing(self) -> dict[str, float]:
         """Seconds of all runs, those of the starts among them."""
-        names = "compile_s", "run_s", "analysis_s"
-        return {name: self.times[name] + self.starts.times[name] for name in names}
+        times = self.times + self.starts.times
+        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}
 
 
 def subfolder(plan: Plan, name: str) -> Path:

@@ -1,4 +1,5 @@
-"""The periodic orbit under a run of a buoy in regular waves: its multipliers, with their errors.
+"""The periodic orbit under a run of a buoy in regular waves, or that it comes nearer to (`analysis.approaches`): its
+multipliers, with their errors.
 
 A run near a stable orbit shows the orbit, not how fast perturbations die out along each direction, and not that the
 orbit is one. Newton's method on the map over a wave period (`engine.run.period_map`) finds it to 1e-9 from the last
@@ -14,13 +15,17 @@ from functools import cache, partial
 from typing import TYPE_CHECKING
 
 import engine
+from campaigns.judge import periods_of
 from campaigns.machinery.folder import made_by
+from campaigns.machinery.long_runs import EARLY
 from campaigns.machinery.store import Store, key_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carries_tangents, strobed_states
 from tables import REGIMES, SHEET, Column, finite, names
 
 if TYPE_CHECKING:
     import numpy as np
 
+    from analysis import Evidence
     from engine.trajectory import Trajectory
 
 SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipliers.py"
@@ -28,6 +33,7 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipli
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
+ITERATIONS = 6  # of Newton's method: from a run that comes nearer to an orbit three are enough
 LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
     Column(
@@ -147,3 +153,28 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
         "history": history,
         "state": {name: values for name, _, values, *_ in state.variables()},
     }
+
+
+def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evidence] | None:
+    """The orbit near a run, and whether the run comes nearer to it; None where no orbit is looked for or found.
+
+    It is looked for where the run repeats, or where its steps shrink. That the orbit attracts, and that the run lies on
+    it or comes nearer, proves a period after fewer wave periods than the run alone could.
+    """
+    from analysis import approach_evidence, approached_period, detect_period
+
+    scene = trajectory.scene
+    periods = round(periods_of(scene, trajectory.columns))
+    if periods < EARLY or not carries_tangents(scene) or trajectory.final_state is None:
+        return None
+    strobed, scale = strobed_states(trajectory, periods // 2)
+    period = detect_period(strobed[periods // 2 :], LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+    period = period or approached_period(strobed, scale, LONGEST_PERIOD)
+    if period is None:
+        return None
+    try:
+        orbit = orbit_under(trajectory, period, orbits, ITERATIONS)
+    except (ArithmeticError, ValueError):
+        return None
+    points, scale = strobed_states(orbit.run, 0)
+    return orbit, approach_evidence(strobed, points[: orbit.period], orbit.multipliers, orbit.errors, scale)

@@ -6,6 +6,8 @@ from functools import cache, partial
 import numpy as np
 
 import engine
+from analysis import approach_evidence, approached_period, joins, settled
+from analysis.orbits import NoImage, OrbitMap, find_orbit
 from campaigns.explore.starts import Start
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Plan
@@ -65,16 +67,13 @@ def _maker() -> str:
 
 def _motions(kicked: np.ndarray, scene) -> dict:
     """`screened` of a scene."""
-    from analysis import approached_period, joins
-
     try:
         rest = np.array(engine.massless_rest(scene))
     except ValueError:  # not covered
         return {"motions": []}
-    starts = np.column_stack([*map(partial(np.full, len(kicked)), rest), kicked])
+    starts = np.column_stack([np.tile(rest, (len(kicked), 1)), kicked])
     known, motions, numbers = [], [], range(len(kicked))
-    unknown = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
-    loose = dict(unknown)
+    loose = {"kick": None, "moved": None, "period": None, "tension_N": 0.0, "share": 0.0, "rest": False}
     for periods in (PERIODS, LONGER):
         runs = engine.massless_runs(scene, starts[numbers], periods)
         ringing = []
@@ -91,8 +90,8 @@ def _motions(kicked: np.ndarray, scene) -> dict:
             elif settled is not None:
                 known.append(settled)
                 x, z, u, w = map(float, strobed[-1])
-                motion = unknown | {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": settled.period}
-                motion["tension_N"] = float(settled.measures[:, 2].max())
+                motion = {"kick": [u, w], "moved": [x - rest[0], z - rest[1]], "period": settled.period}
+                motion |= {"tension_N": float(settled.measures[:, 2].max()), "share": 0.0, "rest": False}
                 motions.append(motion)
             elif periods < LONGER and (from_rest or approached_period(strobed, np.ptp(strobed, axis=0))):
                 ringing.append(number)
@@ -119,8 +118,6 @@ def _motions(kicked: np.ndarray, scene) -> dict:
 def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):
     """The periodic motion to which a massless run has settled, in the scale of its size within the period; ahead: or to
     which it comes nearer. None: neither."""
-    from analysis import settled
-
     later = strobed[len(strobed) // 2 :]
     place, speed = np.ptp(later[:, :2], axis=0).max(), np.ptp(later[:, 2:], axis=0).max()
     swing = np.ptp(measures[len(measures) // 2 :, :2])  # of r
@@ -139,8 +136,6 @@ def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):
 
 def _orbit_ahead(scene, strobed: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
     """A state (4,) on the periodic orbit that a massless run comes nearer to (`analysis.approaches`); None: on none."""
-    from analysis import approach_evidence, approached_period
-    from analysis.orbits import NoImage, OrbitMap, find_orbit
 
     def step(z: np.ndarray, _: float) -> tuple:
         starts = np.vstack([z, z + DIFFERENCE * np.eye(4), z - DIFFERENCE * np.eye(4)])

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analysis import detect_period, extremes, slack_fraction, transverse_lyapunov
 from analysis.evidence import evidence_text
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
+from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, state_of
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, strobed_states
 from tables import (
     LINE_COUNTS,
     MESSAGE,
@@ -27,6 +29,7 @@ from tables import (
     SOLVER_COUNTS,
     STATUS,
     Column,
+    Row,
     counted,
     finite,
     names,
@@ -65,9 +68,7 @@ SLACK_ERROR = Column(
     "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
 )
 NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
-REGIME = Column(
-    "regime", symbol="regime", meaning="period-N, quasi-periodic, chaotic, transient or undecided", page=REGIMES
-)
+REGIME = Column("regime", "", "regime", "period-N, quasi-periodic, chaotic, transient or undecided", None, REGIMES)
 _BITS = "bits/period"
 WOLF = (
     Column(
@@ -98,13 +99,10 @@ COLUMNS = (
     STATUS,
     REGIME,
     Column(
-        "regime_tighter",
-        symbol="tighter",
-        meaning="regime of a chaotic run repeated at a tenth of the tolerance",
-        page=SHEET,
+        "regime_tighter", "", "tighter", "regime of a chaotic run repeated at a tenth of the tolerance", None, SHEET
     ),
-    Column("regime_reason", symbol="reason", meaning="why the run has this regime, in words", page=SHEET),
-    Column("evidence", symbol="evidence", meaning="tests behind the regime: name, value, threshold, met", page=SHEET),
+    Column("regime_reason", "", "reason", "why the run has this regime, in words", None, SHEET),
+    Column("evidence", "", "evidence", "tests behind the regime: name, value, threshold, met", None, SHEET),
     PERIODS_RUN,
     TRANSIENT,
     STROBED,
@@ -127,12 +125,7 @@ COLUMNS = (
         0,
         PLANE,
     ),
-    Column(
-        "planar_regime",
-        symbol="planar regime",
-        meaning="regime of the run in the plane that this one replaces",
-        page=PLANE,
-    ),
+    Column("planar_regime", "", "planar regime", "regime of the run in the plane that this one replaces", None, PLANE),
     Column("planar_radius_min_m", "m", "planar r_min", "smallest radius of the run in the plane", 2, PLANE),
     Column("planar_radius_max_m", "m", "planar r_max", "largest radius of the run in the plane", 2, PLANE),
     *SOLVER_COUNTS,
@@ -141,7 +134,7 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
+def buoy_row(trajectory, judgement: Judgement) -> Row:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. A record that does not
@@ -154,7 +147,7 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     row = counted(trajectory)
     row[HEIGHT.name] = height_m(scene, columns)
     if len(columns["time_s"]):
-        row["periods"] = (len(columns["time_s"]) - 1) * step_s / period_s
+        row["periods"] = periods_of(scene, columns)
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
     transient_periods = judgement.transient
@@ -172,7 +165,7 @@ def buoy_row(trajectory, judgement: Judgement) -> dict[str, object]:
     return row
 
 
-def regime_of(judgement: Judgement) -> dict[str, object]:
+def regime_of(judgement: Judgement) -> Row:
     """The columns of the verdict and of the exponents."""
     verdict, record = judgement.verdict, judgement.record
     evidence = evidence_text(verdict)
@@ -199,7 +192,7 @@ def height_m(scene, columns) -> float | None:
     return top_m - scene.water.depth_m
 
 
-def after_transient(trajectory, columns, transient_periods: int) -> dict[str, object]:
+def after_transient(trajectory, columns, transient_periods: int) -> Row:
     """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
 
     columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
@@ -208,24 +201,14 @@ def after_transient(trajectory, columns, transient_periods: int) -> dict[str, ob
     if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * scene.waves.period_s):
         return {}
     row = settled(scene, columns, transient_periods * scene.waves.period_s)
-    row |= strobed_period(trajectory, columns, transient_periods)
+    # only the period goes into the table: the report strobes the radius again
+    points, scale = strobed_states(trajectory, transient_periods, 0.0, transient_periods, columns)
+    row[STROBED.name] = detect_period(points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
     return row | lateral_growth(trajectory, transient_periods)
 
 
-def strobed_period(trajectory, columns, transient_periods: int) -> dict[str, object]:
-    """The column STROBED. Only the period goes into the table: the report strobes the radius again."""
-    from analysis import detect_period, poincare_section
-
-    step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
-    section = poincare_section(coordinates, step_s, period_s, transient_periods=transient_periods)
-    return {STROBED.name: detect_period(section.points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period}
-
-
-def lateral_growth(trajectory, transient_periods: int) -> dict[str, object]:
+def lateral_growth(trajectory, transient_periods: int) -> Row:
     """The columns OFFPLANE; none for a run that ended early or carried no perturbation across the plane."""
-    from analysis import transverse_lyapunov
-
     growth = trajectory.tangent
     if trajectory.status != "ok" or growth is None or growth.lateral_nats is None:
         return {}
@@ -239,15 +222,13 @@ def lasts(columns, step_s: float, length_s: float) -> bool:
     return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
 
 
-def exponents(columns: tuple[Column, Column], exponent) -> dict[str, object]:
+def exponents(columns: tuple[Column, Column], exponent) -> Row:
     """An Exponent in the two columns of its value and its standard error."""
     return dict(zip(names(columns), (finite(exponent.value), finite(exponent.error)), strict=True))
 
 
-def settled(scene, columns, transient_s: float) -> dict[str, object]:
+def settled(scene, columns, transient_s: float) -> Row:
     """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
-    from analysis import extremes, slack_fraction
-
     step_s = scene.sample_step_s()
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
     radius, angle, low, high = (

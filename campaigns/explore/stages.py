@@ -11,16 +11,20 @@ The order is that of the continuation of attractors in Attractors.jl (Datseris, 
 (2023)): find at each value from the motions of the one before, then match.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from string import ascii_uppercase
 
 import engine
+from analysis import distance, grouped, matched
 from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search, settled_in
 from campaigns.explore.proposals import kicks, proposals
-from campaigns.explore.starts import DISPLACED, Request, Start, as_it_is, settled_of, start_job
-from campaigns.explore.transients import as_long_as, outlasting
+from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
 from campaigns.machinery.plan import Job
+
+TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 
 
 def explore(motions: Motions, jobs: Sequence[Job], search: Search) -> None:
@@ -50,11 +54,12 @@ def run_from_rest(motions: Motions, jobs: Sequence[Job]) -> range:
     late = outlasting(motions.jobs, motions.rows, motions.neighbours)
     motions.judged_runs("chaos that may be a transient", late)
     for place in places:
-        run = motions.judged_run(motions.jobs[place].key)
+        key = motions.jobs[place].key
+        run = motions.judged_run(key)
         if run is not None:
-            motions.at[place].append(
-                Motion(place, settled_of(run, motions.orbits) or as_it_is(run), run.final_state, FROM_REST)
-            )
+            motion = Motion(place, reached(run, motions.orbits), run.final_state, FROM_REST)
+            motions.at[place].append(motion)
+            motions.job_keys[motion] = key
     return places
 
 
@@ -94,18 +99,19 @@ def carry(motions: Motions) -> None:
 
 def nearest_match(motion: Motion, candidates: Sequence[Motion], match_distance: float) -> Motion | None:
     """The nearest of the candidates with the motion's period that is nearer than match_distance; None: none is."""
-    if not match_distance:
-        return None
-    from analysis import distance
-
     nearest, least = None, match_distance
     for candidate in candidates:
-        if candidate.settled.period != motion.settled.period:
+        if not match_distance or candidate.settled.period != motion.settled.period:
             continue
         size = distance(motion.settled, candidate.settled)
         if size < least:
             nearest, least = candidate, size
     return nearest
+
+
+def nothing_beside(number: int) -> tuple[int, ...]:
+    """Kicks are drawn at random: none lies beside another."""
+    return ()
 
 
 def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
@@ -116,8 +122,7 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
         for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
             starts.append((place, Start(KICKED, velocity)))
     kicked: dict[Motion, tuple[int, Start]] = {}  # the motions that kicks have found, each with its last kick
-    ends = motions.run_starts("kicks", starts, coarse_first=motions.plan.simulate is engine.simulate)
-    for start, motion in zip(starts, ends, strict=True):
+    for start, motion in zip(starts, motions.run_starts("kicks", starts, nothing_beside), strict=True):
         if motion is not None:
             motion.kicks += 1
             if motion.found_by == KICKED:
@@ -133,38 +138,29 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
 
 def judge(motions: Motions, search: Search) -> None:
     """Do the judged run of every motion that has none, from its state; motions that these find to be one are merged."""
-    jobs = {}
+    order, jobs = search.order, {}
     for motion in motions.all_motions():
-        if motion.found_by != FROM_REST and motion not in motions.job_keys:
-            jobs[motion] = judged_job_of(motions, motion, search)
+        if motion not in motions.job_keys:
+            place = motions.jobs[motion.place]
+            job = judged_job(order, place.labels, place.scene, motion.state.at_zero(), search.most)
+            if motion.found_by == KICKED:
+                job = as_long_as(job, order.periods)
+            jobs[motion] = job
     motions.judged_runs("judged runs of the other motions", list(jobs.values()))
     settled = {}
     for motion, job in jobs.items():
         motions.job_keys[motion] = job.key
         run = motions.judged_run(job.key)
         if run is not None:
-            settled[motion] = settled_of(run, motions.orbits) or as_it_is(run)
+            settled[motion] = reached(run, motions.orbits)
     merge(motions, settled)
 
 
-def judged_job_of(motions: Motions, motion: Motion, search: Search) -> Job:
-    """The judged run of a motion from its last state."""
-    order, place = search.order, motions.jobs[motion.place]
-    job = judged_job(order, place.labels, place.scene, motion.state.at_zero(), search.most)
-    if motion.found_by == KICKED:
-        return as_long_as(job, order.periods)
-    return job
-
-
-def merge(motions: Motions, settled: Mapping[Motion, object], grouped: Callable | None = None) -> None:
+def merge(motions: Motions, settled: Mapping[Motion, object]) -> None:
     """Merge the motions of a place that longer runs have found to be one; the first of them stays.
 
     settled: what these runs settled to.
-    grouped: a label for each `Settled`, the same for those that are one motion; by default `analysis.grouped`.
     """
-    if grouped is None:
-        from analysis import grouped
-
     merged: dict[Motion, Motion] = {}
     for place, motions_here in enumerate(motions.at):
         for motion in motions_here:
@@ -182,15 +178,11 @@ def merge(motions: Motions, settled: Mapping[Motion, object], grouped: Callable 
         ending.motion = merged.get(ending.motion)
 
 
-def name(motions: Motions, matched: Callable | None = None) -> None:
+def name(motions: Motions) -> None:
     """Give every branch its letter: A to the one that begins at the first place, from rest where two do.
 
-    matched: for two lists of `Settled` the number in the second that continues each of the first, or None; by default
-    `analysis.matched`. It is asked where no run tells how motions continue.
+    `analysis.matched` is asked where no run tells how motions continue.
     """
-    if matched is None:
-        from analysis import matched
-
     ordered = []
     for motions_here in motions.at:
         ordered += sorted(motions_here, key=lambda motion: motion.found_by != FROM_REST)
@@ -198,7 +190,7 @@ def name(motions: Motions, matched: Callable | None = None) -> None:
     for place in range(len(motions.at)):
         for neighbour in sorted(motions.neighbours(place)):
             if neighbour > place:
-                _continue_unsettled(motions, place, neighbour, matched)
+                _continue_unsettled(motions, place, neighbour)
                 _join_branches(motions, place, neighbour, branches)
     first: dict[int, Motion] = {}
     for motion in ordered:
@@ -210,7 +202,7 @@ def name(motions: Motions, matched: Callable | None = None) -> None:
                 motion.letter += str(repetition + 1)
 
 
-def _continue_unsettled(motions: Motions, place: int, neighbour: int, matched: Callable) -> None:
+def _continue_unsettled(motions: Motions, place: int, neighbour: int) -> None:
     """Say how motions continue that did not settle when they were carried from a place to a neighbour, or back."""
     own_motions, neighbours = motions.at[place], motions.at[neighbour]
     _follow_back(own_motions, neighbours, place, neighbour)
@@ -243,3 +235,39 @@ def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[
             branch.update(joining)
             for member in joining.values():
                 branches[member] = branch
+
+
+def outlasting(
+    jobs: Sequence[Job], rows: Mapping[str, Mapping], neighbours: Callable[[int], Iterable[int]]
+) -> list[Job]:
+    """The jobs whose chaos has not lasted long enough; they go on until it has.
+
+    It may be a transient, because periodic motions beside it began as chaos, or because only a kick led to it.
+    Transients of chaos end at random, after a mean time that changes little from a value to the next (Grebogi, Ott &
+    Yorke, Physica D 7 (1983) 181). Chaos counts when it has lasted TIMES as long as the longest transient known beside
+    it; that of a kick, when its budget is spent.
+
+    jobs: by number of the place.
+    rows: of their runs, by key.
+    neighbours: the places beside a place.
+    """
+    transients: dict[int, float] = {}  # of the places whose motion is periodic
+    chaotic: dict[int, Mapping] = {}  # rows of the places whose motion is chaotic
+    for place, job in enumerate(jobs):
+        row = rows.get(job.key, {})
+        regime = str(row.get("regime"))
+        if regime.startswith("period"):
+            transients[place] = row["transient_periods"]
+        elif regime == "chaotic":
+            chaotic[place] = row
+    late = []
+    for place, row in chaotic.items():
+        least = TIMES * max((transients.get(neighbour, 0) for neighbour in neighbours(place)), default=0)
+        if row["periods"] < least:
+            late.append(as_long_as(jobs[place], least))
+    return late
+
+
+def as_long_as(job: Job, periods: float) -> Job:
+    """The job whose chaos counts after so many wave periods only."""
+    return replace(job, going=partial(job.going, least=periods)) if job.going else job

@@ -6,6 +6,7 @@ one of its own (`analysis.settled`), or after the last look, unsettled. These ru
 because a motion is told by its strobes and by the extremes of its periods; what is reported is measured by other runs.
 """
 
+import contextlib
 import hashlib
 import math
 from bisect import bisect_left
@@ -14,15 +15,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from campaigns.explore.approach import orbit_ahead
-from campaigns.judge import LATERAL, TANGENTS
+from analysis import Settled, grouped, joins, settled
+from campaigns.explore.multipliers import orbit_ahead
+from campaigns.judge import LATERAL, TANGENTS, periods_of
 from campaigns.machinery.folder import claimed, made_by, run_of
 from campaigns.machinery.long_runs import until_settled
-from campaigns.machinery.plan import Job, Plan
+from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.machinery.store import Store, orbits_in
 from engine.scene import scene_from_toml
@@ -38,6 +41,7 @@ from tables import (
     UNSETTLED,
     WALL_S,
     Column,
+    Row,
     counted,
     names,
     write_table,
@@ -47,7 +51,7 @@ LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
-FOUND_BY = Column("found_by", symbol="found by", meaning="rest, massless (model), kick, or carried from a neighbour")
+FOUND_BY = Column("found_by", "", "found by", "rest, massless (model), kick, or carried from a neighbour")
 KICKS = (
     Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),
@@ -57,7 +61,7 @@ KICKS = (
     Column("displacement_z_m", "m", "moved z", "place of the buoy at the start, from that of its rest, upwards", 2),
     Column("phase_rad", "rad", "phase", "phase of the wave at the start", 3),
 )
-OUTCOME = Column("outcome", symbol="outcome", meaning=f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
+OUTCOME = Column("outcome", "", "outcome", f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
 JOINS = Column("joins", "", "joins", "number of the known motion that it has joined, from 0 on", 0)
 OF_A_START = (*KICKS, OUTCOME, JOINS, STATUS, PERIODS_RUN, LOOPS, WALL_S, RUN_KEY, MESSAGE)
 
@@ -77,7 +81,7 @@ class Start:
 
     def scene(self, scene):
         """The scene that begins so."""
-        changes: dict[str, object] = {TANGENTS: 0, LATERAL: False}
+        changes = {TANGENTS: 0, LATERAL: False}
         phase = scene.waves.phase_rad
         if self.phase is not None:
             phase = changes[PHASE] = self.phase
@@ -85,13 +89,11 @@ class Start:
         changes["output.step_s"] = scene.waves.period_s / (parts * math.ceil(self.often / parts))
         for key, (x, z) in ((KICK, self.kick), (DISPLACEMENT, self.displacement)):
             changes[key] = [x, 0.0, z]
-            if self.state is not None:
-                changes[key] = [0.0, 0.0, 0.0]
         return scene_from_toml(scene.to_toml(), changes)
 
-    def labels(self) -> dict[str, object]:
+    def labels(self) -> Row:
         """The columns of KICKS; those of a state are empty."""
-        labels: dict[str, object] = {"found_by": self.found_by}
+        labels = {"found_by": self.found_by}
         if self.state is None:
             labels |= zip(names(KICKS[:4]), (*self.kick, *self.displacement), strict=True)
             if self.phase is not None:
@@ -154,14 +156,11 @@ def start_job(request: Request) -> Job:
     )
 
 
-def start_row(trajectory, known: Sequence = (), settles: bool = True) -> dict[str, object]:
+def start_row(trajectory, known: Sequence = (), settles: bool = True) -> Row:
     """The columns of OF_A_START that the run of a start fills."""
-    from analysis import joins, settled
-
     row = counted(trajectory, (LOOPS, WALL_S))
     if len(trajectory.columns["time_s"]):
-        step_s, period_s = trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
-        row["periods"] = (len(trajectory.columns["time_s"]) - 1) * step_s / period_s
+        row["periods"] = periods_of(trajectory.scene, trajectory.columns)
     if trajectory.status != "ok":
         return row
     strobed, measures, scale = section_of(trajectory)
@@ -196,8 +195,6 @@ def settled_of(trajectory, orbits: Store):
 
     orbits: of its campaign.
     """
-    from analysis import settled
-
     strobed, measures, scale = section_of(trajectory)
     motion = settled(strobed, measures, scale=scale)
     if motion is not None:
@@ -208,15 +205,14 @@ def settled_of(trajectory, orbits: Store):
     return settled_of(near[0].run, orbits)
 
 
-def as_it_is(trajectory):
-    """The later half of a run as a motion: one that has not settled when its run ends is one that others may reach."""
-    from analysis import Settled
-
+def reached(trajectory, orbits: Store) -> Settled:
+    """As `settled_of`; of a run that has not settled when it ends its later half, which others may reach."""
+    motion = settled_of(trajectory, orbits)
+    if motion is not None:
+        return motion
     strobed, measures, scale = section_of(trajectory)
-    later = len(measures) // 2
-    return Settled(
-        None, strobed[later:-1], measures[later:], np.asarray(scale), "not settled: the later half of its run"
-    )
+    later, reason = len(measures) // 2, "not settled: the later half of its run"
+    return Settled(None, strobed[later:-1], measures[later:], np.asarray(scale), reason)
 
 
 @dataclass(eq=False)
@@ -237,27 +233,33 @@ class Ending:
 
     def same_as(self, known: Sequence) -> int | None:
         """Number of the motion among these `Settled` that is its own; None where none is."""
-        from analysis import grouped
-
-        if not known:
-            return None
-        *labels, label = grouped([*known, self.settled])
+        *labels, label = grouped([*known, self.settled]).tolist()
         if label in labels:
             return labels.index(label)
         return None
+
+
+def run_within(
+    plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes
+) -> tuple[dict, Summary]:
+    """Do runs in a folder of a campaign; changes: of its plan. Raises as `runner.run`."""
+    claim = contextlib.nullcontext()
+    if folder != plan.how.out:
+        claim = claimed(folder)
+    with claim:
+        return run(replace(plan, how=replace(plan.how, out=folder), **changes), list(jobs), ahead)
 
 
 class Starts:
     """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
     def __init__(self, plan: Plan, keys: tuple[Column, ...]):
+        self.folder, maker = plan.how.out / "starts", made_by({}, *SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
-        running = replace(plan.how, out=plan.how.out / "starts")
-        maker = made_by({}, *SOURCES)
-        self.plan = replace(plan, how=running, columns=columns, describe=start_row, judge=None, row_maker=maker)
+        self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker)
         self.endings: list[Ending] = []
         self.times: Counter = Counter()
-        self.computed = 0
+        self.computed: set[str] = set()  # keys of the runs that were not there before
 
     def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:
         """Run starts that are not there yet, side by side. title: of the progress. listed: whether in the table.
@@ -267,33 +269,29 @@ class Starts:
         jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
-        with claimed(self.plan.how.out):
-            timing, summary = run(replace(self.plan, title=title), jobs)
+        timing, summary = run_within(self.plan, self.folder, jobs, title=title)
         self.times.update(timing)
-        self.computed += summary.computed
+        self.computed |= summary.made
         rows = summary.by_key
-        endings = [self._ending(job, rows.get(job.key)) for job in jobs]
+        endings = [self._ending({**rows[job.key], **job.labels}) for job in jobs]
         if listed:
             self.endings += endings
         return endings
 
-    def _ending(self, job: Job, row: dict | None) -> Ending:
-        row = {**(row or {"status": "lost"}), **job.labels}
+    def _ending(self, row: dict) -> Ending:
+        ending = Ending(row)
         if row.get("outcome") == JOINED:
-            return Ending(row, round(row["joins"]))
-        if row.get("outcome") != SETTLED:
-            return Ending(row)
-        run = run_of(self.plan.how.out, row)
-        if run is None:
-            return Ending(row)
-        return Ending(row, None, settled_of(run, orbits_in(self.plan.how.out)), run.final_state)
+            ending.joins = round(row["joins"])
+        elif row.get("outcome") == SETTLED:
+            run = run_of(self.folder, row)
+            if run is not None:
+                ending.settled, ending.state = settled_of(run, orbits_in(self.folder)), run.final_state
+        return ending
 
     def write(self) -> None:
         """Write the table of all starts, with the letters of their motions. Raises OSError."""
         rows = []
         for ending in self.endings:
-            row = {**ending.row, "motion": ending.motion and ending.motion.branch.letter}
-            row.pop("joins", None)
-            rows.append(row)
+            rows.append({**ending.row, "motion": ending.motion and ending.motion.branch.letter})
         columns = tuple(column for column in self.plan.columns if column is not JOINS)
-        write_table(self.plan.how.out / "table.csv", columns, rows)
+        write_table(self.folder / "table.csv", columns, rows)

@@ -1,23 +1,24 @@
 """A sweep over one key with every motion of each value: its options, its runs, and the tables that an answer reads."""
 
 import contextlib
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
 import engine
-from campaigns.explore.grid import Varied
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
-from campaigns.study import Order
+from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import read_table
+from tables import Column, names, read_table
 
+ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
+BUDGET = 1500  # wave periods after which a run ends undecided
 KICKS, SPEED_MPS = 8, 6.0
-ONLY = "a number for a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
+ONLY = "a buoy in regular waves in a plane, with bending stiffness and an implicit integrator"
 REST = "rest"
 MOST_KICKS = 10_000
 
@@ -31,10 +32,6 @@ def kick_speed(use: str = "kicks are velocities of up to this along x and z, m/s
     return cli.option("MPS", use, cli.POSITIVE, SPEED_MPS)
 
 
-KICKS_BESIDE = (
-    "kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
-    f"rest: one run from rest only (default: {KICKS}; with --periods: rest)"
-)
 SEED_OF_KICKS = "of the kicks, drawn independently and uniformly"
 FULL = "full"
 
@@ -44,7 +41,10 @@ class Starts(cli.Options):
     """The options of a sweep with every motion of each value."""
 
     starts: str | int | None = cli.option(
-        "rest|N", KICKS_BESIDE, cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}")
+        "rest|N",
+        "kicks of the buoy at each value, beside motions of a massless tether and those carried from its neighbours; "
+        f"rest: one run from rest only (default: {KICKS}; with --periods: rest)",
+        cli.Kind(_starts, f"{REST}, or {cli.whole(0, MOST_KICKS).allowed}"),
     )
     kick_speed: float = kick_speed()
     seed: int = cli.seed(SEED_OF_KICKS)
@@ -82,65 +82,71 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def kicks_of(order: Order, scenes: Iterable) -> int | None:
-    """Kicks at each value; None: runs from rest only. Kicks asked for scenes that allow none are a fault.
-
-    scenes: of the runs from rest.
-    """
-    starts = order.options.starts
-    if order.options.start_from is not None:
-        if starts not in (None, REST):
-            order.tell([f"--starts: given {starts} with --start-from; allowed: one of them"])
-        return None
-    if starts == REST or (starts is None and not order.looks):
-        return None
-    if not all(in_regular_waves(scene) and carries_tangents(scene) for scene in scenes):
-        if starts is not None:
-            order.tell([f"--starts: given {starts}; allowed: {REST}, and {ONLY}"])
-        return None
-    return KICKS if starts is None else starts
+def with_kicks(order: Order, jobs: Iterable[Job]) -> list[Job]:
+    """The cases of an order, whose starts they allow, or else that is told."""
+    order.cases = list(jobs)
+    kicks_of(order)
+    return order.cases
 
 
-def parameters(order: Order, kicks: int | None) -> dict[str, object]:
+def kicks_of(order: Order) -> int | None:
+    """Kicks at each value; None: runs from rest only. Kicks asked for cases that allow none are a fault."""
+    options = order.options
+    if len(options.grid.keys) > 1:
+        allowed = f" with two keys; allowed: {REST}, or one key"
+    elif options.start_from is not None:
+        allowed = " with --start-from; allowed: one of them"
+    elif not all(in_regular_waves(scene) and carries_tangents(scene) for scene in order.scenes):
+        allowed = f"; allowed: {REST}, and a number for {ONLY}"
+    elif options.starts is None and order.looks:
+        return KICKS
+    elif options.starts != REST:
+        return options.starts
+    if options.starts not in (None, REST):
+        order.tell([f"--starts: given {options.starts}{allowed}"])
+    return None
+
+
+def parameters(order: Order) -> dict:
     """The starts, for the provenance."""
+    options, kicks = order.options, kicks_of(order)
     if kicks is None:
-        return {"starts": REST if order.options.start_from is None else order.options.start_from}
-    return {"starts": kicks, "kick_speed_mps": order.options.kick_speed, "seed": order.options.seed}
+        return {"starts": REST if options.start_from is None else options.start_from}
+    return {"starts": kicks, "kick_speed_mps": options.kick_speed, "seed": options.seed}
 
 
-def runs(order: Order, kicks: int | None) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
+    kicks = kicks_of(order)
     if kicks is None:
-        return run
-    (key,) = order.options.grid.keys
-    return every_motion(order, key, kicks, order.options.kick_speed, order.options.seed)
+        return run(plan, jobs)
+    return every_motion(order, plan, jobs, kicks, order.options.kick_speed, order.options.seed)
 
 
-def every_motion(order: Order, key: Varied, kicks: int, speed_mps: float, seed: int) -> Callable:
-    """In place of `runner.run`: the motions of each value of a key, with the ends of their ranges.
+def every_motion(
+    order: Order, plan: Plan, jobs: list[Job], kicks: int, speed_mps: float, seed: int
+) -> tuple[dict[str, float], Summary]:
+    """In place of `runner.run`: the motions of each value of the only key, with the ends of their ranges.
 
     kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`.
     """
+    from campaigns.explore.ends import confirm, find_ends
+    from campaigns.explore.motions import Motions, Search, in_a_row
+    from campaigns.explore.stages import explore
+    from campaigns.explore.tracing import Scenes
 
-    def runs(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.explore.ends import confirm, find_ends
-        from campaigns.explore.motions import Motions, Search, in_a_row
-        from campaigns.explore.stages import explore
-        from campaigns.explore.tracing import Scenes
-
-        jobs = sorted(jobs, key=lambda job: job.labels[key.column.name])
-        if plan.simulate is not engine.simulate:
-            return run(plan, jobs)
-        motions = Motions(plan, [key.column], in_a_row(len(jobs)))
-        explore(motions, jobs, Search(order, kicks, speed_mps, seed))
-        motions.write()
-        if len(jobs) > 1:
-            find_ends(motions, Scenes(jobs[0].scene.to_toml(), key.column.name, key.name, key.index))
-        confirm(motions)
-        summary = motions.write()
-        return motions.timing(), summary
-
-    return runs
+    (key,) = order.options.grid.keys
+    jobs = sorted(jobs, key=lambda job: job.labels[key.column.name])
+    if plan.simulate is not engine.simulate:
+        return run(plan, jobs)
+    motions = Motions(plan, [key.column], in_a_row(len(jobs)))
+    explore(motions, jobs, Search(order, kicks, speed_mps, seed))
+    motions.write()
+    if len(jobs) > 1:
+        find_ends(motions, Scenes(jobs[0].scene, key))
+    confirm(motions)
+    summary = motions.write()
+    return motions.timing(), summary
 
 
 def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
@@ -151,3 +157,23 @@ def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
         with contextlib.suppress(OSError, ValueError):
             tables[folder] = read_table(out / folder / "table.csv")
     return tables
+
+
+def measures_of(order: Order, columns: tuple[Column, ...]) -> Measures:
+    """The rows of a buoy in regular waves."""
+    from campaigns.explore.judgement import judgement_of
+    from campaigns.explore.rows import buoy_row
+
+    settings = {"transient_periods": order.transient, "full": None}
+    if getattr(order.options, "evidence", "") == FULL:
+        settings["full"] = order.periods
+    return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
+
+
+def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+    """Those of the places of a grid, then those of the rows of a buoy in a plane."""
+    from campaigns.explore.rows import COLUMNS, STEEPNESS
+
+    of_places = names((STEEPNESS, *keys))
+    measured = [column for column in COLUMNS if column.name not in of_places and not column.name.startswith("planar_")]
+    return *keys, *measured

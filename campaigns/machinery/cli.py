@@ -104,12 +104,34 @@ class Option:
         action.option = self
 
     def value(self, name: str, words: list[str] | None, faults: list[str]) -> object:
-        """Its value in these words; None: it was not given."""
-        if self.kind is not None:
-            return value(words, name, self.usual, self.kind, faults, self.many)
-        if words is None and self.usual is not None:
-            return self.usual.split()
-        return words
+        """Its value in these words, of `many` a list, each once; `usual` where it was not given or is at fault.
+
+        words None: it was not given.
+        """
+        kind = self.kind
+        if kind is None:
+            if words is None and self.usual is not None:
+                return self.usual.split()
+            return words
+        if words is None:
+            return self.usual
+        if not words or (len(words) > 1 and not self.many):
+            count = "one value,"
+            if self.many:
+                count = "one value or more, each"
+            faults.append(f"{name}: given {' '.join(words) or 'nothing'}; allowed: {count} {kind.allowed}")
+            return self.usual
+        values = []
+        for word in words:
+            try:
+                values.append(kind.convert(word))
+            except ValueError:
+                faults.append(f"{name}: given {word!r}; allowed: {kind.allowed}{_parted(word, kind)}")
+        if len(values) < len(words):
+            return self.usual
+        if self.many:
+            return list(dict.fromkeys(values))
+        return values[0]
 
 
 def option(*declared: object, **more: object) -> Any:
@@ -165,7 +187,7 @@ PLACES = {  # options that say where runs are done
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
-    # Every option accepts any number of words (see `value`); the help shows the words it wants, as the metavar says.
+    # Every option accepts any number of words; the help shows the words it wants, as the metavar says.
     def _format_args(self, action, default_metavar):
         return action.metavar or ""
 
@@ -255,29 +277,6 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             words = getattr(values, action.dest)
             setattr(values, action.dest, action.option.value(action.option_strings[0], words, faults))
     return values
-
-
-def value(words: list[str] | None, option: str, usual, kind: Kind, faults: list[str], many: bool = False):
-    """The value of an option, a list of `many`, each once; `usual` where it was not given (None) or is at fault."""
-    if words is None:
-        return usual
-    if not words or (len(words) > 1 and not many):
-        count = "one value,"
-        if many:
-            count = "one value or more, each"
-        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {count} {kind.allowed}")
-        return usual
-    values = []
-    for word in words:
-        try:
-            values.append(kind.convert(word))
-        except ValueError:
-            faults.append(f"{option}: given {word!r}; allowed: {kind.allowed}{_parted(word, kind)}")
-    if len(values) < len(words):
-        return usual
-    if many:
-        return list(dict.fromkeys(values))
-    return values[0]
 
 
 def _parted(word: str, kind: Kind) -> str:

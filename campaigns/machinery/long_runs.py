@@ -31,12 +31,14 @@ class Part(NamedTuple):
     """The next part of a run: scene, wave periods, and the Trajectory or state in which it begins (None: rest).
 
     check: this part is a check of chaos, at a tighter tolerance. It goes into `checks` and does not lengthen the run.
+    duration_s: its length where it is not given in wave periods.
     """
 
     scene: object
     periods: float
     start: object = None
     check: bool = False
+    duration_s: float | None = None
 
 
 @dataclass(eq=False)
@@ -55,8 +57,14 @@ class LongRun:
     part: Part | None = None
 
     def next_part(self) -> Part | None:
-        """The next part of the run; None when the run is finished."""
-        self.part = self.job.going(self.job.scene, self.trajectory, self.row, self.checks)
+        """The next part of the run; None when the run is finished. A job without `going` is one part."""
+        job = self.job
+        if job.going is not None:
+            self.part = job.going(job.scene, self.trajectory, self.row, self.checks)
+        elif self.row is None:
+            self.part = Part(job.scene, job.periods, duration_s=job.duration_s)
+        else:
+            self.part = None
         return self.part
 
     def take(self, result) -> None:
@@ -97,13 +105,13 @@ def until_judged(
     """Until the regime of the run is known.
 
     looks: whether the run is judged after 60, 90, 135, ... wave periods, up to `budget`; if not, it is one part of
-    `budget` periods. After 60 only an orbit can decide on which the run lies (`campaigns.explore.approach`). If a later
+    `budget` periods. After 60 only an orbit can decide on which the run lies (`campaigns.explore.multipliers`). If a later
     look finds no period, and no period that the motion approaches, the run carries perturbations from then on. A run
     that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for longer than the run
     was judged; the first part of this check is as long as chaos needs to show by SURE errors.
     start: the state of another run in which this run begins; None: the start of the scene. most: wave periods after
     which the run has no further look, though `budget` allows it. least: wave periods that chaos has to last, because
-    transients of this length are known (`campaigns.explore.transients`).
+    transients of this length are known (`campaigns.explore.stages`).
     """
     from analysis.looks import looks as looks_until
 

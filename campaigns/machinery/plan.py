@@ -40,13 +40,6 @@ class Job:
     made: str = ""
     engine: str = field(default_factory=lambda: engine.source_hash())
 
-    @property
-    def length_s(self) -> float:
-        """Its length in seconds."""
-        if self.duration_s is not None:
-            return self.duration_s
-        return self.periods * self.scene.waves.period_s
-
     @cached_property
     def key(self) -> str:
         """The content key: sha256 over the scene's key, the run length, the engine's source hash, and `made`."""

@@ -126,22 +126,6 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
             _ready.update(task)
 
 
-def _progress(plan: Plan) -> tempfile.TemporaryDirectory:
-    """A folder in which workers say how far they are: in that of the campaign, which drops what a kill leaves there.
-
-    Workers that send their results need not see the campaign's folder: theirs is a temporary one.
-    """
-    return tempfile.TemporaryDirectory(prefix=PROGRESS, dir=_folder_of_workers(plan))
-
-
-def _folder_of_workers(plan: Plan) -> Path | None:
-    """The folder of the campaign as its workers see it; None where they send their results."""
-    if plan.sends:
-        return None
-    # a worker kept from an earlier campaign of this process may stand in another folder
-    return plan.how.out.absolute()
-
-
 def _compiled(pieces: dict) -> None:
     for key, scene in pieces.items():
         with contextlib.suppress(Exception):  # not the place to judge a scene: its run fails in the same way
@@ -186,7 +170,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
-    return job.going is None or LongRun(job, row=outcome.row).next_part() is None
+    return LongRun(job, row=outcome.row).next_part() is None
 
 
 def _row(job: Job, outcome: Outcome) -> dict[str, object]:
@@ -200,7 +184,11 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     """
     if not jobs:
         return
-    how = replace(plan.how, out=_folder_of_workers(plan))
+    # Workers that send their results need not see the campaign's folder: theirs is a temporary one.
+    out = None
+    if not plan.sends:
+        # a worker kept from an earlier campaign of this process may stand in another folder
+        out = plan.how.out.absolute()
     groups = groups_of(plan, jobs)
     total = reused + len(jobs)
     unfinished = _keys([jobs])
@@ -223,8 +211,10 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
         seconds = [length_s for _, length_s in reports(Path(place)).values()]
         return f"{sum(seconds):,.0f} s simulated"
 
-    with _progress(plan) as place, stage(plan.title, total, "runs", count, simulated):
-        call = partial(run_jobs, replace(plan, how=how, reports=Path(place), on_row=None))
+    # workers say there how far they are; a campaign drops what a kill leaves of it
+    folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)
+    with folder as place, stage(plan.title, total, "runs", count, simulated):
+        call = partial(run_jobs, replace(plan, how=replace(plan.how, out=out), reports=Path(place), on_row=None))
         for key, outcome in as_completed(plan.how, groups, call, _given_up):
             unfinished.discard(key)
             yield key, outcome

@@ -33,12 +33,7 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
     report = reporter(plan.reports, name_of(jobs))
     outcomes: dict[str, Outcome] = {}
     try:
-        if jobs[0].going is not None:
-            _run_long(plan, jobs, outcomes, report)
-        elif len(jobs) > 1:
-            _run_together(plan, jobs, outcomes, report)
-        else:
-            _run_alone(plan, jobs[0], outcomes, report)
+        _run_side_by_side(plan, jobs, outcomes, report)
     except CampaignStopped:
         raise
     except (Exception, SystemExit) as error:
@@ -49,30 +44,10 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
     return list(outcomes.items())
 
 
-def _run_alone(plan: Plan, job: Job, outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
-    outcome = reuse(plan, job)
-    if outcome is None:
-        simulate = job.simulate or plan.simulate
-        progress = with_progress(simulate, lambda share: report(0, share * job.length_s))
-        trajectory = simulate(job.scene, periods=job.periods, duration_s=job.duration_s, **progress)
-        outcome = _saved(plan, job, trajectory)
-    outcomes[job.key] = outcome
-
-
-def _run_together(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
-    first = jobs[0]
-    scenes, length_s = [], 0.0
-    for job in jobs:
-        scenes.append(job.scene)
-        length_s += job.length_s
-    progress = with_progress(plan.simulate_each, lambda share: report(len(outcomes), share * length_s))
-    runs = plan.simulate_each(scenes, periods=first.periods, duration_s=first.duration_s, **progress)
-    for number, trajectory in runs:
-        outcomes[jobs[number].key] = _saved(plan, jobs[number], trajectory)
-
-
-def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
-    """Runs that take as long as they need (`campaigns.machinery.long_runs`), side by side.
+def _run_side_by_side(
+    plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]
+) -> None:
+    """Runs of one part, or of as many as they need (`campaigns.machinery.long_runs`).
 
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
     goes on from there.
@@ -112,24 +87,28 @@ def _run_long(plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], rep
         return part.scene, part.periods, part.start
 
     if plan.simulate_each is not None and under_way:
-        first: dict[str, list] = {"scenes": [], "periods": [], "starts": []}
-        for run in under_way:
-            first["scenes"].append(run.part.scene)
-            first["periods"].append(run.part.periods)
-            first["starts"].append(run.part.start)
+        parts = [run.part for run in under_way]
+        first = {
+            "scenes": [part.scene for part in parts],
+            "periods": [part.periods for part in parts],
+            "starts": [part.start for part in parts],
+            "duration_s": parts[0].duration_s,
+        }
         for _ in plan.simulate_each(**first, then=go_on, **with_progress(plan.simulate_each, progress)):
             pass
         return
     for number, run in enumerate(under_way):
-        part = run.part
-        while part is not None:
-            start = {} if part.start is None else {"start": part.start}
-            go_on(number, plan.simulate(part.scene, periods=part.periods, **start))
-            part = run.part
+        simulate = run.job.simulate or plan.simulate
+        further = with_progress(simulate, progress)
+        while run.part is not None:
+            scene, periods, start, _, duration_s = run.part
+            if start is not None:
+                further["start"] = start
+            go_on(number, simulate(scene, periods=periods, duration_s=duration_s, **further))
 
 
 def _length_s(part: Part) -> float:
-    return part.periods * part.scene.waves.period_s
+    return part.duration_s or part.periods * part.scene.waves.period_s
 
 
 def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
@@ -143,8 +122,8 @@ def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
     return LongRun(job, trajectory, outcome.row), outcome
 
 
-def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> Outcome:
-    """Save a run that has been computed, or get it ready to be sent, and its row; outcome: where that is made."""
+def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome) -> Outcome:
+    """Save a run that has been computed and its row, or get them ready to be sent."""
     try:
         content = trajectory.to_bytes({"run_key": job.key})
         if plan.how.out is not None:
@@ -153,8 +132,6 @@ def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome | None = None) -> 
         raise _stopped(plan, error) from error
     except Exception as error:
         return failed(job, "error", f"not saved: {_reason(error)}")
-    if outcome is None:
-        outcome = _described(plan, job, trajectory)
     if plan.how.out is None:
         return replace(outcome, content=content)
     keep_row(plan, outcome, content)
@@ -183,7 +160,7 @@ def reuse(plan: Plan, job: Job, report: Callable[[str], None] = lambda _: None) 
     row = kept_row(plan, job.key, content)
     if row is not None:
         return Outcome(job.key, row)
-    outcome = _described(plan, job, trajectory)
+    outcome = _described(plan, job, trajectory, {})
     keep_row(plan, outcome, content)
     return outcome
 
@@ -208,7 +185,7 @@ def _rows(plan: Plan) -> Store:
     return Store(trajectory_path(plan.how.out, "").parent, ".row.json")
 
 
-def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> Outcome:
+def _described(plan: Plan, job: Job, trajectory, checks: dict | None) -> Outcome:
     """The row of a run. What a row needs beside its run is computed here, and kept (`Plan.judge`); a row reads it."""
     start_s = time.perf_counter()
     orbits = orbits_in(plan.how.out)
@@ -216,8 +193,8 @@ def _described(plan: Plan, job: Job, trajectory, checks: dict | None = None) -> 
         if job.describe is not None or plan.judge is None:
             row = (job.describe or plan.describe)(trajectory)
         else:
-            if job.going is not None and checks is None:
-                checks = {}
+            if job.going is None:
+                checks = None
             row = plan.describe(trajectory, plan.judge(trajectory, checks, orbits))
     except Exception as error:
         row = {"status": "analysis-failed", "message": _reason(error)}

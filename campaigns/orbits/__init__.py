@@ -14,14 +14,14 @@ map, and a branch ends. Nothing is random.
 """
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
-from campaigns.explore.settings import columns_of, measures_of
 from campaigns.judge import job_from
 from campaigns.machinery import cli
 from campaigns.machinery.folder import claimed, run_of
@@ -32,7 +32,6 @@ from tables import number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
-MOTIONS = "motions"
 
 
 @dataclass
@@ -80,7 +79,7 @@ def cases(order: Order) -> Iterator[Job]:
     jobs_of = _jobs
     if order.options.start_from is not None:
         jobs_of = _job_of_file
-    jobs = list(jobs_of(order))
+    jobs = list(filter(None, jobs_of(order)))
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
@@ -93,17 +92,12 @@ def cases(order: Order) -> Iterator[Job]:
 
 
 def _jobs(order: Order) -> Iterator[Job]:
-    (key,) = order.options.grid.keys
-    if key.key in order.changes:
-        order.tell([f"--set {key.key}: this campaign sets it; use --vary"])
+    order.options.grid.refuse_set(order)
     base = order.base(tell=True)
     if base is not None and base.waves is None:
         order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
     elif base is not None:
-        for place in order.options.grid.places():
-            job = order.options.grid.job(order, place)
-            if job is not None:
-                yield job
+        yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 
 def _job_of_file(order: Order) -> Iterator[Job]:
@@ -127,45 +121,38 @@ def _job_of_file(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The rows of the runs: those of `campaigns.sweep`."""
-    return measures_of(order, columns_of(order.options.grid.columns))
+    return motions.measures_of(order, motions.columns_of(order.options.grid.columns))
 
 
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: the motions, in a folder of their own, and the orbits under them."""
+    from campaigns.explore.tracing import Line, Scenes
+    from campaigns.orbits.tables import tables
+    from campaigns.orbits.tree import Tree
 
-    def every_orbit(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.explore.tracing import Line, Scenes
-        from campaigns.orbits.tables import tables
-        from campaigns.orbits.tree import Tree
-
-        (key,) = order.options.grid.keys
-        timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
-        if order.options.start_from is not None:
-            starts = [*_under_file(order, jobs[0])]
-        else:
-            inner = replace(plan, how=replace(plan.how, out=plan.how.out / MOTIONS))
-            with claimed(inner.how.out):
-                find = motions.every_motion(order, key, kicks=0, speed_mps=motions.SPEED_MPS, seed=1)
-                timing, _ = find(inner, jobs)
-            starts = [*_under_motions(order, inner.how.out)]
-        began = time.perf_counter()
-        low, high = key.values[0], key.values[-1]
-        state, value = None, low
-        if starts:
-            _, value, _, state = starts[0]
-        scenes = Scenes(jobs[0].scene.to_toml(), key.key, key.name, key.index)
-        line = Line(scenes, low, high, high - low, state, value)
-        tree = Tree(plan, line, order.options.orbits, order.options.branches)
-        if starts:
-            tree.grow(starts)
-            tree.across([value for _, value, _, _ in starts])
-            if not order.options.no_accuracy:
-                tree.refine()
-        rows = tables(tree, key.column)
-        timing["run_s"] += time.perf_counter() - began
-        return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
-
-    return every_orbit
+    options = order.options
+    (key,) = options.grid.keys
+    timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
+    if options.start_from is not None:
+        starts = [*_under_file(order, jobs[0])]
+    else:
+        how = replace(plan.how, out=plan.how.out / "motions")
+        with claimed(how.out):
+            timing, _ = motions.every_motion(order, replace(plan, how=how), jobs, 0, motions.SPEED_MPS, 1)
+        starts = [*_under_motions(order, how.out)]
+    began = time.perf_counter()
+    low, high = key.values[0], key.values[-1]
+    _, value, _, state = [*starts, ("", low, 0, None)][0]
+    line = Line(Scenes(jobs[0].scene, key), low, high, high - low, state, value)
+    tree = Tree(plan, line, options.orbits, options.branches)
+    if starts:
+        tree.grow(starts)
+        tree.across([value for _, value, _, _ in starts])
+        if not options.no_accuracy:
+            tree.refine()
+    rows = tables(tree, key.column)
+    timing["run_s"] += time.perf_counter() - began
+    return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
 
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
@@ -194,7 +181,7 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
         yield "", job.labels[key.column.name], period, run.final_state.at_zero()
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     options = order.options
     return {
         "vary": {key.key: [key.values[0], key.values[-1]] for key in options.grid.keys},

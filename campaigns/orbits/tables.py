@@ -11,9 +11,9 @@ from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
-from tables import MESSAGE, STATUS, Column, csv_of, names, write_table
+from tables import MESSAGE, STATUS, Column, Row, csv_of, names, write_table
 
-BRANCH = Column("branch", symbol="branch", meaning="the period of its orbits, and a letter where there are several")
+BRANCH = Column("branch", "", "branch", "the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
 PERIOD = replace(STROBED, name="period", meaning="wave periods after which the orbit repeats")
 UNSTABLE = Column("unstable", "", "unstable", "multipliers outside the unit circle; 0: the orbit is stable", 0)
@@ -32,15 +32,22 @@ MOTION_OF = (
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line on the orbit", 0),
 )
 GAP = Column("gap", "", "gap", "what is left of the equation of the orbit, the largest coordinate of its state", 12)
-KIND = Column("kind", symbol="event", meaning="fold, flip (period doubling) or torus (Neimark-Sacker) point")
+KIND = Column("kind", "", "event", "fold, flip (period doubling) or torus (Neimark-Sacker) point")
 ANGLE = Column("angle_rad", "rad", "angle", "angle of the multiplier that crosses the unit circle", 3)
-LEADS = Column("leads_to", symbol="begins", meaning="branch of the orbits of twice the period that begin there")
+LEADS = Column("leads_to", "", "begins", "branch of the orbits of twice the period that begin there")
 STROBE = Column("strobe", "", "strobe", "number of the strobe, from 0 on", 0)
 RADIUS = Column("radius_m", "m", "r", "distance of the buoy from the anchor at the strobe", 4)
-ORBITS = Column("orbits", "", "orbits", "orbits of the branch", 0)
-CLOSED = Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0)
-BEGINS = Column("begins", symbol="begins", meaning="why the branch begins where it does")
-ENDS = Column("ends", symbol="ends", meaning="why the branch ends where it does")
+OF_A_BRANCH = (
+    BRANCH,
+    PERIOD,
+    MOTION,
+    Column("orbits", "", "orbits", "orbits of the branch", 0),
+    Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0),
+    Column("begins", "", "begins", "why the branch begins where it does"),
+    Column("ends", "", "ends", "why the branch ends where it does"),
+    STATUS,
+    MESSAGE,
+)
 
 
 def tables(tree: Tree, key: Column) -> list[dict]:
@@ -56,8 +63,7 @@ def tables(tree: Tree, key: Column) -> list[dict]:
     write_table(out / "table.csv", (BRANCH, PLACE, key, *numbers), rows)
     write_table(out / "strobes.csv", (BRANCH, PLACE, key, STROBE, RADIUS), strobes)
     write_table(subfolder(tree.plan, "events") / "table.csv", _event_columns(key), [*_events(tree, key)])
-    columns = BRANCH, PERIOD, MOTION, ORBITS, CLOSED, BEGINS, ENDS, STATUS, MESSAGE
-    write_table(out / "branches" / "table.csv", columns, [*_branches(tree)])
+    write_table(out / "branches" / "table.csv", OF_A_BRANCH, [*_branches(tree)])
     folder = subfolder(tree.plan, "orbits")
     write_table(folder / "table.csv", (BRANCH, PLACE, key, MOTION, *numbers), [*_chosen(tree, key, folder)])
     return rows
@@ -71,7 +77,7 @@ def _event_columns(key: Column) -> tuple[Column, ...]:
     return BRANCH, KIND, replace(key, digits=5), error, finer, *shape, STATUS, MESSAGE
 
 
-def _numbers(orbit: dict) -> dict[str, object]:
+def _numbers(orbit: dict) -> Row:
     """The columns of an orbit."""
     moduli = [abs(complex(*pair)) for pair in orbit["multipliers"]]
     row = {
@@ -94,46 +100,37 @@ def _numbers(orbit: dict) -> dict[str, object]:
     return row
 
 
-def _events(tree: Tree, key: Column) -> Iterator[dict[str, object]]:
+def _events(tree: Tree, key: Column) -> Iterator[Row]:
     for branch in tree.branches:
         for event in branch.result["events"]:
             status, message = "ok", ""
             if event["error"] is None:
                 status, message = "unsure", "not found with other steps"
-            yield {
+            yield event | {
                 "branch": branch.name,
-                "kind": event["kind"],
                 key.name: event["value"],
-                "error": event["error"],
-                "finer": event.get("finer"),
-                "period": event["period"],
-                "angle_rad": event["angle_rad"],
                 "tension_top_max_N": event["tension_N"][1],
                 "radius_m": event["strobes"][0],
-                "leads_to": event.get("leads_to"),
                 "status": status,
                 "message": event.get("doubt") or message,
             }
 
 
-def _branches(tree: Tree) -> Iterator[dict[str, object]]:
+def _branches(tree: Tree) -> Iterator[Row]:
     for branch in tree.branches:
-        yield {
+        yield branch.result | {
             "branch": branch.name,
             "motion": " ".join(branch.motions),
             "period": branch.orbits[0]["period"],
             "orbits": len(branch.orbits),
-            "begins": branch.result["begins"],
-            "ends": branch.result["ends"],
             "closed": int(branch.result["closed"]),
             "status": "ok",
         }
-    for failure in tree.failed:
-        row = {"motion": failure["motion"], "period": failure["period"]}
-        yield row | {"status": "no-orbit", "message": failure["reason"]}
+    for seed, reason in tree.failed:
+        yield {"motion": seed.motion, "period": seed.period, "status": "no-orbit", "message": reason}
 
 
-def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[dict[str, object]]:
+def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[Row]:
     """Rows of the orbits with errors; writes the history of each into the folder."""
     counts: Counter = Counter()
     for orbit in sorted(tree.chosen, key=lambda orbit: (orbit["branch"], orbit["value"])):

@@ -1,6 +1,5 @@
 """All orbits that a campaign finds: those under its motions, their branches, and the branches that begin at flips."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from itertools import filterfalse, pairwise
@@ -8,8 +7,7 @@ from string import ascii_lowercase
 
 import numpy as np
 
-from campaigns.explore.orbit_tasks import finer, followed, sharper, under
-from campaigns.explore.tracing import Line, line_task, work
+from campaigns.explore.tracing import Line, Solved, finer, followed, line_task, sharper, under, work
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.tasks import Task
 from engine.views import LONGEST_PERIOD
@@ -40,8 +38,7 @@ class Branch:
         """Note that the orbit of a seed lies on the branch: its motion is one of it, and its flip leads to it."""
         if seed.motion and seed.motion not in self.motions:
             self.motions.append(seed.motion)
-        if seed.begins is not None:
-            seed.begins["leads_to"] = self.name
+        seed.begins["leads_to"] = self.name
 
 
 @dataclass(eq=False)
@@ -50,16 +47,18 @@ class Seed:
 
     motion: the letter of the motion on it, "" for that of a flip.
     value: of the key.
+    period: in wave periods.
     seen: the orbit as it is compared with others, a row a strobe.
     points: its states.
-    begins: the flip at which it begins; None for that of a motion.
+    begins: the flip at which it begins; {} for that of a motion.
     """
 
     motion: str
     value: float
-    seen: list
-    points: np.ndarray
-    begins: dict | None = None
+    period: int
+    seen: Sequence = ()
+    points: np.ndarray | None = None
+    begins: dict = field(default_factory=dict)
 
 
 class Tree:
@@ -75,10 +74,10 @@ class Tree:
         (plan.how.out / FOLDER).mkdir(exist_ok=True)
         self.branches: list[Branch] = []
         self.chosen: list[dict] = []  # orbits with errors and history
-        self.failed: list[dict] = []
+        self.failed: list[tuple[Seed, str]] = []  # orbits without a branch, and why
         self.computed = self.there = 0
 
-    def work(self, title: str, tasks: Sequence[Task]) -> list[tuple[dict, list[np.ndarray]]]:
+    def work(self, title: str, tasks: Sequence[Task]) -> list[Solved]:
         """Results of tasks, in their order. Raises CampaignStopped."""
         results, there = work(self.plan, self.plan.how.out / FOLDER, title, tasks)
         self.there, self.computed = self.there + there, self.computed + len(tasks) - there
@@ -95,11 +94,11 @@ class Tree:
                 tasks.append(line_task(followed, self.line, (seed.value, seed.points, self.most)))
             for seed, (result, points) in zip(following, self.work("branches", tasks), strict=True):
                 if result.get("reason"):
-                    self._fail(seed, result["reason"])
+                    self.failed.append((seed, result["reason"]))
                 elif not self._is_known(seed):  # it may be found meanwhile from another orbit
                     seeds += self._add(seed, result, points)
         for seed in filterfalse(self._is_known, seeds):
-            self._fail(seed, f"not followed: {self.room} branches are (--branches)")
+            self.failed.append((seed, f"not followed: {self.room} branches are (--branches)"))
         self._meet()
 
     def _seeds(self, starts: Sequence[tuple[str, float, int, object]]) -> list[Seed]:
@@ -109,25 +108,22 @@ class Tree:
         for (motion, value, period, _), (result, points) in zip(starts, results, strict=True):
             if result["reason"] or result["period"] > LONGEST_PERIOD:
                 reason = result["reason"] or f"its orbit has period {result['period']}"
-                self.failed.append({"motion": motion, "value": value, "period": period, "reason": reason})
+                self.failed.append((Seed(motion, value, period), reason))
                 continue
             self.chosen.append({**result, "motion": motion})
-            seeds.append(Seed(motion, value, result["seen"], points[0]))
+            seeds.append(Seed(motion, value, result["period"], result["seen"], points[0]))
         return seeds
-
-    def _fail(self, seed: Seed, reason: str) -> None:
-        failure = {"motion": seed.motion, "value": seed.value, "period": len(seed.seen), "reason": reason}
-        self.failed.append(failure | {"begins": seed.begins})
 
     def _add(self, seed: Seed, result: dict, points: list[np.ndarray]) -> list[Seed]:
         """Add the branch of a seed; returns the orbits of twice the period that begin at its flips."""
-        branch = Branch(self._name(len(seed.seen)), result, points)
+        branch = Branch(self._name(seed.period), result, points)
         self.branches.append(branch)
         branch.take(seed)
         seeds = []
         for event in branch.events:
             if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD:
-                seeds.append(Seed("", event["doubled_value"], event["doubled_seen"], points[event["doubled"]], event))
+                value, seen, doubled = event["doubled_value"], event["doubled_seen"], points[event["doubled"]]
+                seeds.append(Seed("", value, len(seen), seen, doubled, event))
         return seeds
 
     def _meet(self) -> None:
@@ -138,17 +134,16 @@ class Tree:
                     flip = self._nearest_flip(orbit)
                     if flip is not None:
                         flip.setdefault("leads_to", branch.name)
-        self.failed = [failure for failure in self.failed if not (failure.get("begins") or {}).get("leads_to")]
+        self.failed = [failure for failure in self.failed if "leads_to" not in failure[0].begins]
 
     def _nearest_flip(self, orbit: dict) -> dict | None:
         """The flip nearest in value to an orbit of twice its period; None where there is none."""
-        nearest, least = None, math.inf
+        flips = []
         for branch in self.branches:
             for event in branch.events:
-                distance = abs(event["value"] - orbit["value"])
-                if event["kind"] == "flip" and 2 * event["period"] == orbit["period"] and distance < least:
-                    nearest, least = event, distance
-        return nearest
+                if event["kind"] == "flip" and 2 * event["period"] == orbit["period"]:
+                    flips.append(event)
+        return min(flips, key=lambda flip: abs(flip["value"] - orbit["value"]), default=None)
 
     def _is_known(self, seed: Seed) -> bool:
         """Whether an orbit lies on a branch; its motion is then one of that branch."""
@@ -246,13 +241,9 @@ def _apart(orbit: dict, event: dict, size: float) -> float:
 
 def _same(seen, candidate) -> bool:
     """Whether two orbits are one, begun at any strobe."""
-    seen, candidate = np.array(seen), np.array(candidate)
-    if seen.shape != candidate.shape:
+    if np.shape(seen) != np.shape(candidate):
         return False
-    for k in range(len(seen)):
-        if np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M:
-            return True
-    return False
+    return any(np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M for k in range(len(seen)))
 
 
 def _on(chord, value: float, seen: np.ndarray, size: float) -> bool:

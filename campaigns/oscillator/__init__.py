@@ -35,7 +35,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         elif value < -2 * error:
             word = "regular"
         sentences.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
-    force = grazing_force(SnapOscillator(**order.options.changes)).force
+    force = grazing_force(SnapOscillator(**order.options.changes))
     if force > 0.0:
         sentences.append(f"The line stays taut up to a force of F = {force:.4f}.")
     return sentences
@@ -50,4 +50,4 @@ STUDY = Study(
     answer=answer,
     places=(),
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

@@ -5,7 +5,6 @@ netCDF-3 file, whose key is a hash of the part, its parameters and the sources o
 the file, so table.csv can be made again from the files.
 """
 
-import contextlib
 import json
 import time
 from dataclasses import asdict
@@ -35,12 +34,12 @@ from campaigns.machinery.progress import stage
 from campaigns.oscillator.options import Options
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column
+from tables import MESSAGE, RUN_KEY, STATUS, Column, of_words
 
 SEED = 0
 Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
 COLUMNS = (
-    Column("part", symbol="part", meaning="what is computed"),
+    of_words("part", "what is computed"),
     STATUS,
     Column("lambda_1_nats_per_time", "nats/time", "λ_1", "largest exponent, mean over the starts", 6),
     Column("lambda_1_error", "nats/time", "± λ_1", "its standard error", 6),
@@ -203,14 +202,11 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
     if missing:
         timing["compile_s"] = _compile(oscillator)
     begun = time.perf_counter()
-    try:
-        with stage("parts", len(PARTS), "parts", lambda: len(table.rows)):
-            for part in missing:
-                with stage(part):
-                    row = _done(part, oscillator, options, trajectory_path(out, keys[part]))
-                table.add(keys[part], row | {"run_key": keys[part]})
-    finally:
-        with contextlib.suppress(OSError):
+    with stage("parts", len(PARTS), "parts", lambda: len(table.rows)):
+        for part in missing:
+            with stage(part):
+                row = _done(part, oscillator, options, trajectory_path(out, keys[part]))
+            table.rows[keys[part]] = row | {"run_key": keys[part]}
             table.write()
     timing |= {"run_s": time.perf_counter() - begun, "analysis_s": 0.0}
     return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)

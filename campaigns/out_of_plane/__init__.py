@@ -16,8 +16,8 @@ from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import product
 
-from campaigns.explore.settings import ROW_SOURCES
 from campaigns.explore.space import SEED_MPS, velocity
+from campaigns.explore.sweep import ROW_SOURCES
 from campaigns.judge import LEAST_JUDGED, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -57,7 +57,7 @@ class Variant:
     seed_direction: str = "lateral"
     profiles: int = 0
 
-    def changes(self) -> dict[str, object]:
+    def changes(self) -> dict:
         """The keys of the scene that make it this variant."""
         keys = {
             "waves.steepness": self.steepness,
@@ -160,7 +160,7 @@ def variant(row: Mapping[str, object]) -> Variant:
     return Variant(**{name: row[name] for name in Variant.__dataclass_fields__})
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     return {"base": asdict(base_of(order)), "looping_depths_m": list(LOOPING_DEPTHS_M)}
 
 

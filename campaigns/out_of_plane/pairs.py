@@ -11,7 +11,7 @@ import numpy as np
 
 from campaigns.machinery.folder import run_of
 from engine.views import strobed_radius
-from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column
+from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column, Row
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
 MOST_OFF = 0.01  # of the range of r: what the ends of the ranges may differ by
@@ -28,12 +28,12 @@ COLUMNS = (
     Column("same_section", "", "section", _SAME.format(f"section, across within {MOST_ACROSS:g} times the halves"), 0),
     Column("same_exponent", "", "exponent", _SAME.format("Wolf's exponent of r, within two errors"), 0),
     Column("same_regime", "", "regime", _SAME.format("regime"), 0),
-    Column("planar_key", symbol="planar run", meaning="key of the planar run"),
-    Column("spatial_key", symbol="run in space", meaning="key of the run in three dimensions"),
+    Column("planar_key", "", "planar run", "key of the planar run"),
+    Column("spatial_key", "", "run in space", "key of the run in three dimensions"),
 )
 
 
-def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str, object]:
+def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> Row:
     """A row of pairs.csv from two rows of table.csv, of the same scene in the plane and in three dimensions."""
     from analysis import section_distance
 
@@ -63,7 +63,7 @@ def pair_row(out: Path, planar: dict, spatial: dict, transient: int) -> dict[str
     return row
 
 
-def agreement(planar: dict, spatial: dict, across: float, within: float) -> dict[str, object]:
+def agreement(planar: dict, spatial: dict, across: float, within: float) -> Row:
     """In what two rows of table.csv agree: 1, 0, or None where the records are too short to say."""
     low_off_m = abs(planar["radius_min_m"] - spatial["radius_min_m"])
     high_off_m = abs(planar["radius_max_m"] - spatial["radius_max_m"])

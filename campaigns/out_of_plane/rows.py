@@ -37,6 +37,7 @@ from tables import (
     STATUS,
     STIFFNESS,
     Column,
+    Row,
     counted,
     on,
 )
@@ -131,7 +132,7 @@ COLUMNS = (
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
     Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
-    Column("seed_direction", symbol="direction", meaning="direction of the push; empty for a planar run"),
+    Column("seed_direction", "", "direction", "direction of the push; empty for a planar run"),
     Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0, SHEET),
     *on(RUNS, PERIODS_RUN),
     STATUS,
@@ -158,7 +159,7 @@ COLUMNS = (
 )
 
 
-def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozenset()) -> dict[str, object]:
+def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozenset()) -> Row:
     """The columns of `COLUMNS` that a trajectory fills; those left out are unknown.
 
     trajectory: an engine Trajectory of a buoy in waves along x, run to its end or not. transient_periods: left out of
@@ -174,7 +175,7 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
         for body, name in BODIES.items():
             for measure, value in _lateral(columns[name], scene, row).items():
                 row[f"{body}_{measure}"] = value
-        first_burst = row["rope_first_burst_period"]
+        first_burst = row.get("rope_first_burst_period")
         if first_burst is not None:
             for body, name in BODIES.items():
                 rise = _rise(columns[name], scene, first_burst)
@@ -188,7 +189,7 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     return row
 
 
-def _lateral(values, scene, row) -> dict[str, object]:
+def _lateral(values, scene, row) -> Row:
     from analysis import growth_or_bursts
 
     step_s, period_s, size = scene.sample_step_s(), scene.waves.period_s, np.abs(values)
@@ -208,7 +209,6 @@ def _lateral(values, scene, row) -> dict[str, object]:
         "fit_span_nats": growth.span_nats,
         "lateral_max_m": largest_m,
         "lateral_late_m": float(size[len(size) // 2 :].max()),
-        "first_burst_period": None,
     }
     if growth.kind == "bursts":
         row_of_body["bursts"] = len(bursts)

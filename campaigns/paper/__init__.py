@@ -79,4 +79,4 @@ STUDY = Study(
     answer=answer,
     places=("jobs",),
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

@@ -11,12 +11,12 @@ from typing import get_args
 
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.rows import STEEPNESS
-from campaigns.explore.settings import measures_of
+from campaigns.explore.sweep import measures_of
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed
 from campaigns.machinery.plan import Summary
 from campaigns.study import Measures, Order, Study
-from tables import DEPTH, STIFFNESS, Column, names
+from tables import DEPTH, STIFFNESS, names, of_words
 from tables import PAPER_STEEPNESS as STEEPNESSES
 
 SCENE = "tethered_buoy"
@@ -26,8 +26,8 @@ STIFFNESS_DEPTHS_M = (21.0, 21.6, 22.5)
 PERIODS, TRANSIENT = 400, 100
 QUICK_DEPTHS_M, QUICK_PERIODS, QUICK_TRANSIENT = (21.0, 22.5), 45, 5
 
-ABOVE = Column("above_still_water", symbol="above water", meaning="treatment of the waves above still water")
-DROWNED = Column("submergence", symbol="submergence", meaning="treatment of a buoy that leaves the water")
+ABOVE = of_words("above_still_water", "treatment of the waves above still water", "above water")
+DROWNED = of_words("submergence", "treatment of a buoy that leaves the water")
 VARIED = {  # column that names a run -> key of the scene
     STEEPNESS: "waves.steepness",
     DEPTH: "water.depth_m",

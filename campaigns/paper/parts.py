@@ -27,12 +27,12 @@ from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column, any_rows, names
+from tables import MESSAGE, RUN_KEY, STATUS, Column, any_rows, names, of_words
 
 COLUMNS = (
-    Column("part", "", "part", "folder of the part"),
+    of_words("part", "folder of the part"),
     STATUS,
-    Column("command", "", "command", "what ran it"),
+    of_words("command", "what ran it"),
     Column("runs", "", "runs", "its runs", 0),
     Column("failed", "", "failed", "runs that did not end as asked", 0),
     Column("compile_s", "s", "compiling", "compiling", 0),

@@ -13,13 +13,12 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
-from campaigns.explore.settings import BUDGET, ROW_SOURCES
+from campaigns.explore.sweep import BUDGET
 from campaigns.machinery import cli, session
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.regime_map import cuts
@@ -87,13 +86,12 @@ def cases(order: Order) -> Iterator[Job]:
     order.periods, order.looks, order.transient = BUDGET, True, None
     if grid is None:
         return
-    order.tell(f"--set {key.key}: this campaign sets it" for key in grid.keys if key.key in order.changes)
+    grid.refuse_set(order, "")
     base = order.base(tell=True)
     if base is None:
         return
     if not (in_regular_waves(base) and carries_tangents(base)):
-        allowed = motions.ONLY.removeprefix("a number for ")
-        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {allowed}"])
+        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
         return
     for cell in grid.coarse():
         fault_count, job = len(order.faults), grid.job_at(order, cell)
@@ -110,34 +108,29 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The row of a motion."""
-    from campaigns.explore.judgement import judgement_of
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
-    columns = motion_columns(order.options.grid.columns)
-    judge = partial(judgement_of, transient_periods=None)
-    return Measures(columns, cell_row, (*ROW_SOURCES, "campaigns/regime_map"), judge=judge)
+    sources = (*motions.ROW_SOURCES, "campaigns/regime_map")
+    measures = motions.measures_of(order, motion_columns(order.options.grid.columns))
+    return replace(measures, row=cell_row, sources=sources)
 
 
-def runs(order: Order) -> Callable:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
+    from campaigns.regime_map.maps import Map
 
-    def map_cells(plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-        from campaigns.regime_map.maps import Map
-
-        regime_map = Map(plan, order)
-        regime_map.run_screen(jobs)
-        summary = Summary([], 0, 0, 0.0)
-        if not order.options.screen:
-            summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
-        return regime_map.motions.timing(), summary
-
-    return map_cells
+    regime_map = Map(plan, order)
+    regime_map.run_screen(jobs)
+    summary = Summary([], 0, 0, 0.0)
+    if not order.options.screen:
+        summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
+    return regime_map.motions.timing(), summary
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     options = order.options
-    parameters: dict[str, object] = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
+    parameters = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
     if options.grid.page is not None:
         parameters["pages"] = {options.grid.page.key: list(options.grid.page.values)}
     parameters |= {

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from campaigns.explore.grid import Grid, Varied
 from campaigns.machinery.plan import Job
 from campaigns.study import Order
+from tables import Row
 
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 CARRIED = "carried"
@@ -60,7 +61,7 @@ class CellGrid(Grid):
         numbers = range(len(along_i.values)), range(len(along_j.values))
         return [Cell(*numbers_of_cell) for numbers_of_cell in product(pages, levels, *numbers)]
 
-    def labels(self, cell: Cell) -> dict[str, object]:
+    def labels(self, cell: Cell) -> Row:
         """The values of the keys at the centre of a cell."""
         labels = {}
         if self.page is not None:

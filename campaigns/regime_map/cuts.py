@@ -12,9 +12,9 @@ from campaigns.machinery.folder import CampaignStopped, claimed, trajectory_path
 from campaigns.study import Order, Study
 
 
-def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> dict[str, object]:
+def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> dict:
     """The values of --cut by key: the nearest ones of the map. keys: of the map."""
-    chosen: dict[str, object] = {}
+    chosen = {}
     if words is None:
         return chosen
     by_name = {key.key: key for key in keys}
@@ -56,7 +56,7 @@ def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     return study.conduct(sweep, argv, simulate)
 
 
-def _sweep_of(order: Order) -> tuple[Study, dict[str, object]]:
+def _sweep_of(order: Order) -> tuple[Study, dict]:
     """The sweep over the key of a map that is left, as done by the command of the map, and its options."""
     from campaigns import buoy_sweep, sweep
 

@@ -23,7 +23,7 @@ from campaigns.regime_map.cells import Cell, Quadtree
 from campaigns.regime_map.tables import STATIC
 from campaigns.study import Order
 from engine.run.rest import static_tension_N
-from tables import finite
+from tables import Row, finite
 
 DRAWN_S = 30.0
 LEAP = 1.2  # largest tensions of neighbours whose ratio is beyond this have a border between them
@@ -31,7 +31,7 @@ MATCH_DISTANCE = 0.2  # of motions of neighbours
 CHEAP, FULL = "cheap", "full"
 
 
-def cell_row(trajectory, judgement) -> dict[str, object]:
+def cell_row(trajectory, judgement) -> Row:
     """The row of a judged run of a cell, and which evidence its regime has.
 
     A run that repeats at its last look counts as periodic after this one look, where it repeats closely, or where its
@@ -66,7 +66,7 @@ class Map:
         options, start_s = self.order.options, time.perf_counter()
         self.screen = screened(self.plan, [job.scene for job in coarse], options.kick_speed, options.seed)
         self.motions.times["run_s"] += time.perf_counter() - start_s
-        tables.write_screen(self.plan.how.out, self.grid, coarse, self.screen)
+        tables.write_screen(self.plan, self.grid, coarse, self.screen)
         self._show()
 
     def compute(self, cells: list[Cell], jobs: list[Job]) -> Summary:
@@ -76,7 +76,7 @@ class Map:
         self.tree.add(cells)
         explore(self.motions, jobs, search)
         summary = self.motions.write()
-        tables.write_strobes(self.plan.how.out, self)
+        tables.write_strobes(self)
         self._show()
         return summary
 
@@ -144,7 +144,7 @@ class Map:
     def _show(self) -> None:
         """Write what is known of the cells, and draw it where reports can."""
         out = self.plan.how.out
-        tables.write_cells(out, self)
+        tables.write_cells(self)
         with contextlib.suppress(ImportError):
             from reports.regime_map import draw
 

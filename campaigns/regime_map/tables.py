@@ -2,14 +2,14 @@
 
 import io
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.explore.motions import Motion
+from campaigns.explore.motions import Motion, subfolder
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
-from campaigns.explore.settings import columns_of
+from campaigns.explore.sweep import columns_of
+from campaigns.machinery.plan import Plan
 from campaigns.regime_map.cells import CellGrid
 from engine.atomic import write_atomic
 from tables import (
@@ -24,6 +24,7 @@ from tables import (
     STATUS,
     WALL_S,
     Column,
+    Row,
     write_table,
 )
 
@@ -34,17 +35,19 @@ STROBES = 64  # wave periods of a motion at most
 LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0, SHEET)
 VERDICT = Column(
     "verdict",
-    symbol="verdict",
-    meaning="cheap: the motion repeats at one look; full: the procedure of docs/motions.md#how-a-run-is-judged",
-    page=REGIMES,
+    "",
+    "verdict",
+    "cheap: the motion repeats at one look; full: the procedure of docs/motions.md#how-a-run-is-judged",
+    None,
+    REGIMES,
 )
 STATIC = Column("tension_static_N", "N", "T_0", "tension at the top at rest, of a run that begins there", 0, SHEET)
 COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)
 SHARE = Column("share_of_largest", "", "share", "share of the kicks that end in the motion of the largest tension", 2)
-SOURCE = Column("source", symbol="source", meaning="computed, failed, or only screened: with a massless tether")
-OF_REST = Column("regime_rest", symbol="regime", meaning="regime of the motion to which rest leads")
+SOURCE = Column("source", "", "source", "computed, failed, or only screened: with a massless tether")
+OF_REST = Column("regime_rest", "", "regime", "regime of the motion to which rest leads")
 OF_A_CELL = (
     LEVEL,
     SOURCE,
@@ -58,7 +61,7 @@ OF_A_CELL = (
     Column("loops", "", "loops", "1 where a motion released loops, else 0", 0),
     Column("leaves_water", "", "out", "1 where the sphere of a motion rises above still water, else 0", 0),
     Column("wall_s", "s", "wall", "time of the judged runs of the cell", 2),
-    Column("run_key_rest", symbol="key", meaning="content key of the run from rest"),
+    Column("run_key_rest", "", "key", "content key of the run from rest"),
     STATUS,
     MESSAGE,
 )
@@ -74,14 +77,13 @@ def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
     return tuple(columns)
 
 
-def write_screen(out: Path, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
+def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
-    (out / "screen").mkdir(exist_ok=True)
     rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
-    write_table(out / "screen" / "table.csv", (*grid.columns, *OF_THE_SCREEN), rows)
+    write_table(subfolder(plan, "screen") / "table.csv", (*grid.columns, *OF_THE_SCREEN), rows)
 
 
-def screen_row(motions: list[dict]) -> dict[str, object]:
+def screen_row(motions: list[dict]) -> Row:
     """The columns OF_THE_SCREEN; empty of a scene without a massless model."""
     if not motions:
         return {}
@@ -100,37 +102,29 @@ def screen_row(motions: list[dict]) -> dict[str, object]:
     return row
 
 
-def write_cells(out: Path, map_: "Map") -> None:
+def write_cells(map_: "Map") -> None:
     """cells/table.csv: a row for each cell of every level. Raises OSError."""
-    (out / "cells").mkdir(exist_ok=True)
     widths = []
     for key in map_.grid.axes:
         unit, symbol = key.column.unit, f"Δ{key.column.symbol}"
         widths.append(Column(f"width_{key.key}", unit, symbol, "size of the cell", 5))
-    write_table(out / "cells" / "table.csv", (*map_.grid.columns, *widths, *OF_A_CELL), [*_cells(map_)])
+    write_table(subfolder(map_.plan, "cells") / "table.csv", (*map_.grid.columns, *widths, *OF_A_CELL), [*_cells(map_)])
 
 
 def _cells(map_: "Map") -> Iterator[dict]:
     grid, motions = map_.grid, map_.motions
-    places = {cell: place for cell, place in map_.tree.number.items() if _is_done(map_, place)}
-    for number, cell in enumerate(grid.coarse()):
-        if cell not in places:
-            row = {}
-            if map_.screen:
-                row = screen_row(map_.screen[number])
-            yield {**grid.labels(cell), **grid.widths(cell), "level": 0, "source": SCREENED, **row}
-    for cell, place in places.items():
-        row = _cell(map_, motions.at[place], motions.rows[motions.jobs[place].key])
+    rows = {}
+    for cell, screened in zip(grid.coarse(), map_.screen, strict=True):
+        rows[cell] = {"source": SCREENED, **screen_row(screened)}
+    for job, motions_of_cell, cell in zip(motions.jobs, motions.at, map_.tree.cells, strict=False):
+        if job.key in motions.rows:  # the run from rest has ended
+            rows.pop(cell, None)
+            rows[cell] = _cell(map_, motions_of_cell, motions.rows[job.key])
+    for cell, row in rows.items():
         yield {**grid.labels(cell), **grid.widths(cell), "level": cell.level, **row}
 
 
-def _is_done(map_: "Map", place: int) -> bool:
-    """Whether the run from rest of a cell has ended."""
-    jobs = map_.motions.jobs
-    return place < len(jobs) and jobs[place].key in map_.rows
-
-
-def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> dict[str, object]:
+def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
     """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
     rows = list(filter(None, map(map_.motions.row_of, motions))) or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
@@ -167,7 +161,7 @@ def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
     return any((row.get(column.name) or 0.0) > 0.0 for row in rows)
 
 
-def write_strobes(out: Path, map_: "Map") -> None:
+def write_strobes(map_: "Map") -> None:
     """strobes.npz: r (m) once a wave period, and the largest tension (N) of the period that begins there, of a motion.
 
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.
@@ -179,9 +173,8 @@ def write_strobes(out: Path, map_: "Map") -> None:
         points, measures = motion.settled.points[-STROBES:], motion.settled.measures[-STROBES:]
         radius[number, : len(points)] = np.hypot(points[:, 0], points[:, 1])
         tension[number, : len(measures)] = measures[:, 2]
-        keys.append(str(map_.motions.row_of(motion).get(RUN_KEY.name, "")))
-        letters.append(getattr(motion.branch, "letter", ""))
-    content = io.BytesIO()
-    arrays = {"radius_m": radius, "tension_N": tension}
-    np.savez_compressed(content, run_key=np.array(keys, "U64"), motion=np.array(letters, "U8"), **arrays)
-    write_atomic(out / "strobes.npz", content.getvalue())
+        keys.append(map_.motions.row_of(motion).get(RUN_KEY.name, ""))
+        letters.append(motion.branch.letter)
+    content, words = io.BytesIO(), {"run_key": np.array(keys, "U64"), "motion": np.array(letters, "U8")}
+    np.savez_compressed(content, **words, radius_m=radius, tension_N=tension)
+    write_atomic(map_.plan.how.out / "strobes.npz", content.getvalue())

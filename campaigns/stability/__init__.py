@@ -83,4 +83,4 @@ STUDY = Study(
     places=("jobs",),
     strict=True,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

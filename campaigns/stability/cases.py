@@ -20,7 +20,7 @@ from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.limits import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names, of_words
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -30,13 +30,13 @@ _NOT_SAVED = "not saved"
 NEEDS_PROFILES = ("energy", "buckling", "straight")
 FILE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 COLUMNS = (
-    Column("part", symbol="part", meaning="case: one run that is judged"),
-    Column("group", symbol="group", meaning="what is extreme in the case"),
-    Column("about", symbol="about", meaning="the group in words"),
-    Column("case", symbol="case", meaning="the case within its group"),
+    of_words("part", "case: one run that is judged"),
+    of_words("group", "what is extreme in the case"),
+    of_words("about", "the group in words"),
+    of_words("case", "the case within its group"),
     Column("dimensions", "", "D", "dimensions of the motion", 0),
-    Column("verdict", symbol="verdict", meaning="ok, refused, known limit or unexplained"),
-    Column("run_status", symbol="ended", meaning="how the run ended"),
+    of_words("verdict", "ok, refused, known limit or unexplained"),
+    of_words("run_status", "how the run ended", "ended"),
     Column("measured", "", "measured", "the number that the check measured", 4),
     Column("bar", "", "bar", "what the number has to stay below", 4),
     Column("stiffness_N", "N", "EA", "stiffness of a linear tension law", 0),
@@ -44,9 +44,9 @@ COLUMNS = (
         "measured_tension", "", "tension", "how far the largest tension at the top is off, over that of the check", 4
     ),
     Column("bar_tension", "", "its bar", "what that has to stay below where the run does not say that it is off", 4),
-    Column("how", symbol="how we know", meaning="the check"),
-    Column("warning", symbol="warning", meaning="what the run says of its own accuracy"),
-    Column("limit", symbol="why", meaning="why another ending is expected"),
+    of_words("how", "the check", "how we know"),
+    of_words("warning", "what the run says of its own accuracy"),
+    of_words("limit", "why another ending is expected", "why"),
     Column("length_s", "s", "run", "length of the run that was asked for", 2),
     *STATISTICS,
     Column("case_wall_s", "s", "wall", "wall-clock time of all runs of the case", 2),

@@ -9,6 +9,7 @@ Nothing here knows what the engine does inside; where another run is needed (ref
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -182,7 +183,7 @@ def energy(run: Trajectory, case: Case) -> tuple[float, str]:
     scene, lines = run.scene, run.profiles
     tether, h = scene.tether, np.diff(lines.s_m)
     m = tether.density_kgpm3 * tether.area_m2
-    inner = lambda values: np.sum(h * 0.5 * (values[:, 1:] + values[:, :-1]), axis=1)  # noqa: E731
+    inner = partial(np.trapezoid, x=lines.s_m, axis=1)
     kinetic = 0.5 * m * inner(lines.speed_mps**2)
     gravity = m * scene.gravity_mps2 * inner(lines.z_m)
     if scene.buoy is not None:
@@ -196,11 +197,13 @@ def energy(run: Trajectory, case: Case) -> tuple[float, str]:
 
 def stretching_energy(law, strain: np.ndarray) -> np.ndarray:
     """int T deps per unstretched length (N), of the shape of strain."""
+    from scipy.integrate import cumulative_trapezoid
+
     if law.law == "linear":
         return 0.5 * law.stiffness_N * strain**2
     grid = np.linspace(-0.999, 5.0, 60001)
     force = np.array([tension_at(strain, law) for strain in grid])
-    work = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(grid) * (force[1:] + force[:-1]))])
+    work = cumulative_trapezoid(force, grid, initial=0.0)
     return np.interp(strain, grid, work) - np.interp(0.0, grid, work)
 
 

@@ -12,19 +12,18 @@ counts. Of an irregular sea only the ramp is left out, and of a run without wave
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
-from campaigns.explore.settings import ROW_SOURCES, columns_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, counted, names
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names
 
 MOST_KEYS = 2
 
@@ -53,10 +52,14 @@ class Options(motions.Starts):
             faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
 
 
-def cases(order: Order) -> Iterator[Job]:
+def cases(order: Order) -> list[Job]:
     """A run for every value, or pair of values."""
+    return motions.with_kicks(order, _jobs(order))
+
+
+def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
-    order.tell(f"--set {key.key}: this campaign sets it; use --vary" for key in grid.keys if key.key in order.changes)
+    grid.refuse_set(order)
     base = order.base(tell=True)
     if base is None or not grid.keys:
         return
@@ -68,7 +71,6 @@ def cases(order: Order) -> Iterator[Job]:
         if duration_s is None:
             absent = f"--duration: given nothing for {order.name!r}, a scene without waves"
             order.tell([f"{absent}; allowed: seconds, above 0"])
-    scenes = []
     for place in grid.places():
         changes, faults = grid.changes(place, base)
         order.tell(faults)
@@ -77,29 +79,11 @@ def cases(order: Order) -> Iterator[Job]:
             scene = judged_scene(order, changes)
         if scene is None:
             continue
-        scenes.append(scene)
         labels, start = place | {"dimensions": scene.motion.dimensions}, motions.start_of(order, scene)
         if in_regular_waves(scene):
             yield judged_job(order, labels, scene, start)
         else:
             yield Job(labels, scene, periods, duration_s)
-    kicks_of(order, scenes)
-
-
-def kicks_of(order: Order, scenes=None) -> int | None:
-    """Kicks at each value; None: runs from rest only, as over two keys."""
-    if len(order.options.grid.keys) > 1:
-        if order.options.starts not in (None, motions.REST):
-            order.tell([f"--starts: given {order.options.starts} with two keys; allowed: {motions.REST}, or one key"])
-        return None
-    if scenes is None:
-        scenes = order.scenes
-    return motions.kicks_of(order, scenes)
-
-
-def runs(order: Order) -> Callable:
-    """The runs from rest, or every motion."""
-    return motions.runs(order, kicks_of(order))
 
 
 def measures(order: Order) -> Measures:
@@ -108,31 +92,19 @@ def measures(order: Order) -> Measures:
 
     keys = order.options.grid.columns
     if any(map(in_regular_waves, order.scenes)):
-        columns = columns_of(keys)
+        columns = motions.columns_of(keys)
     else:
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
-    settings = {"transient_periods": order.transient, "full": None}
     waves = order.cases[0].scene.waves
     if waves is not None and waves.irregular:
-        settings["transient_periods"] = order.given_transient
-    if order.options.evidence == motions.FULL:
-        settings["full"] = order.periods
-    row = partial(sweep_row, transient_periods=settings["transient_periods"])
-    sources = (*ROW_SOURCES, "campaigns/sweep/__init__.py")
-    return Measures(columns, row, sources, settings, partial(judge, **settings))
+        order = replace(order, transient=order.given_transient)
+    row = partial(sweep_row, transient_periods=order.transient)
+    sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
+    return replace(motions.measures_of(order, columns), row=row, sources=sources)
 
 
-def judge(trajectory, checks, orbits, **settings):
-    """`judgement_of` of a buoy in regular waves; None of any other line."""
-    from campaigns.explore.judgement import judgement_of
-
-    if not in_regular_waves(trajectory.scene):
-        return None
-    return judgement_of(trajectory, checks, orbits, **settings)
-
-
-def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str, object]:
+def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     """The columns of `measures` that a trajectory fills; those left out are unknown.
 
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
@@ -154,15 +126,15 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> dict[str,
     return row
 
 
-def parameters(order: Order) -> dict[str, object]:
-    parameters: dict[str, object] = {
+def parameters(order: Order) -> dict:
+    parameters = {
         "vary": {key.key: list(key.values) for key in order.options.grid.keys},
         "strobe_tolerance": STROBE_TOLERANCE,
         "longest_period": LONGEST_PERIOD,
     }
     if order.options.duration is not None:
         parameters |= {"duration_s": order.options.duration, "periods": None, "transient": 0}
-    return parameters | motions.parameters(order, kicks_of(order))
+    return parameters | motions.parameters(order)
 
 
 def beside(order: Order) -> Iterator[Callable]:
@@ -182,7 +154,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
     if len(keys) == 1:
         folders = []
-        if kicks_of(order) is not None:
+        if motions.kicks_of(order) is not None:
             folders.append("ends")
         tables = motions.tables_of(order.how.out, *folders)
         return sentences(rows, keys[0], keys[0], scene, **tables)
@@ -205,7 +177,7 @@ STUDY = Study(
     cases=cases,
     measures=measures,
     parameters=parameters,
-    runs=runs,
+    runs=motions.runs,
     beside=beside,
     answer=answer,
 )

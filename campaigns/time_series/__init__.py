@@ -9,7 +9,6 @@ positive exponent and what noise does not have (docs/time_series.md).
 """
 
 import argparse
-import math
 import os
 import sys
 from collections import namedtuple
@@ -17,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
-from campaigns.machinery.cli import FOLDER, Kind, fault_of, number
+from campaigns.machinery.cli import FOLDER, POSITIVE, Kind, fault_of, number
 from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command
 
@@ -72,10 +71,10 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         words = getattr(options, option[2:])
         if words is not None:
             words = [words]
-        return cli.value(words, option, None, kind, faults)
+        return cli.Option("", "", kind).value(option, words, faults)
 
-    step = value("--step", number("a finite number above 0 [s]", lambda step: 0.0 < step < math.inf))
-    period = value("--period", number(SECONDS, lambda period: 0.0 < period < math.inf))
+    step = value("--step", Kind(POSITIVE.convert, "a finite number above 0 [s]"))
+    period = value("--period", Kind(POSITIVE.convert, SECONDS))
     tolerance = value("--tolerance", number("a number above 0 and below 1", lambda share: 0.0 < share < 1.0))
     out = value("--out", FOLDER)
     if options.step is not None and options.time is not None:

@@ -102,4 +102,4 @@ def error_in_words(row: dict) -> str:
 STUDY = Study(
     name="validation", protocol=__doc__, options=Options, parameters=parameters, perform=perform, answer=answer
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

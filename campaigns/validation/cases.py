@@ -9,28 +9,28 @@ from functools import partial
 from pathlib import Path
 
 from campaigns.machinery.plan import Job
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted, of_words
 
 HOLDS, MISSES, NOT_RUN, TOLD = "holds", "misses", "not run", "told"
 DATA = Path(__file__).with_name("data")
-RUN = Column("run", symbol="run", meaning="scene, and what sets the run apart from it")
+RUN = of_words("run", "scene, and what sets the run apart from it")
 COLUMNS = (RUN, STATUS, *STATISTICS, RUN_KEY, MESSAGE)
 JUDGED = (
-    Column("case", symbol="case", meaning="name of the case"),
-    Column("title", symbol="title", meaning="the case in words"),
-    Column("quantity", symbol="quantity", meaning="what is compared"),
-    Column("ours", symbol="ours", meaning="our number"),
-    Column("theirs", symbol="theirs", meaning="that of the source"),
+    of_words("case", "name of the case"),
+    of_words("title", "the case in words"),
+    of_words("quantity", "what is compared"),
+    of_words("ours", "our number"),
+    of_words("theirs", "that of the source"),
     Column("error", "", "error", "difference of the two, along the curves where rms is said, in the unit", 4),
     Column("bar", "", "bar", "most that the error may be, set before the run", 4),
-    Column("unit", symbol="unit", meaning="unit of error and bar"),
-    Column("verdict", symbol="verdict", meaning="holds, misses, not run; told: a number that is not judged"),
-    Column("note", symbol="note", meaning="what was fitted and is not judged, or why there is no number"),
-    Column("source", symbol="source", meaning="whose numbers theirs are"),
-    Column("assumed", symbol="assumed", meaning="what no source says"),
-    Column("x_label", symbol="x", meaning="axis of the curves"),
-    Column("y_label", symbol="y", meaning="axis of the curves"),
-    Column("run_keys", symbol="keys", meaning="content keys of the runs"),
+    of_words("unit", "unit of error and bar"),
+    of_words("verdict", "holds, misses, not run; told: a number that is not judged"),
+    of_words("note", "what was fitted and is not judged, or why there is no number"),
+    of_words("source", "whose numbers theirs are"),
+    of_words("assumed", "what no source says"),
+    of_words("x_label", "axis of the curves", "x"),
+    of_words("y_label", "axis of the curves", "y"),
+    of_words("run_keys", "content keys of the runs", "keys"),
 )
 
 
@@ -161,7 +161,7 @@ def jobs(cases: Iterable[Case]) -> list[Job]:
 
 def size_of(job: Job) -> float:
     """About how long a run takes: its length times its nodes, and by these again where they shorten the steps."""
-    return job.length_s * job.scene.tether.nodes ** (2 if job.scene.solver.courant else 1)
+    return job.duration_s * job.scene.tether.nodes ** (2 if job.scene.solver.courant else 1)
 
 
 def run_row(trajectory) -> dict[str, object]:

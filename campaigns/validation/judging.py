@@ -7,11 +7,11 @@ from campaigns.machinery.folder import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
 from engine import Trajectory
-from tables import Column
+from tables import Column, of_words
 
 POINTS = (
-    Column("case", symbol="case", meaning="name of the case"),
-    Column("curve", symbol="curve", meaning="name of the pair of curves, where there are several"),
+    of_words("case", "name of the case"),
+    of_words("curve", "name of the pair of curves, where there are several"),
     Column("x", "", "x", "place on the axis that cases.csv names", 6),
     Column("ours", "", "ours", "our number", 6),
     Column("theirs", "", "theirs", "that of the source", 6),
@@ -31,8 +31,9 @@ def judged(out: Path, cases: Iterable[Case]) -> tuple[list[dict], list[dict]]:
         runs = [run_of(out, {"run_key": key, "status": "ok"}) for key in keys]
         fault = _fault(runs)
         if fault:
-            for quantity in case.bars:
-                rows.append(base | verdict(case, quantity, None) | {"note": fault})
+            for quantity, (bar, unit) in case.bars.items():  # without a number they are missed
+                missed = {"quantity": quantity, "bar": bar, "unit": unit, "verdict": MISSES}
+                rows.append(base | missed | {"note": fault})
             continue
         outcome = getattr(families, case.family)(case, runs)
         for quantity, number in outcome.numbers.items():
@@ -53,11 +54,8 @@ def _fault(runs: Iterable[Trajectory | None]) -> str:
     return ""
 
 
-def verdict(case: Case, quantity: str, number: "families.Number | None") -> dict[str, object]:
-    """Numbers of a quantity, and its verdict; None: there is no number, and a bar is missed."""
-    if number is None:
-        bar, unit = case.bars.get(quantity, (None, ""))
-        return {"quantity": quantity, "bar": bar, "unit": unit, "verdict": MISSES}
+def verdict(case: Case, quantity: str, number: families.Number) -> dict[str, object]:
+    """Numbers of a quantity, and its verdict."""
     bar, unit = case.bars.get(quantity, (None, number.unit))
     word = MISSES
     if bar is None:

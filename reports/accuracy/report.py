@@ -6,18 +6,16 @@ from pathlib import Path
 
 from tables import EMPTY, count, decimals, number
 
-from ..parts.content import Bullets, Heading, Item, Report, Table, Text, heads
-from ..parts.provenance import report_page, timing_items
-from ..parts.sections import section_items
+from ..parts import Bullets, Heading, Items, Report, Table, Text, heads, report_page, section_items, timing_items
 from . import sections
 from .sections import Study, read_study
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [
-        *section_items("accuracy", "Question"),
+    items = [
+        *section_items("accuracy"),
         Heading("Error against run time"),
         Text(_protocol(study)),
     ]
@@ -45,15 +43,15 @@ def _protocol(study: Study) -> str:
     )
 
 
-def peer_items(study: Study) -> Iterator[Item]:
+def peer_items(study: Study) -> Items:
     """Other codes: what is left different, what they cost beside ours, what is not installed."""
     of_peers = [setting for setting in study.settings if setting.peer]
     if not of_peers:
         return
     notes = study.folder.provenance.get("peer_notes") or {}
     yield Heading("Other codes")
-    yield Bullets(tuple(f"{name}: {text}" for name, text in notes.items()))
-    rows: list[tuple[str, ...]] = []
+    yield Bullets([f"{name}: {text}" for name, text in notes.items()])
+    rows = []
     for work in study.works:
         rows += _beside_ours(study, work)
     if rows:
@@ -65,11 +63,11 @@ def peer_items(study: Study) -> Iterator[Item]:
             "refined run, in which the differences of the models show. The two finest levels that it reaches. From "
             "`table.csv`."
         )
-        yield Table(columns, tuple(rows), caption, small=True)
+        yield Table(columns, rows, caption)
     missing = dict.fromkeys((setting.method, setting.status, setting.message) for setting in of_peers if setting.failed)
     if missing:
         caption = "Settings of other codes without a result. From `table.csv`."
-        yield Table(heads("code", "outcome", "why"), tuple(missing), caption, small=True)
+        yield Table(heads("code", "outcome", "why"), list(missing), caption)
 
 
 def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import Column, count, number
 
 from ..figures.work_precision import work_precision
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Table, Text, heads
-from ..parts.folder import Folder, FolderError, read_files, read_folder
+from ..parts import Figure, Folder, FolderError, Heading, Items, Table, Text, heads, read_files, read_folder, table_of
 
 OURS, PEER = "point", "peer"
 _WORDS = {
@@ -22,9 +20,8 @@ _WORDS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Setting:
-    """One timed setting: medians over its rounds. error, worst: in the unit of the work; failed: rounds that ended
+class Setting(NamedTuple):
+    """One timed setting: medians over its rounds. error: in the unit of the work; failed: rounds that ended
     early, the first of them with status and message.
     """
 
@@ -34,10 +31,8 @@ class Setting:
     control: str
     value: float
     error: float
-    worst: float
     against_ours: float
     wall_s: float
-    rounds: int
     failed: int
     peer: bool
     status: str
@@ -50,15 +45,14 @@ class Setting:
         return f"{self.nodes} {elements}, {_WORDS[self.control].format(self.value)}"
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left. works: {name: title, unit, period_s, duration_s, rough} in the order of the report."""
 
     folder: Folder
     works: dict[str, dict]
     rows: tuple[dict, ...]
-    settings: tuple[Setting, ...]
-    orders: tuple[dict, ...]
+    settings: list[Setting]
+    orders: list[dict]
     order_columns: dict[str, Column]
 
     def unit(self, work: str) -> str:
@@ -75,16 +69,16 @@ class Study:
         return chosen
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     folder = read_folder(directory)
     works = folder.provenance.get("works")
     if not isinstance(works, dict) or not all(isinstance(entry, dict) and "title" in entry for entry in works.values()):
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not describe the works"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not describe the works")
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     files = read_files(directory, wanted)
     orders, columns = files.values()
-    return Study(folder, works, folder.table, tuple(_settings(folder.table)), tuple(orders), columns)
+    return Study(folder, works, folder.table, list(_settings(folder.table)), orders, columns)
 
 
 def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
@@ -96,10 +90,7 @@ def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
         good, bad = group[group["status"] == "ok"], group[group["status"] != "ok"]
         first = (bad if len(bad) else group).iloc[0]
         middle = good[["error", "error_against_ours", "wall_s"]].median()
-        yield Setting(
-            *named, middle["error"], good["error"].max(), middle["error_against_ours"], middle["wall_s"], len(group),
-            len(bad), first["kind"] == PEER, first["status"], first["message"],
-        )  # fmt: skip
+        yield Setting(*named, *middle, len(bad), first["kind"] == PEER, first["status"], first["message"])
 
 
 LEVELS = {"mm": (5.0, 2.0, 1.0, 0.1, 0.01), "%": (1.0, 0.3, 0.1, 0.03)}
@@ -143,7 +134,7 @@ def within(settings: list[Setting], level: float) -> Setting | None:
     return min(accurate, key=lambda setting: setting.wall_s, default=None)
 
 
-def work_items(study: Study, work: str) -> Iterator[Item]:
+def work_items(study: Study, work: str) -> Items:
     """Everything on one work."""
     entry = study.works[work]
     smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
@@ -165,7 +156,7 @@ def work_items(study: Study, work: str) -> Iterator[Item]:
     if failed:
         rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
-        yield Table(heads("method", "setting", "outcome"), tuple(rows), caption, small=True)
+        yield Table(heads("method", "setting", "outcome"), list(rows), caption)
 
 
 def _diagram(study: Study, work: str) -> Figure:
@@ -197,7 +188,7 @@ def _diagram(study: Study, work: str) -> Figure:
     return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
 
 
-def order_items(study: Study) -> Iterator[Item]:
+def order_items(study: Study) -> Items:
     """Measured orders, work by work."""
     judged, tolerances = [], []
     for row in study.orders:

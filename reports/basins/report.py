@@ -1,7 +1,6 @@
 """The report of `campaigns.basins`: what is said, in which order. Everything comes from the campaign's folder."""
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +10,25 @@ from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
-from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Text
-from ..parts.folder import Folder, FolderError, part_of, read_folder
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.selecting import having
+from ..parts import (
+    LONGEST_CELL,
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    having,
+    limits,
+    part_of,
+    read_folder,
+    report_page,
+    section_items,
+    shown_on,
+    table_of,
+)
 from ..parts.style import BLUE, INK
 from ..sweep.quantities import batched, colours_of, filled_table
 
@@ -31,24 +43,34 @@ _JUDGED = (
     "One judged run a motion. Share: of the starts of the grid. They are no independent draws: the interval is "
     "too wide where the basins are wider than the steps of the grid."
 )
+_SMALLEST = "The smallest start that leads to the motion of the largest tension, bisected to 1 %, on two grids."
+_EDGE = (
+    "Two states on either side of the border between two basins are bisected until they are near each other, "
+    "run side by side until they part, and bisected again (Skufca, Yorke and Eckhardt, Phys. Rev. Lett. 96, "
+    "174101, 2006). Both settle on the edge state, which no start keeps. Its strobed states: `edge/orbit.csv`."
+)
 _MOST = 14  # columns of one table
 _PERIODS = 8  # of a motion without a period, drawn
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of basins. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, ("motion", "outcome", "status"))
     across = folder.provenance.get("across")
     if not isinstance(across, list) or not set(across) <= set(_AXES):
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
     motion_runs, shock, edge = [part_of(folder, name) for name in ("motions", "shock", "edge")]
     motions = []
     if motion_runs is not None:
         motions = [row for row in motion_runs.table if row["motion"]]
-    items = [*_map(folder, across, motions, shock), *section_items("basins", "Question")]
+    items = [*_map(folder, across, motions, shock), *section_items("basins")]
     if motions:
         items += _motions(motion_runs, motions, edge)
-    items += [*_shock(shock), *_edge(edge), Heading("Warnings"), _warnings(folder, across)]
+    if shock is not None:
+        items += [Heading("The smallest start"), *filled_table(shock, _SMALLEST)]
+    if edge is not None:
+        items += [Heading("The edge state"), Text(_EDGE), *filled_table(edge, "The edge state.")]
+    items += [Heading("Warnings"), _warnings(folder, across)]
     return report_page(folder, "Basins: which start ends in which motion", items)
 
 
@@ -64,7 +86,7 @@ def _value(row, axis: str) -> float:
     return value
 
 
-def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Iterator[Item]:
+def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Items:
     x_axis, y_axis = across
     x, across_place = np.unique([_value(row, x_axis) for row in folder.table], return_inverse=True)
     y, up_place = np.unique([_value(row, y_axis) for row in folder.table], return_inverse=True)
@@ -107,7 +129,7 @@ def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] |
     return [_value(starts[0], axis) for axis in across], f"{number(starts[0]['size'], 2)} {unit}"
 
 
-def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
+def _motions(part: Folder, motions, edge: Folder | None) -> Items:
     yield Heading("Motions")
     shown = shown_on(part.columns, motions, RUNS, REGIMES, longest=LONGEST_CELL)
     for names in batched([name for name in shown if name not in ("steepness", "motion")], _MOST):
@@ -116,58 +138,32 @@ def _motions(part: Folder, motions, edge: Folder | None) -> Iterator[Item]:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")
     colours, lines = _colours(motions), []
-    for row in motions:
-        run, _ = part.trajectory(row)
-        if run is not None:
-            lines.append(_loop(run, row["strobed_period"], f"{row['motion']}", colours[row["motion"]]))
+    looks = [(part, row, f"{row['motion']}", "-", "", colours[row["motion"]]) for row in motions]
     if edge is not None:
-        lines += _edge_loops(edge)
+        looks += [(edge, row, "edge state", (0, (3, 1)), "", INK) for row in edge.table if row["run_key"]]
+    for folder, row, *look in looks:
+        run, _ = folder.trajectory(row)
+        if run is not None:
+            lines.append(_loop(run, row["strobed_period"], look))
     if lines:
         caption = "Radial speed over r, of the last periods of each motion and of the edge state between two of them."
         picture = curves([[Panel(lines, "r (m)", "dr/dt (m/s)")]], 3.4, "right")
         yield Figure(picture, caption, f"Phase portrait of {listed(line.name for line in lines)}.")
 
 
-def _edge_loops(edge: Folder) -> Iterator[Curve]:
-    for row in edge.table:
-        if not row["run_key"]:
-            continue
-        run, _ = edge.trajectory(row)
-        if run is not None:
-            yield _loop(run, row["strobed_period"], "edge state", INK, (0, (3, 1)))
-
-
-def _loop(run, period: float, name: str, colour: str, line="-") -> Curve:
-    """The last periods of a run: one orbit, or a few."""
+def _loop(run, period: float, look: list) -> Curve:
+    """The last periods of a run: one orbit, or a few. look: name, line, mark and colour."""
     samples_per_period = round(run.scene.waves.period_s / run.scene.sample_step_s())
     periods, width = _PERIODS, 0.5
     if math.isfinite(period):
         periods, width = int(period), 1.2
     last = slice(-periods * samples_per_period - 1, None)
     radius, rate = run.columns["radius_m"][last], run.columns["radius_rate_mps"][last]
-    return Curve(radius, rate, name, line, "", colour, width=width)
-
-
-def _shock(part: Folder | None) -> Iterator[Item]:
-    if part is not None:
-        yield Heading("The smallest start")
-        caption = "The smallest start that leads to the motion of the largest tension, bisected to 1 %, on two grids."
-        yield from filled_table(part, caption)
-
-
-def _edge(part: Folder | None) -> Iterator[Item]:
-    if part is not None:
-        yield Heading("The edge state")
-        yield Text(
-            "Two states on either side of the border between two basins are bisected until they are near each other, "
-            "run side by side until they part, and bisected again (Skufca, Yorke and Eckhardt, Phys. Rev. Lett. 96, "
-            "174101, 2006). Both settle on the edge state, which no start keeps. Its strobed states: `edge/orbit.csv`."
-        )
-        yield from filled_table(part, "The edge state.")
+    return Curve(radius, rate, *look, width=width)
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:
-    rows_of_outcomes: dict[str, list] = {}
+    rows_of_outcomes = {}
     for row in folder.table:
         if row["motion"]:
             continue

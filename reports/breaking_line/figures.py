@@ -1,22 +1,17 @@
 """Figures of the breaking line: the paper's 2-7, fronts and characteristics, energy, the animation."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray
 
 from tables import listed, number, percent
 
 from ..figures.animations import line_animation, line_strip
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, named, seen
 from ..figures.line_waves import FrontPanel, energy_shares, front_plane, front_speeds
-from ..parts.content import Figure
+from ..parts import Figure
 from .runs import FAST, SLOW, Line, of_kind
-
-if TYPE_CHECKING:
-    import xarray
 
 INSTANT_S = 0.010
 FRAME_S = 0.002  # of the animation
@@ -24,7 +19,7 @@ NEAR_M = (-1.0, 4.0)
 CURVE_POINTS = 120
 
 
-def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
+def shown(lines: list[Line], cases: Sequence[str]) -> list[Line]:
     """The cases among these that can be drawn, in their order."""
     drawn = []
     for line in of_kind(lines, "case"):
@@ -33,7 +28,7 @@ def shown(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Line]:
     return sorted(drawn, key=lambda line: cases.index(line["case"]))
 
 
-def paper_figures(lines: tuple[Line, ...], cases: Sequence[str]) -> list[Figure]:
+def paper_figures(lines: list[Line], cases: Sequence[str]) -> list[Figure]:
     """Configurations, tension and velocity along the line of the fast or the slow breaks, every 10 ms."""
     drawn = shown(lines, cases)
     if not drawn:
@@ -58,7 +53,7 @@ def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
     )
 
 
-def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
+def folds_figure(lines: list[Line]) -> Figure | None:
     """The neighbourhood of the fixed end at the end of every run, in true proportion."""
     panels = []
     pair_by_pair = []
@@ -79,7 +74,7 @@ def folds_figure(lines: tuple[Line, ...]) -> Figure | None:
     return Figure(folds(panels, NEAR_M, (low, high)), caption, "Folds at the fixed end, one panel a case.")
 
 
-def plane_figure(lines: tuple[Line, ...], exact: xarray.Dataset) -> Figure:
+def plane_figure(lines: list[Line], exact: xarray.Dataset) -> Figure:
     """Computed tension over place and time with the exact characteristics."""
     panels, shocked = [], []
     cases, shares = exact["curve_case"].values, exact["share"].values
@@ -133,7 +128,7 @@ def speeds_figure(exact: xarray.Dataset) -> Figure:
     return Figure(picture, caption, f"Measured contour speeds on the curve of wave speed over strain: {seen}.")
 
 
-def energy_figure(lines: tuple[Line, ...]) -> Figure | None:
+def energy_figure(lines: list[Line]) -> Figure | None:
     """Shares of the stored energy over time."""
     panels = []
     for line in shown(lines, (*FAST, *SLOW)):
@@ -153,7 +148,7 @@ def energy_figure(lines: tuple[Line, ...]) -> Figure | None:
     return Figure(energy_shares(panels), caption, "Stacked shares of energy over time, one panel a case.")
 
 
-def animation_figure(lines: tuple[Line, ...], case: str) -> Figure | None:
+def animation_figure(lines: list[Line], case: str) -> Figure | None:
     """The moving picture of one case."""
     drawn = shown(lines, (case,))
     if not drawn:

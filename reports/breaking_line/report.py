@@ -6,11 +6,23 @@ from pathlib import Path
 from tables import count, decimals, listed, number, percent
 
 from ..figures.line_panels import named
-from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.folder import Folder, read_folder
-from ..parts.judged import counted, read_statements, statements_table
-from ..parts.provenance import report_page, scene_items, timing_items
-from ..parts.sections import section_items
+from ..parts import (
+    Folder,
+    Heading,
+    Item,
+    Items,
+    Notice,
+    Report,
+    Text,
+    counted,
+    read_folder,
+    read_statements,
+    report_page,
+    scene_items,
+    section_items,
+    statements_table,
+    timing_items,
+)
 from . import figures
 from .runs import FAST, KINDS, SLOW, Line, of_kind, read_exact, read_lines, series_table, table_of_runs
 
@@ -32,7 +44,7 @@ BUDGET = (
 )
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a breaking-line folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
     lines, judged = read_lines(folder), read_statements(folder.directory)
@@ -41,7 +53,7 @@ def report(directory: str | Path) -> Report:
     of_cases = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
     items = [
-        *section_items("breaking_line", "Question"),
+        *section_items("breaking_line"),
         *_section("The cases", table("cases"), *_warnings(lines), text=ended),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
@@ -53,12 +65,15 @@ def report(directory: str | Path) -> Report:
         *_section("Bending stiffness", table("stiffness")),
         *_section("Doubled grids", table("doubled")),
     ]
-    solved = section_items("breaking_line_solved", law=folder.scene.tether.tension.law)
-    made = [*timing_items(folder, table("cost")), *_scene(folder), *solved]
+    solved = section_items("breaking_line_solved", "Equations", law=folder.scene.tether.tension.law)
+    cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
+    varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
+    scene = scene_items(folder.scene, "breaking_line", varied)
+    made = [*timing_items(folder, table("cost")), *scene, *solved]
     return report_page(folder, "The breaking synthetic line", items, made)
 
 
-def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
+def _section(heading: str, *items: Item | None, text: str = "") -> Items:
     present = [item for item in items if item is not None]
     if not present:
         return []
@@ -68,7 +83,7 @@ def _section(heading: str, *items: Item | None, text: str = "") -> list[Item]:
     return first + present
 
 
-def _warnings(lines: tuple[Line, ...]) -> list[Item]:
+def _warnings(lines: list[Line]) -> Items:
     warnings = [f"{_run(line)}: {line['status']}: {line['message']}" for line in lines if not line.ok]
     for line in lines:
         if line.fault:
@@ -84,7 +99,7 @@ def _warnings(lines: tuple[Line, ...]) -> list[Item]:
             warnings.append(f"The energy budget of case {line.name} does not close to {percent(CLOSED)}.")
     if not warnings:
         return []
-    return [Notice("warning", "What limits these runs", tuple(warnings))]
+    return [Notice("warning", "What limits these runs", warnings)]
 
 
 def _run(line: Line) -> str:
@@ -94,20 +109,14 @@ def _run(line: Line) -> str:
     return f"{run}, {number(line['nodes'])} nodes"
 
 
-def _fronts(folder: Folder, lines: tuple[Line, ...]) -> list[Item | None]:
+def _fronts(folder: Folder, lines: list[Line]) -> list[Item | None]:
     """Nothing where no case has a theory."""
     if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
-    items: list[Item | None] = []
+    items = []
     exact = read_exact(folder)
     if exact is not None:
         items += [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
     for kind in ("speeds", "shocks"):
         items.append(table_of_runs(lines, folder.columns, kind))
     return [*items, series_table(lines, folder.columns)]
-
-
-def _scene(folder: Folder) -> list[Item]:
-    cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
-    varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
-    return scene_items(folder.scene, "breaking_line", varied)

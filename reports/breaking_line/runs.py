@@ -2,23 +2,17 @@
 cases, speeds and shocks against theory, energy, grids, stiffness, cost.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING
+
+import xarray
 
 from tables import Column
 
 from ..figures.line_panels import named
-from ..parts.columns import table_of
-from ..parts.content import Table
-from ..parts.folder import Folder, FolderError, Row, read_files
-
-if TYPE_CHECKING:
-    import xarray
+from ..parts import Folder, FolderError, Table, TableRow, having, read_files, table_of
 
 Columns = dict[str, Column]
 KINDS = {"doubled": ", doubled grid", "straight": ", straight", "stiffness": ", doubled grid", "series": ", straight"}
@@ -80,7 +74,7 @@ FAST, SLOW = ("1", "2", "3", "4"), ("1p", "2p", "3p", "4p")
 
 
 @dataclass(frozen=True, eq=False)
-class Line(Row):
+class Line(TableRow):
     """One row of the table.
 
     `trajectory`: of kind "case", where its file can be read; `fault`: why it cannot, else "".
@@ -99,7 +93,7 @@ class Line(Row):
         return self[column] / self["stored_J"]
 
 
-def read_lines(folder: Folder) -> tuple[Line, ...]:
+def read_lines(folder: Folder) -> list[Line]:
     """Every run of the table, in its order."""
     lines = []
     for row in folder.table:
@@ -107,7 +101,7 @@ def read_lines(folder: Folder) -> tuple[Line, ...]:
             lines.append(Line(row, *folder.trajectory(row)))
         else:
             lines.append(Line(row))
-    return tuple(lines)
+    return lines
 
 
 def read_exact(folder: Folder) -> xarray.Dataset | None:
@@ -122,11 +116,11 @@ def of_kind(lines: Iterable[Line], *kinds: str) -> list[Line]:
     """The runs that ended as asked, kind by kind."""
     runs = []
     for kind in kinds:
-        runs += [line for line in lines if line["kind"] == kind and line.ok]
+        runs += having(lines, kind=kind, status="ok")
     return runs
 
 
-def table_of_runs(lines: tuple[Line, ...], columns: Columns, kind: str) -> Table | None:
+def table_of_runs(lines: list[Line], columns: Columns, kind: str) -> Table | None:
     """A table of OF_RUNS, its energies in per cent of the stored one; None where no run is to be shown."""
     names, kinds, needed, caption = OF_RUNS[kind]
     shown = _runs_to_show(lines, kinds, needed)
@@ -143,7 +137,7 @@ def table_of_runs(lines: tuple[Line, ...], columns: Columns, kind: str) -> Table
     return table_of(columns | in_percent, names, rows, caption)
 
 
-def _runs_to_show(lines: tuple[Line, ...], kinds: tuple[str, ...], needed: str) -> list[Line]:
+def _runs_to_show(lines: list[Line], kinds: tuple[str, ...], needed: str) -> list[Line]:
     """The runs of these kinds that a table of OF_RUNS shows; needed: what they must have, as described there."""
     if not needed:
         return [line for line in lines if line["kind"] in kinds]
@@ -155,7 +149,7 @@ def _runs_to_show(lines: tuple[Line, ...], kinds: tuple[str, ...], needed: str) 
     return sorted(shown, key=lambda line: (line["case"], line["nodes"], line["bending_stiffness_Nm2"]))
 
 
-def series_table(lines: tuple[Line, ...], columns: Columns) -> Table | None:
+def series_table(lines: list[Line], columns: Columns) -> Table | None:
     """Convergence to the exact motion, grid by grid."""
     series = sorted(of_kind(lines, "series"), key=lambda line: (line["case"], line["nodes"]))
     if not series:

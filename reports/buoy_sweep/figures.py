@@ -2,9 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -28,16 +26,12 @@ from tables import (
 
 from ..figures.animations import Snap, tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
-from ..figures.orbit_diagram import OrbitDiagram, Range, Strobes
-from ..parts.columns import shown_on
-from ..parts.content import Figure, Heading, Item, Table, Text, heads
-from ..parts.folder import part_of
-from ..parts.selecting import entries
+from ..figures.orbit_diagram import OrbitDiagram, Strobes
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, shown_on
 from ..parts.style import BLUE, INK, REGIME_COLOURS
-from ..parts.symbols import T_I, T_S
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, lines, shares_panel, tension_panel
-from .runs import Run, Sweep, rows_of
+from .runs import Run, Sweep
 from .tables import sweep_table
 
 _SHOWN_PERIODS = 3.0  # of the tether as it snaps
@@ -56,7 +50,7 @@ def exponents(sweep: Sweep) -> list[tuple[str, str]]:
     """The pairs of columns, value and error, in which some run has an exponent."""
     pairs = []
     for value, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
-        if np.isfinite(_of(sweep.judged, value)).any():
+        if np.isfinite(series(sweep.judged, value)).any():
             pairs.append((value, error))
     return pairs
 
@@ -67,7 +61,7 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     if not drawn:
         return None
     drawn.sort(key=lambda run: (run.steepness, run.motion))
-    columns = [Strobes(run.steepness, run.section[:, 0], run.row.get("regime") or "", run.motion) for run in drawn]
+    columns = [Strobes(run.steepness, run.section[:, 0], run.get("regime") or "", run.motion) for run in drawn]
     missing = [run.steepness for run in sweep.runs if run not in drawn]
     first, last = drawn[0].steepness, drawn[-1].steepness
     marks = [(kA, "paper") for kA in PAPER_STEEPNESS if first <= kA <= last]
@@ -76,17 +70,19 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
         static_N = sweep.modes.static_tension_N
         scale, unit = 1.0 / static_N, "over static"
     tension, exponent = _tension(sweep, drawn, scale, unit), _exponent_panel(sweep)
-    motions, ranges, labels = {}, [], ("wave steepness kA (–)", "strobed r (m)")
+    motions, ranges, labels = {}, {}, ("wave steepness kA (–)", "strobed r (m)")
     if sweep.colours:
         below = [tension, *shares_panel(sweep)]
         if exponent is not None:
-            below.append(replace(exponent, height=0.8))
+            below.append(exponent._replace(height=0.8))
         for letter, colour in sweep.colours.items():
             if letter:
                 motions[letter] = (colour, _motion_title(sweep, letter))
     else:
-        below = list(filter(None, (_slack(drawn), exponent, tension)))
-        ranges = _ranges(sweep, drawn)
+        slack = Curve(series(drawn, "steepness"), 100.0 * series(drawn, "slack_fraction"), colour=INK)
+        below = list(filter(None, (Panel([slack], y_label="slack (%)"), exponent, tension)))
+        for word, holds in _excursions(sweep, drawn).items():
+            ranges[_EXCURSIONS[word]] = holds
     caption = " ".join(filter(None, _caption(sweep, drawn, static_N)))
     alt = f"Orbit diagram over wave steepness: {_described(sweep, motions)}; see text."
     return OrbitDiagram(columns, labels, below, ranges, marks, missing, motions).figure(caption, alt)
@@ -102,51 +98,24 @@ def _described(sweep: Sweep, motions: Mapping[str, tuple[str, str]]) -> str:
     return "; ".join([*parts, ", ".join(regimes)])
 
 
-def _flies(sweep: Sweep, run: Run) -> bool:
-    """Whether all of the sphere leaves the water."""
-    return bool(run["max_buoy_height_above_water_m"] > sweep.folder.scene.buoy.diameter_m)
+_EXCURSIONS = {"flies": "whole sphere above still water", "loops": "loops released"}
 
 
-def _loops(sweep: Sweep, run: Run) -> bool:
-    """Whether loops were released in the plane."""
-    return run["loop_releases"] > 0 and not run.in_space
-
-
-class Excursion(NamedTuple):
-    """What only some runs do: in words, in one word, and whether a run does it."""
-
-    text: str
-    word: str
-    happens: Callable[[Sweep, Run], bool]
-
-    def in_any(self, sweep: Sweep, runs: Iterable[Run]) -> bool:
-        """Whether it happens in any of the runs."""
-        return any(self.happens(sweep, run) for run in runs)
-
-
-_EXCURSIONS = (
-    Excursion("whole sphere above still water", "flies", _flies),
-    Excursion("loops released", "loops", _loops),
-)
-
-
-def _ranges(sweep: Sweep, drawn: Sequence[Run]) -> list[Range]:
-    """Where the excursions happen that some of the runs have."""
-    ranges = []
-    for excursion in _EXCURSIONS:
-        if excursion.in_any(sweep, drawn):
-            ranges.append(Range(excursion.text, [excursion.happens(sweep, run) for run in drawn]))
-    return ranges
+def _excursions(sweep: Sweep, runs: Sequence[Run]) -> dict[str, np.ndarray]:
+    """What only some runs do: for each word of _EXCURSIONS that holds for any of these, (n,) for which it does."""
+    height_m, in_space = series(runs, "max_buoy_height_above_water_m"), series(runs, "dimensions") == 3
+    holds = {
+        "flies": height_m > sweep.folder.scene.buoy.diameter_m,
+        "loops": (series(runs, "loop_releases") > 0) & ~in_space,
+    }
+    return {word: of_runs for word, of_runs in holds.items() if of_runs.any()}
 
 
 def _motion_title(sweep: Sweep, letter: str) -> str:
     """A motion in the legend: its largest tension, and in a word each what else some of its runs do."""
     runs = sweep.motions[letter]
-    parts = [f"up to {number(np.nanmax(_of(runs, PEAK)) / 1e3, 3)} kN"]
-    for excursion in _EXCURSIONS:
-        if excursion.in_any(sweep, runs):
-            parts.append(excursion.word)
-    return ", ".join(parts)
+    parts = [f"up to {number(np.nanmax(series(runs, PEAK)) / 1e3, 3)} kN"]
+    return ", ".join([*parts, *_excursions(sweep, runs)])
 
 
 def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
@@ -154,10 +123,7 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
     yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the"
     if sweep.colours:
         yield "motion. Each has a bar with its regimes (numbers: periods after which it repeats)."
-        words = []
-        for excursion in _EXCURSIONS:
-            if excursion.in_any(sweep, drawn):
-                words.append(f"{excursion.word}: {excursion.text}")
+        words = [f"{word}: {_EXCURSIONS[word]}" for word in _excursions(sweep, drawn)]
         if words:
             yield f"{'; '.join(words).capitalize()}."
     elif sweep.judged:
@@ -185,15 +151,6 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
         yield "Not decided: no run."
 
 
-def _slack(drawn: Sequence[Run]) -> Panel:
-    slack = 100.0 * _of(drawn, "slack_fraction")
-    return Panel([Curve(_of(drawn, "steepness"), slack, colour=INK)], y_label="slack (%)")
-
-
-def _of(runs: Sequence[Run], column: str) -> np.ndarray:
-    return series(rows_of(runs), column)
-
-
 def _exponent_panel(sweep: Sweep) -> Panel | None:
     """Exponents in the colours of the regimes; by Wolf's method where no other is known, and never where r repeats.
 
@@ -210,13 +167,13 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
         y.append(exponent)
         bars.append(2.0 * error)
         words.append(word)
-    x, y, bars = _of(sweep.judged, "steepness"), np.array(y), np.array(bars)
+    x, y, bars = series(sweep.judged, "steepness"), np.array(y), np.array(bars)
     known = np.isfinite(y)
     if not known.any():
         return None
     names, colours = np.array(words), REGIME_COLOURS
     if sweep.colours:
-        names, colours = np.array([run.motion for run in sweep.judged]), sweep.colours
+        names, colours = np.array(entries(sweep.judged, "motion")), sweep.colours
     marks = dict(zip(sweep.colours, MARKS, strict=False))
     lines = []
     for name in dict.fromkeys(names[known]):
@@ -230,9 +187,9 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
     label, capped = f"largest T\n{unit}", _capped(sweep)
-    cap_x, cap_y = _of(capped, "steepness"), scale * _of(capped, PEAK)
+    cap_x, cap_y = series(capped, "steepness"), scale * series(capped, PEAK)
     if not sweep.colours:
-        curves = [Curve(_of(drawn, "steepness"), scale * _of(drawn, PEAK), "as run", colour=INK)]
+        curves = [Curve(series(drawn, "steepness"), scale * series(drawn, PEAK), "as run", colour=INK)]
         if capped:
             curves.append(Curve(cap_x, cap_y, CAPPED, colour=BLUE))
         return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
@@ -259,7 +216,7 @@ def _capped(sweep: Sweep) -> list[Run]:
     return runs
 
 
-def close_up_items(sweep: Sweep) -> list[Item]:
+def close_up_items(sweep: Sweep) -> Items:
     """Heading and figure; nothing where no run was kept with its tether."""
     part = part_of(sweep.folder, "close_up")
     if part is None or not part.completed:
@@ -309,12 +266,12 @@ def _snap(trajectory) -> Snap | None:
     return Snap(times, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface), record)
 
 
-def regime_items(sweep: Sweep) -> list[Item]:
+def regime_items(sweep: Sweep) -> Items:
     """What the words mean, and the exponents of the runs; nothing where no run has a regime."""
     if not sweep.judged:
         return []
     caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
-    names = shown_on(sweep.folder.columns, rows_of(sweep.judged), REGIMES)
+    names = shown_on(sweep.folder.columns, sweep.judged, REGIMES)
     return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, names, sweep.judged, caption)]
 
 
@@ -329,4 +286,4 @@ def evidence_table(run: Run) -> Table | None:
     rows = []
     for name, *cells in tests:
         rows.append((name, *(cell.replace("-", "−") for cell in cells)))
-    return Table(columns, tuple(rows), caption, small=True)
+    return Table(columns, rows, caption)

@@ -10,11 +10,11 @@ from tables import EMPTY, PEAK, PERIODIC, decimals, listed, number, of_kicks, ra
 
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
-from ..parts.content import Item, Table, heads
+from ..parts import Items, Table, heads
 from ..parts.style import SOFT
 from ..sweep.motions import ends_of
 from ..sweep.quantities import series
-from .runs import Run, Sweep, rows_of
+from .runs import Run, Sweep
 
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
 
@@ -38,8 +38,8 @@ def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list
 
 def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale: float, label: str) -> Panel:
     """The largest tension of each motion with its letter, and arrows to the motion that follows where one ends."""
-    peaks: dict[str, list[tuple[float, float]]] = {}  # letter -> steepness and largest tension along its motion
-    largest: dict[str, float] = {}  # of each motion
+    peaks = {}  # letter -> steepness and largest tension along its motion
+    largest = {}  # of each motion
     top = 0.0
     for run in drawn:
         if not run.known(PEAK):
@@ -77,7 +77,7 @@ def _nearest(line: Sequence[tuple[float, float]], kA: float) -> float:
 
 def shares_panel(sweep: Sweep) -> list[Panel]:
     """The shares of fresh starts that end in each motion, one on the other; hatched: in none. No panel without any."""
-    shares: dict[float, dict[str, float]] = {}  # steepness -> share of each motion
+    shares = {}  # steepness -> share of each motion
     for run in sweep.runs:
         if run.known("share"):
             shares.setdefault(run.steepness, {})[run.motion] = run["share"]
@@ -97,7 +97,7 @@ def shares_panel(sweep: Sweep) -> list[Panel]:
     return [Panel([], y_label="starts\n(%)", settings=axis, boxes=boxes, height=0.55)]
 
 
-def motions_items(sweep: Sweep) -> list[Item]:
+def motions_items(sweep: Sweep) -> Items:
     """One row a motion: where it is, what it does, how often it is met; nothing where there is one motion."""
     rows, word_columns = [], []
     for name in ("found_by", "confirmed"):
@@ -108,19 +108,19 @@ def motions_items(sweep: Sweep) -> list[Item]:
         if not good or not letter:
             continue
         strongest = max(good, key=lambda run: run[PEAK])
-        places = np.isin(sweep.values, series(rows_of(good), "steepness"))
+        places = np.isin(sweep.values, series(good, "steepness"))
         row = [letter, ranges(sweep.values, places), _regimes(good)]
         row += [number(strongest[PEAK] / 1e3, 3), number(strongest.steepness), _kicks(good)]
         for name in word_columns:
             row.append(_words(good, name))
-        rows.append(tuple(row))
+        rows.append(row)
     if not rows:
         return []
     titles = ["motion", "kA", "regime", ("largest T", "kN"), ("at kA =", ""), ("kicks", "")]
     for name in word_columns:
         titles.append(name.replace("_", " "))
     caption = "The motions. Kicks: fewest and most at a value that end in the motion, of all kicks there."
-    return [Table(heads(*titles), tuple(rows), caption, small=True)]
+    return [Table(heads(*titles), rows, caption)]
 
 
 def _words(runs: Sequence[Run], column: str) -> str:
@@ -150,7 +150,7 @@ def _kicks(runs: Sequence[Run]) -> str:
     if not kicked:
         return EMPTY
     kicked.sort(key=lambda run: run["share"])
-    fewest, most = of_kicks(kicked[0].row), of_kicks(kicked[-1].row)
+    fewest, most = of_kicks(kicked[0]), of_kicks(kicked[-1])
     if fewest == most:
         return fewest
     return f"{fewest} to {most}"

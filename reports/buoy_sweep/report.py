@@ -6,15 +6,12 @@ from pathlib import Path
 
 from tables import COARSE, OTHER_MOTION, decimals, number, percent
 
-from ..parts.content import Heading, Item, Notice, Report, Text
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.symbols import T_I, TAU_0
+from ..parts import T_I, TAU_0, Heading, Items, Notice, Report, Text, limits, report_page, section_items
 from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes, series
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
-from .runs import PAPER_WINDOW, Run, Sweep, read_sweep, rows_of
+from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import sheet_items
 from .tables import plane_items, runs_items, scene_and_modes, time_items
 
@@ -31,7 +28,7 @@ _NO_LIMITS = (
 )
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a buoy sweep's folder. Raises FolderError for a folder that is not one."""
     sweep = read_sweep(directory)
     items = [
@@ -47,20 +44,20 @@ def report(directory: str | Path) -> Report:
         *runs_items(sweep),
         *sheet_items(sweep),
     ]
-    solved = section_items("buoy_sweep_solved", law=sweep.folder.scene.tether.tension.law)
+    solved = section_items("buoy_sweep_solved", "Equations", law=sweep.folder.scene.tether.tension.law)
     made = [*time_items(sweep), *scene_and_modes(sweep), *solved]
     return report_page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
 
 
-def _question(sweep: Sweep) -> list[Item]:
+def _question(sweep: Sweep) -> Items:
     columns = sweep.folder.columns
     shown = [columns[name] for name in _EXTREMES if name in columns]
     keys = [columns["steepness"]]
     if sweep.colours:
         keys.append(columns["motion"])
-    items: list[Item] = [
-        *section_items("buoy_sweep", "Question"),
-        *extremes(keys, rows_of(sweep.good), shown, _EXTREMES_CAPTION),
+    items = [
+        *section_items("buoy_sweep"),
+        *extremes(keys, sweep.good, shown, _EXTREMES_CAPTION),
     ]
     if sweep.judged:
         return items
@@ -82,7 +79,7 @@ def warnings(sweep: Sweep) -> Notice:
 
 def _failures(sweep: Sweep) -> Iterator[Limit]:
     """The runs that ended early, one limit for each status, and the runs whose trajectory cannot be read."""
-    by_status: dict[str, list[Run]] = {}
+    by_status = {}
     for run in reversed(sweep.runs):
         if not run.ok:
             by_status.setdefault(run["status"], []).insert(0, run)
@@ -132,7 +129,7 @@ def _physical_limits(sweep: Sweep) -> Iterator[Limit]:
     if dry_m > 0.0:
         yield f"already at rest the top of the buoy is {decimals(dry_m, 2)} m above still water", sweep.runs
     flying = sweep.runs_with(lambda run: run["max_buoy_height_above_water_m"] > scene.buoy.diameter_m)
-    height_m = series(rows_of(flying), "max_buoy_height_above_water_m").max(initial=0.0) - scene.buoy.diameter_m
+    height_m = series(flying, "max_buoy_height_above_water_m").max(initial=0.0) - scene.buoy.diameter_m
     yield (
         f"the whole sphere rises above still water, its lowest point by up to {decimals(height_m, 2)} m. There "
         f"the choice of `buoy.submergence` = {scene.buoy.submergence} and `waves.above_still_water` = "

@@ -1,28 +1,22 @@
 """A buoy sweep as its report sees it: every run's row with what its trajectory adds, read once for all sections."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analysis import Spectrum, spectrum
+from engine import Trajectory
 from engine.natural_frequencies import Modes, natural_frequencies
 from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
 
-from ..figures.run_sheet import run_sheet
-from ..parts.folder import Folder, Row, part_of, read_folder
-from ..parts.symbols import OMEGA_I, OMEGA_R
+from ..figures.run_sheet import NOTHING, run_sheet
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, entries, having, part_of, read_folder
 from ..sweep.quantities import colours_of, in_order, series
-
-if TYPE_CHECKING:
-    from analysis import Spectrum
-    from engine import Trajectory
 
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
@@ -39,7 +33,7 @@ NEEDED = (
 
 
 @dataclass(frozen=True, eq=False)
-class Run(Row):
+class Run(TableRow):
     """One row of the table with what its trajectory adds.
 
     anchor: the place of its sheet in the report. fault: why the trajectory of a run that should have one could not be
@@ -81,11 +75,6 @@ class Run(Row):
     def in_space(self) -> bool:
         return self["dimensions"] == 3
 
-    @property
-    def planar_releases(self) -> float:
-        """Loop releases of the planar run: its own, or those of the run that a run in three dimensions replaces."""
-        return self["planar_loop_releases" if self.in_space else "loop_releases"]
-
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
@@ -97,19 +86,19 @@ class Sweep:
     """
 
     folder: Folder
-    runs: tuple[Run, ...]
-    between: tuple[Run, ...]
+    runs: list[Run]
+    between: list[Run]
     tolerance: float
     longest: int
     modes: Modes | None
 
     @cached_property
-    def good(self) -> tuple[Run, ...]:
+    def good(self) -> list[Run]:
         """The runs that reached their full length."""
-        return self.runs_with(lambda run: run.ok)
+        return having(self.runs, status="ok")
 
     @cached_property
-    def judged(self) -> tuple[Run, ...]:
+    def judged(self) -> list[Run]:
         """The runs with a regime."""
         return self.runs_with(lambda run: run["regime"])
 
@@ -119,43 +108,36 @@ class Sweep:
         return sorted({run.steepness for run in self.runs})
 
     @cached_property
-    def motions(self) -> dict[str, tuple[Run, ...]]:
+    def motions(self) -> dict[str, list[Run]]:
         """The runs of each motion by its letter; {"": all} where there is one motion."""
-        motions: dict[str, tuple[Run, ...]] = {}
+        motions = {}
         for run in sorted(self.runs, key=lambda run: run.motion):
-            motions[run.motion] = (*motions.get(run.motion, ()), run)
+            motions.setdefault(run.motion, []).append(run)
         return motions
 
     @cached_property
     def colours(self) -> dict[str, str]:
         """The colour of each motion by its letter; {} where there is one motion."""
-        return colours_of(rows_of(self.runs))
+        return colours_of(self.runs)
 
     @cached_property
-    def chosen(self) -> frozenset[Run]:
+    def chosen(self) -> list[Run]:
         """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
         drawable = self.runs_with(lambda run: run.drawing)
-        good = tuple(filter(lambda run: run.ok, drawable)) or drawable
-        if not good:
-            return frozenset()
-        places, several = set(), None  # several: the first run that repeats after several periods
+        good = having(drawable, status="ok") or drawable
+        chosen = [run for run in good if (run.period or 0) > 1][:1]
         for kA in PAPER_STEEPNESS:
-            places.add(min(good, key=lambda run: abs(run.steepness - kA)).steepness)
-        chosen = set()
-        for run in good:
-            if several is None and (run.period or 0) > 1:
-                several = run
-            if run is several or run.steepness in places:
-                chosen.add(run)
-        return frozenset(chosen)
+            nearest = min(entries(good, "steepness"), key=lambda steepness: abs(steepness - kA), default=None)
+            chosen += having(good, steepness=nearest)
+        return chosen
 
-    def runs_with(self, condition: Callable[[Run], object]) -> tuple[Run, ...]:
+    def runs_with(self, condition: Callable[[Run], object]) -> list[Run]:
         """The runs of the table for which the condition holds."""
-        return tuple(filter(condition, self.runs))
+        return list(filter(condition, self.runs))
 
     def at(self, chosen: Iterable[Run]) -> str:
         """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined; " (A)" behind those of a motion."""
-        places: dict[str, set[float]] = {}
+        places = {}
         for run in sorted(chosen, key=lambda run: run.motion):
             places.setdefault(run.motion, set()).add(run.steepness)
         parts = []
@@ -165,12 +147,7 @@ class Sweep:
         return listed(parts)
 
 
-def rows_of(runs: Iterable[Run]) -> list[Mapping[str, object]]:
-    """The rows of the table that the runs stand in."""
-    return [run.row for run in runs]
-
-
-def read_sweep(directory: str | Path) -> Sweep:
+def read_sweep(directory: Path) -> Sweep:
     """The facts of a sweep's folder, runs by steepness; a trajectory that cannot be read leaves a run with a `fault`.
 
     Raises FolderError for a folder that is no finished sweep.
@@ -192,12 +169,12 @@ def read_sweep(directory: str | Path) -> Sweep:
     if part is not None:
         for row in part.completed:
             between.append(_named(_read_run(part, row), runs))
-    return Sweep(folder, tuple(runs), tuple(between), tolerance, longest, modes)
+    return Sweep(folder, runs, between, tolerance, longest, modes)
 
 
 def _named(run: Run, judged: Sequence[Run]) -> Run:
     """A run between the values of others as one of the motion, of those beside it, whose range of r is nearest its."""
-    values = series(rows_of(judged), "steepness")
+    values = series(judged, "steepness")
     low, high = values[values < run.steepness].max(initial=-np.inf), values[values > run.steepness].min(initial=np.inf)
     nearest, least = run, math.inf
     for neighbour in judged:
@@ -228,12 +205,12 @@ def _read_run(folder: Folder, row: dict, anchor: str = "", draw: Callable | None
 def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) -> str:
     """All that the sheet of a run shows of its trajectory. bins: columns of its histories."""
     columns, period_s = trajectory.columns, trajectory.scene.waves.period_s
-    wave, shown = 2.0 * math.pi / period_s, {}  # shown: what only some runs have
+    wave, amplitudes, exponent = 2.0 * math.pi / period_s, NOTHING, NOTHING
     spectrum = _spectrum(run, trajectory)
     if spectrum is not None:
         frequency = spectrum.angular_frequency_radps
         part = (frequency > 0.0) & (frequency <= 2.5 * wave)
-        shown["spectrum"] = frequency[part], spectrum.amplitude[part]
+        amplitudes = frequency[part], spectrum.amplitude[part]
     if trajectory.tangent is not None:
         growth = trajectory.tangent.growth_nats[run.transient :, :1]
         carried = np.empty(0, int)
@@ -241,7 +218,7 @@ def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) ->
             carried = np.flatnonzero(np.isfinite(growth).all(axis=1))
         if len(carried):  # perturbations may be carried from a later period on
             so_far = np.cumsum(growth[carried, 0]) / np.arange(1, len(carried) + 1) / math.log(2.0)
-            shown["exponent"] = run.transient + 1.0 + carried, so_far
+            exponent = run.transient + 1.0 + carried, so_far
     low, high = columns["tension_top_low_N"] / 1e3, columns["tension_top_high_N"] / 1e3
     radius, angle = columns["radius_m"], columns["angle_rad"]
     histories = (("T (kN)", low, high), ("r (m)", radius, radius), ("θ (rad)", angle, angle))
@@ -254,13 +231,13 @@ def drawing(run: Run, trajectory: Trajectory, bins: int, modes: Modes | None) ->
         f"spectrum and exponent: {span}, tension up to {number(run['tension_top_max_N'])} N."
     )
     section = run.section[:_MOST_POINTS]
-    return run_sheet(seen, bins, columns["time_s"] / period_s, histories, END_PERIODS, section, marks=marks, **shown)
+    return run_sheet(
+        seen, bins, columns["time_s"] / period_s, histories, END_PERIODS, section, amplitudes, marks, exponent
+    )
 
 
 def _spectrum(run: Run, trajectory: Trajectory) -> Spectrum | None:
     """Eq. (31) of r over `spectrum_window`; None for a record that is too short or not finite."""
-    from analysis import spectrum
-
     window, values, scene = spectrum_window(run.periods_done), trajectory.columns["radius_m"], trajectory.scene
     if window is None or not np.isfinite(values).all():
         return None

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 
 from tables import EMPTY, count, number
 
-from ..parts.columns import printed_cells, shown_on
-from ..parts.content import Explorer, ExplorerColumn, Heading, Item, Sheet, Text, link
+from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, shown_on
 from ..sweep.quantities import series
 from .figures import evidence_table, exponents
-from .runs import END_PERIODS, Run, Sweep, rows_of
+from .runs import END_PERIODS, Run, Sweep
 
 # columns that a sheet shows in its title, its drawing, its table or its message
 _ELSEWHERE = ("steepness", "motion", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
@@ -22,14 +21,14 @@ def explorer(sweep: Sweep) -> Explorer:
         points = tuple(run.section[:, 0]) if run.ok else ()
         colour = sweep.colours.get(run.motion, "")
         columns.append(ExplorerColumn(run.steepness, points, _name(run), run.anchor, colour))
-    rows = rows_of(sweep.runs)
+    rows = sweep.runs
     lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(rows))]
     for column, error in exponents(sweep)[:1]:
         lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))
     return Explorer("wave steepness kA (–)", "strobed r (m)", tuple(columns), tuple(lower))
 
 
-def sheet_items(sweep: Sweep) -> list[Item]:
+def sheet_items(sweep: Sweep) -> Items:
     """The section with the sheets, and on the page what chooses one of them."""
     introduction = (
         "One sheet for each row of the table of runs. Left: top tension (with its extremes between samples), r and θ "
@@ -90,7 +89,7 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     facts = [("status", status), ("repeats after", period)]
     columns = sweep.folder.columns
     cells = printed_cells(columns)
-    for name in shown_on(columns, [run.row]):
+    for name in shown_on(columns, [run]):
         if name not in _ELSEWHERE:
-            facts.append((columns[name].head, f"{cells[name](run.row)} {columns[name].unit}".strip()))
+            facts.append((columns[name].head, f"{cells[name](run)} {columns[name].unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))

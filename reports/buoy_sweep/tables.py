@@ -1,17 +1,31 @@
 """The tables of a buoy sweep: the runs, what is out of the plane, their cost, the scene."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from tables import EMPTY, PLANE, RUNS, decimals, listed, number, of_kicks, percent, ranges
 
-from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Item, Table, Text, heads, link
-from ..parts.provenance import scene_items, timing_items
-from ..parts.symbols import OMEGA_I, OMEGA_R, OMEGA_THETA, T_S
+from ..parts import (
+    LONGEST_CELL,
+    OMEGA_I,
+    OMEGA_R,
+    OMEGA_THETA,
+    T_S,
+    Figure,
+    Heading,
+    Items,
+    Table,
+    Text,
+    heads,
+    link,
+    scene_items,
+    shown_on,
+    table_of,
+    timing_items,
+)
 from ..sweep.quantities import batched, over_key, series
-from .runs import Run, Sweep, rows_of
+from .runs import Run, Sweep
 
 _MOST = 18  # columns of one table
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
@@ -27,28 +41,26 @@ def sweep_table(sweep: Sweep, names: Sequence[str], runs: Sequence[Run], caption
 
     A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns, rows = sweep.folder.columns, [{**run.row, "run": run} for run in runs]
-    filled = shown_on(columns, rows)
+    columns = sweep.folder.columns
+    filled = shown_on(columns, runs)
     shown = [name for name in dict.fromkeys(("steepness", "motion", *names)) if name in filled]
-    own_cells = {"steepness": _linked_steepness, "share": of_kicks, "strobed_period": _period}
-    return table_of(columns, shown, rows, caption, own_cells)
+    own_cells = {
+        "steepness": lambda run: link(number(run.steepness), run.anchor),
+        "share": of_kicks,
+        "strobed_period": _period,
+    }
+    return table_of(columns, shown, runs, caption, own_cells)
 
 
-def _linked_steepness(row: Mapping[str, object]) -> str:
-    """The steepness of a run as a link to its sheet."""
-    return link(number(row["steepness"]), row["run"].anchor)
-
-
-def _period(row: Mapping[str, object]) -> str:
+def _period(run: Run) -> str:
     """The wave periods after which a run repeats, "none" where no number fits, a dash where this is not known."""
-    period = row["run"].period
-    return EMPTY if period is None else str(period or "none")
+    return EMPTY if run.period is None else str(run.period or "none")
 
 
-def runs_items(sweep: Sweep) -> list[Item]:
+def runs_items(sweep: Sweep) -> Items:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = sweep.folder.columns
-    names = shown_on(columns, rows_of(sweep.runs), RUNS, longest=LONGEST_CELL)
+    names = shown_on(columns, sweep.runs, RUNS, longest=LONGEST_CELL)
     names = [name for name in names if name not in ("steepness", "motion")]
     if sweep.runs_with(lambda run: run.in_space):
         names.insert(0, "dimensions")
@@ -63,12 +75,12 @@ def runs_items(sweep: Sweep) -> list[Item]:
     ]
 
 
-def plane_items(sweep: Sweep) -> list[Item]:
+def plane_items(sweep: Sweep) -> Items:
     """What is known of motion across the plane of the waves, or nothing."""
     growth_name, error_name = "offplane_growth_bits_per_period", "offplane_growth_error"
     columns = sweep.folder.columns
-    shown = sweep.runs_with(lambda run: run.in_space or run.planar_releases > 0)
-    across = rows_of(sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name)))
+    shown = sweep.runs_with(lambda run: run.in_space or run["loop_releases"] > 0)
+    across = sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name))
     if not shown and not across:
         return []
     provenance = sweep.folder.provenance
@@ -80,7 +92,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     push = provenance.get("push_mps")
     if push:
         words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
-    items: list[Item] = [Heading("Out of the plane"), Text(words)]
+    items = [Heading("Out of the plane"), Text(words)]
     if across:
         growth, error = columns[growth_name], columns[error_name]
         picture = over_key(across, columns["steepness"], [((growth, error),)], sweep.colours)
@@ -102,7 +114,7 @@ def plane_items(sweep: Sweep) -> list[Item]:
     return items
 
 
-def time_items(sweep: Sweep) -> list[Item]:
+def time_items(sweep: Sweep) -> Items:
     """What each run cost, and the time split of the campaign."""
     return timing_items(sweep.folder, _cost_figure(sweep))
 
@@ -112,7 +124,7 @@ def _cost_figure(sweep: Sweep) -> Figure | None:
     columns, rows, periods = sweep.folder.columns, [], 0.0
     for run in sweep.runs:
         if run.periods_done:
-            rows.append(run.row)
+            rows.append(run)
             periods += run.periods_done
     wall_s = series(rows, "wall_s")
     if not np.isfinite(wall_s).any():
@@ -128,12 +140,12 @@ def _cost_figure(sweep: Sweep) -> Figure | None:
     return Figure(over_key(rows, columns["steepness"], shown, sweep.colours), caption, alt)
 
 
-def scene_and_modes(sweep: Sweep) -> list[Item]:
+def scene_and_modes(sweep: Sweep) -> Items:
     """Every parameter with its source, and the closed forms that follow."""
     modes = sweep.modes
     varied = {"waves.steepness": ranges(sweep.values, [True] * len(sweep.values))}
     if sweep.runs_with(lambda run: run.in_space):
-        dimensions = np.unique(series(rows_of(sweep.runs), "dimensions"))
+        dimensions = np.unique(series(sweep.runs, "dimensions"))
         varied["motion.dimensions"] = listed(map(number, dimensions))
         push = sweep.folder.provenance.get("push_mps")
         if push:
@@ -148,5 +160,5 @@ def scene_and_modes(sweep: Sweep) -> list[Item]:
             ("wave frequency", OMEGA_I, number(modes.wave_radps), "rad/s"),
         )
         columns = heads("quantity", "symbol", ("value", ""), ("unit", ""))
-        items.append(Table(columns, rows, "What follows from the scene in closed form."))
+        items.append(Table(columns, rows, "What follows from the scene in closed form.", small=False))
     return items

@@ -1,10 +1,10 @@
 """What moves: a tether that snaps, a breaking line. A GIF of each for the page, and stills for paper."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, INK, ORANGE, SKY, SOFT, VERMILION, WIDTH_IN, moving_picture, picture_of, sheet
 from .curves import Curve, Panel, curves, draw
 
@@ -16,8 +16,7 @@ _MARGIN_M = 1.0
 _LEAST_WIDE = 0.4  # of the height of a panel
 
 
-@dataclass(frozen=True, eq=False)
-class Snap:
+class Snap(NamedTuple):
     """Shapes of the line: `periods` t/T_i (m,), places x and z (m, n) in m, tension (m, n) in N, diameter of the buoy
 
     `water`: x (k,) and height (m, k) of the surface in m; `record`: t/T_i (j,), top tension (j,) in N, over the same

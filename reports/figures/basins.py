@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import INK, SHADES, WIDTH_IN, picture_of, sheet
 
 _OPEN = {"unsettled": "x", "failed": "P"}  # marks of starts that belong to no motion

@@ -1,21 +1,20 @@
 """Curves and marks in panels: the drawing that most figures of a report are, given as records of arrays."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
+class Curve(NamedTuple):
     """One curve: x and y (n,), a name for the legend, and how it looks.
 
     line, mark: matplotlib's style of the line and of the marks, "" for none. error: standard errors (n,) drawn as bars.
@@ -38,8 +37,7 @@ class Curve:
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Panel:
+class Panel(NamedTuple):
     """Curves on one pair of axes.
 
     log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
@@ -55,10 +53,10 @@ class Panel:
     title: str = ""
     log: str = ""
     level: float | None = None
-    settings: Mapping[str, object] = field(default_factory=dict)
+    settings: Mapping[str, object] = {}
     ticks: int | None = None
     marks: Sequence[tuple[float, str]] = ()
-    beside: Mapping[str, tuple[float, str]] = field(default_factory=dict)
+    beside: Mapping[str, tuple[float, str]] = {}
     boxes: Sequence[tuple[float, float, float, float, str, str]] = ()
     arrows: Sequence[tuple[float, float, float, str]] = ()
     texts: Sequence[tuple[float, float, str, str]] = ()
@@ -146,7 +144,7 @@ def curves(
     "xy" both. widths: of the columns, against each other.
     """
     shared = {"sharex": "col" if "x" in share else "none", "sharey": "row" if "y" in share else "none"}
-    handles: dict[str, object] = {}
+    handles = {}
     with sheet(height_in) as figure:
         grid = figure.subplots(len(rows), max(map(len, rows)), squeeze=False, width_ratios=widths, **shared)
         for places, panels in zip(grid, rows, strict=True):
@@ -176,6 +174,11 @@ def wide_limits(values: np.ndarray, least: float = 1e-9) -> tuple[float, float]:
         low, high = float(finite.min()), float(finite.max())
     middle, half = 0.5 * (low + high), max(0.56 * (high - low), 0.5 * least, 1e-9 * abs(high))
     return middle - half, middle + half
+
+
+def with_gaps(lines: np.ndarray) -> np.ndarray:
+    """The points (m, n) of m lines, one after the other with nan behind each."""
+    return np.pad(lines, ((0, 0), (0, 1)), constant_values=np.nan).ravel()
 
 
 def cells(figure: Figure, panels: Sequence, wide: int, labels: tuple[str, str], **shared) -> Iterator[tuple]:

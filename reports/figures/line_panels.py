@@ -1,13 +1,13 @@
 """The paper's figures 2-7: configurations, tension and velocity of a breaking line, one panel a case, 10 ms apart."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import number
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import SOFT, VERMILION, picture_of, sheet
 from .curves import Curve, Panel, cells, curves
 
@@ -27,8 +27,7 @@ TENSIONS = (-0.1, 1.06)  # of the largest static tension of the two cases that s
 _WIDTH_IN = 5.6  # of all panels of a row
 
 
-@dataclass(frozen=True, eq=False)
-class LinePanel:
+class LinePanel(NamedTuple):
     """Curves of one case: its name, static force; x (m, n) or (n,) and y (m, n) of m instants (m,), s."""
 
     case: str
@@ -72,14 +71,11 @@ def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]
     Tensions are shown over the same share of the static one, because figs. 3 and 6 of the paper have identical scales.
     """
     bounds = []
+    below, above = MARGINS[column]
     for panel in panels:
-        least, largest, force_N = np.inf, -np.inf, 0.0
-        for neighbour in panels:
-            if column == "z_m" or _scale_of(neighbour) == _scale_of(panel):
-                least = min(least, float(neighbour.y.min()))
-                largest = max(largest, float(neighbour.y.max()))
-                force_N = max(force_N, neighbour.force_N)
-        below, above = MARGINS[column]
+        sharing = [other for other in panels if column == "z_m" or _scale_of(other) == _scale_of(panel)]
+        least, largest = _ends(sharing)
+        force_N = max(other.force_N for other in sharing)
         low, high = least - below * (largest - least), largest + above * (largest - least)
         if column == "tension_N":
             low, high = min(low, TENSIONS[0] * force_N), max(high, TENSIONS[1] * force_N)
@@ -92,10 +88,14 @@ def _scale_of(panel: LinePanel) -> str:
     return "12" if panel.case[0] in "12" else "34"
 
 
+def _ends(panels: Sequence[LinePanel]) -> tuple[float, float]:
+    """The least and the largest value of all panels."""
+    return float(min(panel.y.min() for panel in panels)), float(max(panel.y.max() for panel in panels))
+
+
 def seen(panels: Sequence[LinePanel], column: str) -> str:
     """The least and the largest value of all panels, in words."""
-    low = float(min(panel.y.min() for panel in panels))
-    high = float(max(panel.y.max() for panel in panels))
+    low, high = _ends(panels)
     unit = QUANTITIES[column][2]
     if column == "z_m":
         return f"{number(low, 2)} to {number(high, 2)} {unit}"

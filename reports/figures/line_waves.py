@@ -1,10 +1,10 @@
 """A breaking line against exact theory: fronts over place and time, speeds of contours, shares of the energy."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
 from .curves import Curve, Panel, cells, curves
 
@@ -16,8 +16,7 @@ _MARKS = (("o", BLUE), ("s", VERMILION), ("^", GREEN), ("D", ORANGE))
 _SLOW = (("o", SKY), ("s", PURPLE), ("^", "#7ad1b5"), ("D", "#f3cf7a"))
 
 
-@dataclass(frozen=True)
-class FrontPanel:
+class FrontPanel(NamedTuple):
     """Tension over the static one (nt, nn) at times (nt,), s, and places (nn,), m; exact lines as (times, places)."""
 
     title: str

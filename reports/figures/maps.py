@@ -1,19 +1,18 @@
 """Maps over two parameters: a number by its shade, a word by its colour; crosses where there is nothing."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GRID, ORANGE, REGIME_COLOURS, SKY, VERMILION, picture_of, sheet
 from .curves import cells
 
 _OTHERS = (BLUE, SKY, ORANGE, "#004c77", "#8fd3c1", "#f0e442", GRID)
 
 
-@dataclass(frozen=True, eq=False)
-class Map:
+class Map(NamedTuple):
     """One quantity over x (p,) and y (q,): `cells` (q, p) of numbers, nan for none, or of words, "" for none.
 
     label: of the scale of numbers; name: as a caption says it.

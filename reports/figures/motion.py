@@ -1,12 +1,11 @@
 """What figures of a motion share: sections of two side by side, panels of spectra, long histories as envelopes."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from .curves import Curve, Panel, curves
 
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
@@ -27,7 +26,7 @@ def spectrum_panels(
 ) -> list[Panel]:
     """Amplitudes over omega up to highest_radps, linear with named marks, and logarithmic; labels: of x and y."""
     shown = lines[0].x <= highest_radps
-    lines = [replace(line, x=line.x[shown], y=line.y[shown]) for line in lines]
+    lines = [line._replace(x=line.x[shown], y=line.y[shown]) for line in lines]
     everything = np.concatenate([line.y for line in lines])
     limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * max(float(everything.max()), 1e-12))}
     decades = limits | {"ylim": log_limits(everything)}
@@ -58,18 +57,12 @@ def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarra
     Args: x (n,) increasing, y (n,). Returns x, y of at most 2*bins points; a shorter record comes back as it is.
     Every extreme of y is kept, which simple thinning would lose.
     """
-    index = _extremes(y, bins)
-    return x[index], y[index]
-
-
-def _extremes(values: np.ndarray, bins: int) -> np.ndarray:
-    """Where the values (n,) have their least or greatest value within one of `bins` equal spans."""
-    n = len(values)
-    if n <= 2 * bins:
-        return np.arange(n)
-    indices: set[int] = set()
-    for first, end in pairwise(np.linspace(0, n, bins + 1).astype(int)):
-        part = values[first:end]
+    if len(y) <= 2 * bins:
+        return x, y
+    indices = set()
+    for first, end in pairwise(np.linspace(0, len(y), bins + 1).astype(int)):
+        part = y[first:end]
         if np.isfinite(part).any():
             indices.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
-    return np.array(sorted(indices), dtype=int)
+    index = sorted(indices)
+    return x[index], y[index]

@@ -1,10 +1,10 @@
 """Lateral motion over time on a logarithmic axis (the paper's figure 20), and over the depth."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, VERMILION
 from .curves import COLOURS, Curve, Panel, curves
 from .motion import envelope
@@ -13,8 +13,7 @@ INPLANE = "in-plane half range of the buoy"
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
 
 
-@dataclass(frozen=True)
-class History:
+class History(NamedTuple):
     """One run: its label, |y| over t/T_i, the largest |y| of each period, and the in-plane half range."""
 
     label: str

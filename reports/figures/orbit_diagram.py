@@ -1,9 +1,9 @@
 """The orbit diagram: strobed points over a parameter, what they are called above, curves over the same axis below."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from itertools import groupby
 from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,8 +29,7 @@ Motions = Mapping[str, tuple[str, str]]  # letter -> its colour, what the legend
 Span = tuple[str, float, float]  # a word, and where on the axis it begins and ends
 
 
-@dataclass(frozen=True, eq=False)
-class Strobes:
+class Strobes(NamedTuple):
     """The points (n,) of one run over its parameter, and the word for its motion, "" for one that nobody judged.
 
     motion: its letter, where one value may have several motions.
@@ -42,22 +41,13 @@ class Strobes:
     motion: str = ""
 
 
-@dataclass(frozen=True)
-class Range:
-    """What holds in a part of the runs: in words, and for each of the columns whether it does."""
-
-    text: str
-    holds: Sequence[bool]
-
-
-@dataclass(frozen=True, eq=False)
-class OrbitDiagram:
+class OrbitDiagram(NamedTuple):
     """Bars with words and ranges, strobed points in the colours of the words, and panels below, on one axis.
 
     columns   by their parameter, one of them at least with points where there are no orbits
     labels    of parameter and points, with units
     below     panels under the points
-    ranges    each a bar above the points, and a shade over all panels
+    ranges    in words, and for each of the columns whether it holds: a bar above the points, a shade over all panels
     marks     (value, text) of vertical lines
     missing   runs without points (crosses)
     motions   where there are several, by letter; each has the points in its colour, and a bar that tells its words by
@@ -69,10 +59,10 @@ class OrbitDiagram:
     columns: Sequence[Strobes]
     labels: tuple[str, str]
     below: Sequence[Panel]
-    ranges: Sequence[Range] = ()
+    ranges: Mapping[str, Sequence[bool]] = {}
     marks: Sequence[tuple[float, str]] = ()
     missing: Sequence[float] = ()
-    motions: Motions = field(default_factory=dict)
+    motions: Mapping[str, tuple[str, str]] = {}
     orbits: Sequence[Curve] = ()
 
     def figure(self, caption: str, alt: str) -> content.Figure:
@@ -81,7 +71,8 @@ class OrbitDiagram:
 
     def drawn(self, width_in: float = WIDTH_IN) -> content.Picture:
         """The diagram in this width."""
-        words, ranges = self._words(), self._ranges()
+        at = np.array([column.at for column in self.columns])
+        words, ranges = self._words(), [_spans(at, holds, text) for text, holds in self.ranges.items()]
         bars = len(words) + len(ranges)
         bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if self.motions else (_BAR_IN, _MAIN_IN)
         if self.orbits:
@@ -104,7 +95,9 @@ class OrbitDiagram:
                 panels.append(figure.add_subplot(grid[place], sharex=top))
             enlarged = None if self.orbits else _small(self.columns, bool(self.motions))
             inch = self._set_span(top, width_in, _NUMBERS_IN if enlarged else _EDGE_IN)
-            above = [figure.add_subplot(grid[place], sharex=top) for place in range(bars)]
+            above = [figure.add_subplot(grid[place], sharex=top, ylim=(0.0, 1.0)) for place in range(bars)]
+            for axes in above:
+                axes.axis("off")
             for axes, (letter, spans) in zip(above, words.items(), strict=False):
                 colour = self.motions[letter][0] if self.motions else ""
                 _word_bar(axes, spans, inch, letter, colour)
@@ -145,10 +138,6 @@ class OrbitDiagram:
                     words[column.at] = column.word
             spans[letter] = _spans(np.array(at), list(words.values()))
         return spans
-
-    def _ranges(self) -> list[list[Span]]:
-        at = np.array([column.at for column in self.columns])
-        return [_spans(at, part.holds, part.text) for part in self.ranges]
 
     def _legend(self, wide: int) -> list[list]:
         """Rows of what colours mean, and hatches where there are motions, `wide` of them a row; that of the orbits, the
@@ -245,8 +234,6 @@ def _hatched(kind: str, colour: str) -> dict[str, object]:
 
 def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str) -> None:
     """Words as a bar with numbers of periods: in their colours, or hatched in that of a motion, its letter beside."""
-    axes.axis("off")
-    axes.set_ylim(0.0, 1.0)
     look = {"va": "center", "fontsize": 7.0}
     for word, low, high in spans:
         kind, number_text = _kind(word), word.removeprefix(_PERIOD)
@@ -262,8 +249,6 @@ def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str
 
 def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     """Spans as a bar of one shade, with its text once."""
-    axes.axis("off")
-    axes.set_ylim(0.0, 1.0)
     look = {"va": "center", "fontsize": 7.0}
     for _, low, high in spans:
         axes.axvspan(low, high, facecolor=SHADES[-1], linewidth=0.0)
@@ -272,14 +257,13 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     text, low, high = max(spans, key=lambda span: span[2] - span[1])
     x_min, x_max = axes.get_xlim()
     wide = _LETTER_IN * len(text) / inch
+    place, side = x_min, "left"
     if high - low > wide:
         place, side = 0.5 * (low + high), "center"
     elif low - x_min >= wide:
         place, side = low, "right"
     elif x_max - high > wide:
-        place, side = high, "left"
-    else:
-        place, side = x_min, "left"
+        place = high
     axes.text(place, 0.45, text, ha=side, **look)
 
 
@@ -287,14 +271,12 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
     """The points as dashes as wide as a column has room, those of judged runs over the others."""
     at = np.unique([column.at for column in columns])
     room = 72.0 * inch * float(np.diff(at).min()) if len(at) > 1 else 6.0
-    groups: dict[tuple[str, str], list[Strobes]] = {}
+    groups = {}
     for column in columns:
         groups.setdefault((column.word, column.motion), []).append(column)
     for (word, motion), members in sorted(groups.items()):
-        x, y = [], []
-        for column in members:
-            x.append(np.full(len(column.points), column.at))
-            y.append(column.points)
+        points = [column.points for column in members]
+        x = np.repeat([column.at for column in members], list(map(len, points)))
         wide, thick, alpha = 1.6, 0.45, 0.8
         if word.startswith(_PERIOD):
             thick = 1.1
@@ -309,7 +291,7 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
         else:
             colour = _NEUTRAL
         look = {"markersize": min(max(wide * room, 1.2), 6.0), "markeredgewidth": thick, "rasterized": True}
-        axes.plot(np.concatenate(x), np.concatenate(y), "_", color=colour, alpha=alpha, **look)
+        axes.plot(x, np.concatenate(points), "_", color=colour, alpha=alpha, **look)
 
 
 def _small(columns: Sequence[Strobes], several: bool) -> tuple[list[Strobes], tuple[float, float], float] | None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GREEN, INK, SOFT, VERMILION
 from .curves import Curve, Panel, curves
 from .orbit_diagram import OrbitDiagram, Strobes

@@ -1,13 +1,14 @@
 """Maps over two parameters with cells of any size: a colour a cell, borders as lines, hatches over what limits them."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
-from ..parts.content import MapPlace, Picture
+from ..parts import MapPlace, Picture
 from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .basins import widest
+from .curves import with_gaps
 
 HATCHES = "////", "\\\\\\\\"  # of the first and the second of `Cells.hatched`
 _FINE = 200  # points to a side of the even grid on which a place for a text is looked for
@@ -15,8 +16,7 @@ _LEAST = 3.5  # of them that a text is away from the border of its region
 _DOT = 0.5  # share of a cell's sides that its dot takes
 
 
-@dataclass(frozen=True, eq=False)
-class Cells:
+class Cells(NamedTuple):
     """The n cells of a map, each over those before it.
 
     boxes (n, 4): left, right, low and high edge. kinds (n,): lines are drawn between cells that differ in it. dots,
@@ -27,7 +27,7 @@ class Cells:
     kinds: np.ndarray
     dots: np.ndarray
     crosses: np.ndarray
-    hatched: Mapping[str, np.ndarray] = field(default_factory=dict)
+    hatched: Mapping[str, np.ndarray] = {}
 
     def laid(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(edges x (p + 1,), y (q + 1,), which cell is on top between them (q, p), -1 for none).
@@ -52,8 +52,7 @@ class Cells:
         return np.bincount(top[top >= 0], parts[top >= 0], len(self.boxes)) / parts.sum()
 
 
-@dataclass(frozen=True, eq=False)
-class Map:
+class Map(NamedTuple):
     """One quantity of the cells of a page: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend.
 
     texts (n,): written where neighbours of one kind have most room. star: a cell to be marked. limited: whether it is
@@ -73,10 +72,10 @@ class Map:
 def regime_maps(
     shown: Sequence[Map],
     labels: tuple[str, str],
-    legend: Sequence[tuple[str, str]] = (),
-    marks: tuple[Sequence[float], Sequence[float]] = ((), ()),
+    legend: Sequence[tuple[str, str]],
+    marks: tuple[Sequence[float], Sequence[float]],
+    wide: int,
     width_in: float = WIDTH_IN,
-    wide: int = 1,
     kind: str = "svg",
 ) -> tuple[Picture, tuple[MapPlace, ...]]:
     """Maps over the same two parameters, `wide` a row; (picture, the place of each on it).
@@ -84,6 +83,8 @@ def regime_maps(
     labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
     and on y with a small triangle at the edge.
     """
+    from matplotlib.cm import ScalarMappable
+
     rows, entries = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
     height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // entries) + 0.2
     with sheet(height_in, width_in) as figure:
@@ -94,7 +95,10 @@ def regime_maps(
         for axes, regime_map in zip(grid.flat, shown, strict=False):
             _drawn(axes, regime_map, marks)
             if regime_map.scale is not None:
-                _scale(figure, axes, *regime_map.scale)
+                colours, norm, ticks = regime_map.scale
+                bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, ticks=ticks, pad=0.02, aspect=24)
+                bar.outline.set_linewidth(0.4)
+                bar.ax.minorticks_off()
         for axes in grid.flat[max(len(shown) - wide, 0) : len(shown)]:
             axes.set_xlabel(labels[0])
             axes.tick_params(labelbottom=True)
@@ -183,14 +187,6 @@ def _middles(edges: np.ndarray) -> np.ndarray:
     return np.linspace(edges[0], edges[-1], 2 * _FINE + 1)[1::2]
 
 
-def _scale(figure, axes, colours, norm, ticks) -> None:
-    from matplotlib.cm import ScalarMappable
-
-    bar = figure.colorbar(ScalarMappable(norm, colours), ax=axes, ticks=ticks, pad=0.02, aspect=24)
-    bar.outline.set_linewidth(0.4)
-    bar.ax.minorticks_off()
-
-
 def _handle(look: str, text: str):
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
@@ -227,12 +223,7 @@ def _borders(x: np.ndarray, y: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarra
     level, upright = _runs(x, y, _differ(kinds)), _runs(y, x, _differ(kinds.T))
     across = np.concatenate([level[:, :2], upright[:, [2, 2]]])
     up = np.concatenate([level[:, [2, 2]], upright[:, :2]])
-    return _with_gaps(across), _with_gaps(up)
-
-
-def _with_gaps(ends: np.ndarray) -> np.ndarray:
-    """The ends (m, 2) of lines, one after the other with nan behind each."""
-    return np.pad(ends, ((0, 0), (0, 1)), constant_values=np.nan).ravel()
+    return with_gaps(across), with_gaps(up)
 
 
 def _differ(kinds: np.ndarray) -> np.ndarray:

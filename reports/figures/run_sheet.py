@@ -13,8 +13,7 @@ import numpy as np
 
 from tables import number, sub
 
-from ..parts.content import spans
-from ..parts.symbols import T_I
+from ..parts import T_I, spans
 from .curves import Curve, Panel, wide_limits
 
 _FINE = 5  # units of a path to a pixel
@@ -35,9 +34,9 @@ def run_sheet(
     histories: Sequence[tuple[str, np.ndarray, np.ndarray]],
     last: float,
     section: np.ndarray,
-    spectrum: tuple[np.ndarray, np.ndarray] = NOTHING,
-    marks: Sequence[tuple[float, str]] = (),
-    exponent: tuple[np.ndarray, np.ndarray] = NOTHING,
+    spectrum: tuple[np.ndarray, np.ndarray],
+    marks: Sequence[tuple[float, str]],
+    exponent: tuple[np.ndarray, np.ndarray],
 ) -> str:
     """The drawing, `label` its text alternative; bins: columns of the whole record, fewer make it smaller.
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import INK, kind_for
 from .curves import Curve, Panel, curves
 

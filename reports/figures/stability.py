@@ -2,20 +2,22 @@
 
 import numpy as np
 
-from ..parts.content import Picture
+from ..parts import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, VERMILION, picture_of, sheet
 
+_LEAST = 1e-8
 
-def stiffness(checks: dict[str, np.ndarray], least: float = 1e-8) -> Picture:
+
+def stiffness(checks: dict[str, np.ndarray]) -> Picture:
     """checks: name -> (stiffness in N, error of the largest tension, cost over the default scene's) (3, m).
 
-    Errors below `least` are drawn there.
+    Errors below _LEAST are drawn there.
     """
     with sheet(2.6) as figure:
         panels = figure.subplots(1, 2)
         looks = zip((BLUE, VERMILION, GREEN, ORANGE), "osD^", strict=True)
         for (name, (stiff, error, cost)), (color, mark) in zip(checks.items(), looks, strict=False):
-            for axes, values in zip(panels, (np.maximum(error, least), cost), strict=True):
+            for axes, values in zip(panels, (np.maximum(error, _LEAST), cost), strict=True):
                 axes.plot(stiff, values, mark, color=color, markersize=3.5, label=name)
         for axes in panels:
             axes.set(xscale="log", yscale="log", xlabel="axial stiffness EA (N)")

@@ -1,28 +1,25 @@
 """The branches of a folder of orbits as its report sees them: values along each, events between, what is stable."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import cycle, groupby
 from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import PEAK, any_rows, number_of
 
-from ..figures.curves import COLOURS, Curve
-from ..parts.folder import Folder, part_of
-from ..parts.selecting import having
+from ..figures.curves import COLOURS, Curve, with_gaps
+from ..parts import Folder, Row, having, part_of
 from ..parts.style import INK
 from ..sweep.quantities import colours_of, series
 
 EVENTS = {"fold": "D", "flip": "s", "torus": "^"}  # kinds, with their marks
 DASHED = (0, (3.5, 1.5))
 MODULUS = "multiplier_modulus"
-Row = Mapping[str, object]
 
 
-@dataclass(frozen=True, eq=False)
-class Branch:
+class Branch(NamedTuple):
     """One branch: m points along it are its orbits and, between them, its events.
 
     orbits, events: rows of the tables. at (m,): of the key. seen: "strobes" (m, N), r in m; "peak" (m, 1), largest
@@ -52,7 +49,7 @@ class Branch:
             first = part.stop - 1
             x, y = self._points(quantity, part)
             line, width = ("-", 1.3) if stable else (DASHED, 0.9)
-            yield Curve(_with_gaps(x), _with_gaps(y), "", line, colour=self.colour, width=width)
+            yield Curve(with_gaps(x.T), with_gaps(y.T), "", line, colour=self.colour, width=width)
 
     def marks(self, quantity: str) -> Iterator[Curve]:
         """The same at the events."""
@@ -63,11 +60,6 @@ class Branch:
     def _points(self, quantity: str, part) -> tuple[np.ndarray, np.ndarray]:
         y = self.seen[quantity][part]
         return np.broadcast_to(self.at[part][:, None], y.shape), y
-
-
-def _with_gaps(points: np.ndarray) -> np.ndarray:
-    """Columns (m, N), one after the other with nan behind each."""
-    return np.pad(points, ((0, 1), (0, 0)), constant_values=np.nan).T.ravel()
 
 
 def rows_of(folder: Folder, name: str) -> tuple[Row, ...]:
@@ -87,7 +79,7 @@ def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Bran
     parents.pop("", None)
     for row in any_rows(folder.directory / "strobes.csv"):
         strobes.setdefault((row["branch"], int(row["place"])), []).append(float(row["radius_m"]))
-    orbits_of_branches: dict[str, list[Row]] = {}
+    orbits_of_branches = {}
     for row in folder.table:
         orbits = orbits_of_branches.setdefault(row["branch"], [])
         if (row["branch"], row["place"]) in strobes:

@@ -14,11 +14,25 @@ from tables import EMPTY, Column, any_rows, count, decimals, listed, number, num
 from ..buoy_sweep.motions import MARKS
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts.content import Figure, Heading, Item, Notice, Report, Table, heads, plain
-from ..parts.folder import Folder, FolderError, part_of, read_folder
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.selecting import entries, having
+from ..parts import (
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Table,
+    entries,
+    having,
+    heads,
+    limits,
+    part_of,
+    plain,
+    read_folder,
+    report_page,
+    section_items,
+)
 from ..parts.style import INK, SOFT
 from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
@@ -35,18 +49,18 @@ _EVENTS = f"Events along the branches. ‡: error above {number(_ACCURATE)}. †
 _COMPLETE = "Every branch was followed to its end, every event is accurate."
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of orbits. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, _NEEDED)
     key = _varied(folder)
     motions = having(rows_of(folder, "motions"), status="ok")
     branches = read_branches(folder, key.name, motions)
-    items: list[Item] = []
+    items = []
     if branches:
         items.append(_diagram(folder, key, branches, motions))
     located = {key.name: partial(_located, key=key.name)}
     items += filled_table(part_of(folder, "events"), _EVENTS, ("branch", _EVENT[0], key.name, *_EVENT[1:]), located)
-    items += [*section_items("orbits", "Question"), Heading("Warnings"), _warnings(folder, key, branches)]
+    items += [*section_items("orbits"), Heading("Warnings"), _warnings(folder, key, branches)]
     items += _chosen(folder, key, branches)
     if branches:
         items += _multipliers(key, branches)
@@ -61,7 +75,7 @@ def _varied(folder: Folder) -> Column:
         for column in (str(name), str(name).rpartition(".")[2]):
             if column in folder.columns:
                 return folder.columns[column]
-    raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+    raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
 
 
 def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
@@ -70,16 +84,18 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     simulated, named = _simulated(key, motions, colours)
     met = Counter()
     for branch in branches:
-        met.update(str(kind) for kind in branch.kinds if kind)
+        met.update(branch.kinds.tolist())
+    met.pop("", None)
     lines = {}
     for quantity in branches[0].seen:
         lines[quantity] = []
-        for branch in branches:
-            lines[quantity] += branch.lines(quantity)
-        for branch in branches:  # marks stand over all lines
-            lines[quantity] += branch.marks(quantity)
+        for drawn in (Branch.lines, Branch.marks):  # marks stand over all lines
+            for branch in branches:
+                lines[quantity] += drawn(branch, quantity)
     for branch in branches:
-        lines["modulus"].append(_scatter(branch, key))
+        at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
+        bars = series(branch.orbits, "multiplier_1_error")
+        lines["modulus"].append(Curve(at, modulus, line="", colour=branch.colour, error=bars))
     top, far = _largest(branches, "peak"), _largest(branches, "modulus")
     for curve in simulated:
         top = max(top, float(np.nanmax(curve.y, initial=0.0)))
@@ -150,12 +166,6 @@ def _legend(kinds: Sequence[str]) -> list[Curve]:
     return [Curve(_NOWHERE, _NOWHERE, *look, INK, size=3.4) for look in looks]
 
 
-def _scatter(branch: Branch, key: Strobes) -> Curve:
-    """The errors of the modulus along a branch, as bars."""
-    at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
-    return Curve(at, modulus, line="", colour=branch.colour, error=series(branch.orbits, "multiplier_1_error"))
-
-
 def _texts(branches: Sequence[Branch], offset: float) -> Iterator[tuple[float, float, str, str]]:
     """Beside the tension: the names of the branches, and the values at which one becomes stable or unstable."""
     changes = []
@@ -181,7 +191,7 @@ def _coarse(row: Row, key: str) -> bool:
     return not number_of(row, "error") <= _ACCURATE * max(1.0, abs(number_of(row, key)))
 
 
-def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Iterator[Item]:
+def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Items:
     """The orbits themselves at the value that has most of them, and the multipliers of all that were chosen."""
     rows, plane, pull = rows_of(folder, "orbits"), [], []
     if not rows:
@@ -217,7 +227,7 @@ def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Iterato
         "Multipliers, the largest first; in brackets their errors: what other steps change. Gap: what is left of the "
         "equation of the orbit."
     )
-    yield Table(columns, tuple(body), caption, small=True)
+    yield Table(columns, body, caption)
 
 
 def _multiplier(row: Row, k: int) -> str:
@@ -236,7 +246,7 @@ def _complex(row: Row, k: int) -> complex:
     return complex(number_of(row, f"multiplier_{k}_real"), number_of(row, f"multiplier_{k}_imag"))
 
 
-def _multipliers(key: Column, branches: Sequence[Branch]) -> Iterator[Item]:
+def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
     every_value = np.concatenate([branch.at for branch in branches])
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))

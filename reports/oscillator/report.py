@@ -16,23 +16,20 @@ from ..figures.oscillator import (
     oscillator_section,
     oscillator_zooms,
 )
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Text
-from ..parts.provenance import appendix, provenance_items
-from ..parts.sections import section_items
+from ..parts import Figure, Heading, Items, Notice, Report, Text, appendix, provenance_items, section_items, table_of
 from .sections import NUMBERS, Study, attracting_orbit, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on an oscillator study's folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = []
+    items = []
     if study.faults:  # before the first heading: on the first page, after the answer
-        missing = tuple(f"`{part}`: {reason}." for part, reason in study.faults.items())
+        missing = [f"`{part}`: {reason}." for part, reason in study.faults.items()]
         items.append(Notice("warning", "Parts without results", missing))
-    items += section_items("oscillator", "Question")
+    items += section_items("oscillator")
     for part, (title, section) in SECTIONS.items():
         arrays = study.arrays.get(part)
         items.append(Heading(title))
@@ -47,7 +44,7 @@ def report(directory: str | Path) -> Report:
     return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *method))
 
 
-def _section(study: Study, arrays: dict) -> list[Item]:
+def _section(study: Study, arrays: dict) -> Items:
     states, boxes, row = arrays["section"], arrays["boxes"], study.rows["section"]
     caption = (
         f"Poincaré section at the forcing phase {number(study.oscillator['phase'])} rad, in the layout of the paper's "
@@ -55,7 +52,7 @@ def _section(study: Study, arrays: dict) -> list[Item]:
         "`section`."
     )
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
-    items: list[Item] = [Figure(oscillator_section(states, boxes, attracting_orbit(study)), caption, alt)]
+    items = [Figure(oscillator_section(states, boxes, attracting_orbit(study)), caption, alt)]
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
     if zooms and study.chaotic:  # a zoom into a periodic orbit shows a point
         counts = " and ".join(str(len(zoom)) for zoom in zooms)
@@ -69,7 +66,7 @@ def _section(study: Study, arrays: dict) -> list[Item]:
     return items
 
 
-def _history(study: Study, arrays: dict) -> list[Item]:
+def _history(study: Study, arrays: dict) -> Items:
     switches = count(len(arrays.get("switches", ())), "switch", "switches")
     share = percent(study.number("history", "slack_fraction"))
     seen = f"{switches} in {study.rows['history']['periods']} periods, {share} of the time slack"
@@ -78,7 +75,7 @@ def _history(study: Study, arrays: dict) -> list[Item]:
     return [Figure(picture, caption, f"Histories of displacement and velocity: {seen}.")]
 
 
-def _exponents(study: Study, arrays: dict) -> list[Item]:
+def _exponents(study: Study, arrays: dict) -> Items:
     row = study.rows["exponents"]
     text = (
         "Both exponents come from the exact tangent map, re-orthonormalised every period. They are averages over "
@@ -105,12 +102,12 @@ def _exponents(study: Study, arrays: dict) -> list[Item]:
     return [Text(text), table_of(study.columns, shown, [row], "The exponents, from `table.csv`."), figure]
 
 
-def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> list[Item]:
+def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> Items:
     if not np.isfinite(arrays["section"]).any():
         return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
     values, largest, errors = arrays["values"], arrays["exponents"][..., 0], arrays["errors"]
     marks = [(study.oscillator[key], "as run")]
-    grazing = grazing_force(SnapOscillator(**study.oscillator)).force
+    grazing = grazing_force(SnapOscillator(**study.oscillator))
     if key == "force" and math.isfinite(grazing):
         marks.append((grazing, "grazing"))
     curves = (arrays[name] for name in ("section", "exponents", "errors", "slack_fraction"))

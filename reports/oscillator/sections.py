@@ -1,18 +1,16 @@
 """What the report on eq. (33) reads, and what it says of periodic orbits and of the equation itself."""
 
 import math
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from analysis.oscillator import SnapOscillator
 from tables import Column, decimals, number, number_of
 
-from ..parts.content import Item, Table, Text, heads
-from ..parts.folder import PARTS as FILES
-from ..parts.folder import FolderError, read_files
-from ..parts.sections import section_items
+from ..parts import PARTS as FILES
+from ..parts import FolderError, Items, Table, Text, heads, read_files, section_items
 
 FIGURE_19 = "Tjavaras et al. 1998, figure 19"
 NUMBERS = {  # symbol, what it is, source of the usual value
@@ -27,12 +25,10 @@ NUMBERS = {  # symbol, what it is, source of the usual value
 PARTS = ("section", "history", "exponents", "orbits", "diagram-force", "diagram-frequency")
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
     numbers of eq. (33), `faults` by part where its arrays are not to be had."""
 
-    directory: Path
     provenance: dict
     columns: dict[str, Column]
     rows: dict[str, dict[str, str]]
@@ -46,14 +42,9 @@ class Study:
         return 2.0 * math.pi / self.oscillator["frequency"]
 
     @property
-    def exponent(self) -> tuple[float, float]:
-        """The largest exponent and its standard error, nats per unit of time."""
-        return self.number("exponents", "lambda_1_nats_per_time"), self.number("exponents", "lambda_1_error")
-
-    @property
     def chaotic(self) -> bool:
         """Whether the largest exponent is positive by more than two standard errors."""
-        value, error = self.exponent
+        value, error = (self.number("exponents", f"lambda_1_{name}") for name in ("nats_per_time", "error"))
         return value - 2 * error > 0.0
 
     def number(self, part: str, column: str) -> float:
@@ -61,9 +52,8 @@ class Study:
         return number_of(self.rows.get(part, {}), column)
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
-    directory = Path(directory)
     # scene.toml is no scene of the engine here; its numbers are in the provenance as well.
     wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
     files = read_files(directory, wanted)
@@ -72,9 +62,9 @@ def read_study(directory: str | Path) -> Study:
         rows = {row["part"]: row for row in files["table.csv"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
-        raise FolderError(directory, [fault]) from error
+        raise FolderError(directory, fault) from error
     if not rows:
-        raise FolderError(directory, ["table.csv cannot be read: it has no rows"])
+        raise FolderError(directory, "table.csv cannot be read: it has no rows")
     arrays, faults = {}, {}
     for part in PARTS:
         try:
@@ -85,7 +75,7 @@ def read_study(directory: str | Path) -> Study:
             faults[part] = "it has no row in table.csv"
         except FolderError as error:
             faults[part] = rows[part]["message"] or error.faults[0]
-    return Study(directory, files["provenance.json"], files["columns.csv"], rows, arrays, oscillator, faults)
+    return Study(files["provenance.json"], files["columns.csv"], rows, arrays, oscillator, faults)
 
 
 def attracting_orbit(study: Study) -> np.ndarray | None:
@@ -97,7 +87,7 @@ def attracting_orbit(study: Study) -> np.ndarray | None:
     return None
 
 
-def orbit_items(study: Study, arrays: dict) -> list[Item]:
+def orbit_items(study: Study, arrays: dict) -> Items:
     """The periodic orbits with their multipliers."""
     if "table" not in arrays:
         return [Text("Newton's method met no periodic orbit from any of its starts.")]
@@ -121,7 +111,7 @@ def orbit_items(study: Study, arrays: dict) -> list[Item]:
     off = ("product off by", "relative"), ("residual", "")
     columns = heads(("period", ""), "stability", *((name, "") for name in numbers), *off)
     caption = f"Periodic orbits met by Newton's method ({len(rows)}), by period. From the part `orbits`."
-    return [Text(text), Table(columns, tuple(rows), caption, small=True)]
+    return [Text(text), Table(columns, rows, caption)]
 
 
 def _complex(value: complex) -> str:
@@ -130,7 +120,7 @@ def _complex(value: complex) -> str:
     return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
 
 
-def method_items(study: Study) -> list[Item]:
+def method_items(study: Study) -> Items:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():
@@ -138,6 +128,6 @@ def method_items(study: Study) -> list[Item]:
         source = source if chosen == usual else f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(chosen, 10), source))
     columns = heads("symbol", "what it is", ("value", ""), "source")
-    table = Table(columns, tuple(rows), "The oscillator as run, from `scene.toml`.")
+    table = Table(columns, rows, "The oscillator as run, from `scene.toml`.", small=False)
     first = section_items("oscillator_solved", "Equation and method")
     return [*first, table, *section_items("oscillator_method", "")]

@@ -1,16 +1,23 @@
 """The report of `campaigns.out_of_plane`: what is said, in which order. Everything comes from the campaign's folder."""
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 from tables import COST, RUNS, count, listed, number
 
-from ..parts.columns import LONGEST_CELL, shown_on
-from ..parts.content import Heading, Item, Notice, Report
-from ..parts.provenance import report_page, scene_items, timing_items
-from ..parts.sections import section_items
-from ..parts.selecting import entries
+from ..parts import (
+    LONGEST_CELL,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    entries,
+    report_page,
+    scene_items,
+    section_items,
+    shown_on,
+    timing_items,
+)
 from ..sweep.quantities import batched
 from . import sections
 from .runs import VARIED, Run, Study, columns_of_bodies, read_study
@@ -19,11 +26,11 @@ _MOST = 18  # columns of one table
 _RESOLVED_RAD = 0.5 * math.pi  # in one element
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on an out-of-plane folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
-        *section_items("out_of_plane", "Question"),
+        *section_items("out_of_plane"),
         *sections.statement_items(study),
         *sections.growth_items(study),
         *sections.dependence_items(study),
@@ -36,15 +43,15 @@ def report(directory: str | Path) -> Report:
     return report_page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
 
 
-def _runs_tables(study: Study) -> Iterator[Item]:
+def _runs_tables(study: Study) -> Items:
     columns = study.folder.columns
     named = [*VARIED[:-1], "periods", "status", *columns_of_bodies("motion")]
-    others = shown_on(columns, [run.row for run in study.runs], RUNS, COST, longest=LONGEST_CELL)
+    others = shown_on(columns, study.runs, RUNS, COST, longest=LONGEST_CELL)
     for names in batched(list(dict.fromkeys([*named, *others])), _MOST):
         yield study.table(names, study.runs, "Every run.")
 
 
-def _warnings(study: Study) -> Iterator[Item]:
+def _warnings(study: Study) -> Items:
     pushed = [run for run in study.runs if run.pushed]
     coarse = [run["nodes"] for run in pushed if run["max_turn_rad"] > _RESOLVED_RAD]
     failed, lost, looped, turned = [], [], [], []
@@ -67,7 +74,7 @@ def _warnings(study: Study) -> Iterator[Item]:
     }
     for title, lines in boxes.items():
         if lines:
-            yield Notice("warning", title, tuple(lines))
+            yield Notice("warning", title, lines)
     if not any(boxes.values()):
         nothing = "No run failed, no loop was released, and every turn is resolved."
         yield Notice("note", "Nothing to warn of", (nothing,))
@@ -85,7 +92,7 @@ def _name(run: Run) -> str:
     )
 
 
-def _scene_and_times(study: Study) -> Iterator[Item]:
+def _scene_and_times(study: Study) -> Items:
     yield from timing_items(study.folder)
     keys = {
         "steepness": "waves.steepness",

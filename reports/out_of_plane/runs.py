@@ -1,17 +1,14 @@
 """The runs of the out-of-plane campaign for its report: rows by the quantities that were varied, and trajectories."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import BODIES, number
 
-from ..parts.columns import table_of
-from ..parts.content import Table
-from ..parts.folder import Folder, FolderError, Row, read_folder
-from ..parts.selecting import having
+from ..parts import Folder, FolderError, Table, TableRow, having, read_folder, table_of
 
 VARIED = (
     "steepness", "depth_m", "bending_stiffness_Nm2", "nodes", "dimensions", "seed_mps", "seed_direction", "profiles",
@@ -22,7 +19,7 @@ NEEDED = (
 )  # fmt: skip
 
 
-class Run(Row):
+class Run(TableRow):
     """One row of the table."""
 
     @property
@@ -31,8 +28,7 @@ class Run(Row):
         return self.ok and self["dimensions"] == 3 and self["seed_direction"] != "along"
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """All runs of the folder. base: the values from which the campaign varied one quantity at a time."""
 
     folder: Folder
@@ -62,7 +58,7 @@ class Study:
         """(run, its trajectory) of the runs whose trajectory can be read."""
         pairs = []
         for run in runs:
-            trajectory, _ = self.folder.trajectory(run.row)
+            trajectory, _ = self.folder.trajectory(run)
             if trajectory is not None:
                 pairs.append((run, trajectory))
         return pairs
@@ -73,15 +69,15 @@ class Study:
         for name in VARIED:
             if name != "seed_direction":
                 varied_cells[name] = lambda row, name=name: number(row[name])
-        return table_of(self.folder.columns, names, [run.row for run in runs], caption, varied_cells)
+        return table_of(self.folder.columns, names, runs, caption, varied_cells)
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """The runs of a folder, and the base that its provenance names. Raises FolderError."""
     folder = read_folder(directory, NEEDED)
     base = folder.provenance.get("base")
     if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name base and transient"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not name base and transient")
     return Study(folder, tuple(map(Run, folder.table)), dict(base), int(folder.provenance["transient"]))
 
 

@@ -1,8 +1,6 @@
 """Sections of the out-of-plane report: tables of the folder, figures of its runs, and the same sentences each time."""
 
-from collections.abc import Iterator
 from itertools import chain
-from operator import attrgetter
 
 import numpy as np
 
@@ -11,24 +9,34 @@ from tables import BODIES, PAIRS, PLANE, any_rows, errors_of, number, number_of
 
 from ..figures.motion import section_pairs
 from ..figures.offplane_history import History, dependence, lateral_histories
-from ..parts.columns import shown_on, table_of
-from ..parts.content import Bullets, Figure, Heading, Item, Text
-from ..parts.folder import read_columns
-from ..parts.judged import counted, read_statements, statements_table
-from ..parts.selecting import entries, having
+from ..parts import (
+    Bullets,
+    Figure,
+    Heading,
+    Items,
+    Text,
+    counted,
+    entries,
+    having,
+    read_columns,
+    read_statements,
+    shown_on,
+    statements_table,
+    table_of,
+)
 from .runs import Study, columns_of_bodies, envelope
 
 _PAIRS = "pairs.csv"
 
 
-def statement_items(study: Study) -> Iterator[Item]:
+def statement_items(study: Study) -> Items:
     """The verdicts on the paper's statements and on planar runs; buoy and rope in the two runs of figure 20."""
     judged, pairs = read_statements(study.folder.directory), any_rows(study.folder.directory / _PAIRS)
     sentences = [f"The paper's statements on figure 20: {counted(judged)}."]
     if pairs:
         sentences.append(_agreement(pairs))
     yield Heading("The paper's statements on figure 20")
-    yield Bullets(tuple(sentences))
+    yield Bullets(sentences)
     yield statements_table(judged, "The paper's statements on figure 20. From `statements.csv`.")
     names = columns_of_bodies(
         "motion", "rate_bits_per_period", "bursts", "burst_median_m", "rise_nats", "rise_periods", "lateral_max_m"
@@ -51,7 +59,7 @@ def _agreement(pairs: list[dict[str, str]]) -> str:
     )
 
 
-def figure_20(study: Study) -> Iterator[Item]:
+def figure_20(study: Study) -> Items:
     """Figure 20: lateral motion of buoy and rope for both waves."""
     loaded = study.loaded(study.over())
     if not loaded:
@@ -81,7 +89,7 @@ def _history(run, trajectory, body: str) -> History:
     return History(f"kA = {number(run['steepness'])}", periods, size, *envelope(trajectory, body), run["inplane_m"])
 
 
-def growth_items(study: Study) -> Iterator[Item]:
+def growth_items(study: Study) -> Items:
     """Figure 20; growth or bursts of both waves at every depth, and the exponent across the plane of planar runs."""
     yield Heading("Growth, decay or bursts")
     yield from figure_20(study)
@@ -107,7 +115,7 @@ def growth_items(study: Study) -> Iterator[Item]:
         yield study.table(names, planar, caption)
 
 
-def dependence_items(study: Study) -> Iterator[Item]:
+def dependence_items(study: Study) -> Items:
     """Depth and bending stiffness: figure and tables."""
     large = study.select(depth_m=None, bending_stiffness_Nm2=None)
     if not large:
@@ -135,12 +143,12 @@ def dependence_items(study: Study) -> Iterator[Item]:
 def _curve(runs, body: str, stiffness: float) -> tuple:
     chosen = having(runs, bending_stiffness_Nm2=stiffness)
     depth_m = np.array(entries(chosen, "depth_m"))
-    late_m = np.array([run[f"{body}_lateral_late_m"] for run in chosen])
-    decays = np.array([run[f"{body}_motion"] == "decay" for run in chosen])
+    late_m = np.array(entries(chosen, f"{body}_lateral_late_m"))
+    decays = np.array(entries(chosen, f"{body}_motion")) == "decay"
     return f"EI = {number(stiffness)} N m²", depth_m, late_m, decays
 
 
-def comparison_items(study: Study) -> Iterator[Item]:
+def comparison_items(study: Study) -> Items:
     """Planar runs with loop release and runs in three dimensions: what they are, and in what they agree."""
     yield Heading("Planar with loop release, or three dimensions?")
     pair_rows = any_rows(study.folder.directory / _PAIRS)
@@ -156,7 +164,7 @@ def comparison_items(study: Study) -> Iterator[Item]:
     by_key = {run["run_key"]: run for run in study.runs}
     pairs = [(by_key[row["planar_key"]], by_key[row["spatial_key"]]) for row in pair_rows]
     runs_of_pairs = list(chain.from_iterable(pairs))
-    compared = shown_on(study.folder.columns, list(map(attrgetter("row"), runs_of_pairs)), PAIRS)
+    compared = shown_on(study.folder.columns, runs_of_pairs, PAIRS)
     names = ["depth_m", "dimensions", "loop_releases", "max_turn_rad", *compared, "wall_s"]
     yield study.table(names, runs_of_pairs, "Planar runs (D = 2) and their counterparts (D = 3).")
     columns = read_columns(study.folder.directory / "pairs_columns.csv")

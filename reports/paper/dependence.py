@@ -1,24 +1,32 @@
 """What the paper leaves out: the list of it, and how much of the answer of section 4.2 hangs on each choice."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from engine import Scene, load_scene
+from engine.natural_frequencies import natural_frequencies
 from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
 
-from ..figures.depth_exponents import Exponents, depth_exponents
+from ..figures.depth_exponents import depth_exponents
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
-from ..parts.columns import plus_minus, table_of
-from ..parts.content import Figure, Heading, Item, Table, Text, heads
-from ..parts.folder import Folder, FolderError, provenance_of, read_files
-from ..parts.selecting import entries
-
-if TYPE_CHECKING:
-    from engine import Scene
+from ..parts import (
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Table,
+    Text,
+    entries,
+    having,
+    heads,
+    plus_minus,
+    provenance_of,
+    read_files,
+    table_of,
+)
 
 TREATMENTS = {
     "extrapolate": "linear waves continued above still water",
@@ -28,19 +36,22 @@ TREATMENTS = {
     "spherical-cap": "of the wetted part",
 }
 ABOVE, DROWNED, EI, DEPTH = "above_still_water", "submergence", "bending_stiffness_Nm2", "depth_m"
+_FILES = {"table.csv": "the runs", "columns.csv": "what its columns are"}
 SHORT = (
     "To run section 4 one has to choose what the paper does not say. The first table lists the choices of the shipped "
     "scenes; the rest of this section shows what becomes of the answer with others."
 )
 
 
-def dependence_items(folder: Folder) -> list[Item]:
+def dependence_items(folder: Folder) -> Items:
     """The section, from the parts of the paper's folder."""
-    items: list[Item] = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
+    items = [Heading("What the paper leaves out"), Text(SHORT), _gaps(folder.directory, folder.scene)]
     try:
-        rows, columns = _table(folder.directory / "dependence")
+        files = read_files(folder.directory / "dependence", _FILES)
     except FolderError:
         return [*items, Text("The part `dependence` is not there, so nothing is shown of what follows from them.")]
+    columns = files["columns.csv"]
+    rows = list(by_columns(files["table.csv"], columns))
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
     for steepness in _values(rows, "steepness"):
         items.append(_regimes(rows, columns, steepness))
@@ -48,9 +59,6 @@ def dependence_items(folder: Folder) -> list[Item]:
 
 
 def _gaps(directory: Path, scene: Scene) -> Table:
-    from engine import load_scene
-    from engine.natural_frequencies import natural_frequencies
-
     line, tether = load_scene("breaking_line").tether, scene.tether
     modes, tolerance = natural_frequencies(scene), provenance_of(directory / "buoy").get("strobe_tolerance", math.nan)
     out_m, side = math.nan, "below"  # of the water: the top of the sphere at rest
@@ -73,13 +81,8 @@ def written(name: str, **taken: object) -> Table:
     texts = tomllib.loads(Path(__file__).with_name("tables.toml").read_text(encoding="utf-8"))[name]
     rows = []
     for row in texts["rows"]:
-        rows.append(tuple(cell.format(**taken) for cell in row))
-    return Table(heads(*texts["heads"]), tuple(rows), texts["caption"], small=True)
-
-
-def _table(part: Path) -> tuple[list[dict], dict[str, Column]]:
-    files = read_files(part, {"table.csv": "the runs", "columns.csv": "what its columns are"})
-    return list(by_columns(files["table.csv"], files["columns.csv"])), files["columns.csv"]
+        rows.append([cell.format(**taken) for cell in row])
+    return Table(heads(*texts["heads"]), rows, texts["caption"])
 
 
 def _values(rows: list[dict], key: str) -> list:
@@ -94,15 +97,6 @@ def _like(rows: list[dict], **wanted) -> list[dict]:
     return sorted(matching, key=lambda row: (row[DEPTH], row[EI]))
 
 
-def curve(name: str, rows: list[dict], over: str) -> Exponents:
-    """Exponent over a column of the table, of the runs that ended as asked."""
-    points = []
-    for row in rows:
-        if row["status"] == "ok":
-            points.append((row[over], row[TANGENT_EXPONENT], row[TANGENT_ERROR], row["regime"]))
-    return name, points
-
-
 def _depth_figure(rows: list[dict]) -> Figure:
     waves, drowned = _treatments(rows, ABOVE), _treatments(rows, DROWNED)
     panels = []
@@ -112,7 +106,7 @@ def _depth_figure(rows: list[dict]) -> Figure:
             curves = []
             for above in waves:
                 members = _like(rows, steepness=kA, **{ABOVE: above, DROWNED: under})
-                curves.append(curve(f"waves: {above}", members, DEPTH))
+                curves.append((f"waves: {above}", having(members, status="ok")))
             panels[-1].append((f"kA = {number(kA)}, buoyancy {under}", curves))
     treatments = "; ".join(f"`{word}`: {TREATMENTS.get(word, word)}" for word in (*waves, *drowned))
     caption = (
@@ -121,7 +115,7 @@ def _depth_figure(rows: list[dict]) -> Figure:
         f"(columns); marks tell the regime. {treatments}. From `dependence/table.csv`."
     )
     alt = f"Exponent over water depth in {len(panels)} rows of panels, marked by regime."
-    return Figure(depth_exponents(panels, r"$H$ (m)"), caption, alt)
+    return Figure(depth_exponents(panels, DEPTH, r"$H$ (m)"), caption, alt)
 
 
 def _treatments(rows: list[dict], key: str) -> list[str]:
@@ -146,7 +140,7 @@ def _regimes(rows: list[dict], quantities: dict[str, Column], steepness: float) 
         f"Regime and largest exponent, bits per wave period, at kA = {number(steepness)}, by depth, treatment of the "
         "waves above still water and of buoyancy."
     )
-    return Table(heads(*column_heads), tuple(body), caption, small=True)
+    return Table(heads(*column_heads), body, caption)
 
 
 def _cell(row: dict | None, columns: dict[str, Column]) -> str:
@@ -160,7 +154,7 @@ def _cell(row: dict | None, columns: dict[str, Column]) -> str:
     return f"{regime}, {plus_minus(columns[TANGENT_EXPONENT], columns[TANGENT_ERROR])(row)}"
 
 
-def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
+def _stiffness(rows: list[dict], columns: dict[str, Column]) -> Items:
     shipped = rows[0]
     usual, varied = {}, set()  # rows with the shipped treatments by (kA, H); those of them with several stiffnesses
     for row in rows:
@@ -175,19 +169,19 @@ def _stiffness(rows: list[dict], columns: dict[str, Column]) -> list[Item]:
     panel, shown = {}, []
     for kA, H in sorted(varied):
         by_stiffness = sorted(usual[kA, H], key=lambda row: row[EI])
-        panel.setdefault(f"kA = {number(kA)}", []).append(curve(f"H = {number(H)} m", by_stiffness, EI))
+        panel.setdefault(f"kA = {number(kA)}", []).append((f"H = {number(H)} m", having(by_stiffness, status="ok")))
         shown += by_stiffness
     caption = (
         "Largest exponent over the bending stiffness of the tether, which the paper does not give. A positive exponent "
         "of a run whose buoy repeats its motion belongs to the folds of the slack rope. From `dependence/table.csv`."
     )
-    picture = depth_exponents([list(panel.items())], r"$EI$ (N m$^2$)", log=True)
+    picture = depth_exponents([list(panel.items())], EI, r"$EI$ (N m$^2$)", log=True)
     names = ("steepness", DEPTH, EI, "status", "radius_min_m", "radius_max_m", "regime", TANGENT_EXPONENT)
     table = table_of(columns, names, shown, "What the bending stiffness changes.")
     return [heading, Figure(picture, caption, "Exponent over bending stiffness, at each depth a curve."), table]
 
 
-def _plane(part: Path) -> list[Item]:
+def _plane(part: Path) -> Items:
     heading = Heading("Two dimensions or three", 2)
     try:
         study = read_study(part)

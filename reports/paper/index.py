@@ -9,7 +9,7 @@ import re
 from functools import cache
 from pathlib import Path
 
-from ..parts.content import Heading, Item, Table, Text, heads
+from ..parts import Heading, Items, Table, Text, heads
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("engine", "analysis", "reports")
@@ -24,20 +24,17 @@ HEADS = {"eq.": ("equation", "what", "code"), "fig.": ("figure", "what", "drawn 
 
 
 @cache
-def entries() -> dict[tuple[str, int], tuple[str, tuple[str, ...]]]:
+def entries() -> dict[tuple[str, int], tuple[str, list[str]]]:
     """("eq." or "fig.", number) -> what it is, and the files that say they hold it; the paper's own form comes last."""
-    places: dict[tuple[str, int], list[tuple[str, str]]] = {}
+    places = {}
     paths = []
     for package in PACKAGES:
         paths += (ROOT / package).rglob("*.py")
     for path in sorted(paths, key=lambda path: ("paper_box" in path.parts, path.as_posix())):
         for kind, number, title in named_in(path.read_text(encoding="utf-8")):
-            places.setdefault((kind, number), []).append((title, path.relative_to(ROOT).as_posix()))
-    entries_in_order = {}
-    for key, titles_and_files in sorted(places.items()):
-        titles, files = zip(*titles_and_files, strict=True)
-        entries_in_order[key] = titles[0], files
-    return entries_in_order
+            _, files = places.setdefault((kind, number), (title, []))
+            files.append(path.relative_to(ROOT).as_posix())
+    return dict(sorted(places.items()))
 
 
 def named_in(source: str) -> list[tuple[str, int, str]]:
@@ -72,12 +69,12 @@ def markdown(kind: str) -> str:
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
-def index_items() -> list[Item]:
+def index_items() -> Items:
     """The section."""
     text = "To find an equation or a figure in the sources search for it as written here; NOTATION.md has the list too."
-    items: list[Item] = [Heading("Where to find what"), Text(text)]
+    items = [Heading("Where to find what"), Text(text)]
     for kind, caption in CAPTIONS.items():
-        items.append(Table(heads(*HEADS[kind]), tuple(rows_of(kind)), caption, small=True))
+        items.append(Table(heads(*HEADS[kind]), rows_of(kind), caption))
     return items
 
 

@@ -4,12 +4,24 @@ from pathlib import Path
 
 from tables import FAILS, HOLDS_IF, count, decimals
 
-from ..parts.columns import table_of
-from ..parts.content import Bullets, Heading, Item, Links, Notice, Report, Text
-from ..parts.folder import Folder, read_folder
-from ..parts.judged import Judged, counted, read_statements, statements_table
-from ..parts.provenance import report_page
-from ..parts.sections import section_items
+from ..parts import (
+    Bullets,
+    Folder,
+    Heading,
+    Items,
+    Judged,
+    Links,
+    Notice,
+    Report,
+    Text,
+    counted,
+    read_folder,
+    read_statements,
+    report_page,
+    section_items,
+    statements_table,
+    table_of,
+)
 from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside
@@ -45,7 +57,7 @@ VERDICTS = (
 )
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of `campaigns.paper`. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory)
     judged = read_statements(folder.directory)
@@ -64,9 +76,9 @@ def report(directory: str | Path) -> Report:
     return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
 
 
-def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
-    items: list[Item] = [
-        *section_items("paper", "Question"),
+def _question(folder: Folder, judged: list[Judged]) -> Items:
+    items = [
+        *section_items("paper"),
         Heading("What does not simply hold"),
         Bullets(short_answer(judged)),
     ]
@@ -75,14 +87,14 @@ def _question(folder: Folder, judged: tuple[Judged, ...]) -> list[Item]:
         items.append(Notice("warning", "A quick look", lines))
     missing = [part for part in PARTS if not (folder.directory / part / "table.csv").exists()]
     if missing:
-        lines = tuple(f"`{part}`: {part}/table.csv is missing" for part in missing)
+        lines = [f"`{part}`: {part}/table.csv is missing" for part in missing]
         items.append(Notice("warning", "Parts that are not there", lines))
     return items
 
 
-def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
+def short_answer(judged: list[Judged]) -> list[str]:
     """How many statements hold, and which do not, each once: conclusions repeat what is said before."""
-    first_told: list[Judged] = []
+    first_told = []
     statements = set()
     for row in judged:
         if row["statement"] not in statements:
@@ -94,10 +106,10 @@ def short_answer(judged: tuple[Judged, ...]) -> tuple[str, ...]:
             if row["verdict"] == verdict:
                 quoted = f"“{row['statement'].rstrip('.')}” (no. {row['number']}; {row['place']})"
                 lines.append(f"{verdict.capitalize()} {row['condition']}".rstrip() + f": {quoted}.")
-    return tuple(lines)
+    return lines
 
 
-def _parts(folder: Folder) -> list[Item]:
+def _parts(folder: Folder) -> Items:
     shown = ("part", "runs", "failed", "run_s", "total_s")
     descriptions, links = [], []
     for part, words in PARTS.items():
@@ -111,16 +123,16 @@ def _parts(folder: Folder) -> list[Item]:
     jobs = folder.provenance.get("jobs")
     if isinstance(jobs, int):
         time_text += f", {count(jobs, 'run')} at a time"
-    items: list[Item] = [Heading("Parts"), table_of(folder.columns, shown, folder.table, caption)]
+    items = [Heading("Parts"), table_of(folder.columns, shown, folder.table, caption)]
     if not links:
         return [*items, Text(f"{time_text}. The parts' own reports were left out.")]
     reports_text = "Each part has a report of its own, with all runs, grids, warnings and sources:"
-    return [*items, Text(f"{time_text}. {reports_text}"), Links(tuple(links))]
+    return [*items, Text(f"{time_text}. {reports_text}"), Links(links)]
 
 
-def _figures(directory: Path) -> list[Item]:
+def _figures(directory: Path) -> Items:
     drawn, missing = figures_of(directory), left_out(directory)
-    items: list[Item] = [
+    items = [
         Heading("The figures of the paper"),
         Text(PREFACE),
         Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
@@ -130,13 +142,13 @@ def _figures(directory: Path) -> list[Item]:
         if section:
             items += [Heading(heading, 2), *section]
     if missing:
-        lines = tuple(f"Fig. {number} of the paper: {reason}." for number, reason in missing.items())
+        lines = [f"Fig. {number} of the paper: {reason}." for number, reason in missing.items()]
         items.append(Notice("warning", "Figures of the paper that are left out", lines))
     return items
 
 
-def _statements(judged: tuple[Judged, ...]) -> list[Item]:
-    items: list[Item] = [Heading("The statements of the paper"), Text(VERDICTS)]
+def _statements(judged: list[Judged]) -> Items:
+    items = [Heading("The statements of the paper"), Text(VERDICTS)]
     for heading, places in TOPICS.items():
         topic = [row for row in judged if row["place"].startswith(places)]
         if topic:

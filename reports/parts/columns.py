@@ -30,9 +30,9 @@ def table_of(
             meanings[f"{column.head}: {column.meaning}"] = None  # a dictionary: each meaning once, in order
     body = []
     for row in rows:
-        body.append(tuple(cells[column.name](row) for column in shown))
+        body.append([cells[column.name](row) for column in shown])
     explained = f"{'; '.join(meanings)}." if meanings else ""
-    return Table(tuple(heads), tuple(body), f"{caption} {explained}".strip(), small=True)
+    return Table(heads, body, f"{caption} {explained}".strip())
 
 
 def printed_cells(columns: Columns) -> dict[str, Callable[[Row], str]]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -39,7 +40,7 @@ class Text:
 class Bullets:
     """A list of short statements."""
 
-    lines: tuple[str, ...]
+    lines: Sequence[str]
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ class Head:
     share: int = 1
 
 
-def heads(*titles: str | tuple[str, str]) -> tuple[Head, ...]:
+def heads(*titles: str | tuple[str, str]) -> list[Head]:
     """Columns of a table: a title alone is one of words, set left; a title with its unit or "" is one of numbers."""
     columns = []
     for title in titles:
@@ -106,20 +107,20 @@ def heads(*titles: str | tuple[str, str]) -> tuple[Head, ...]:
             columns.append(Head(title, align="left"))
         else:
             columns.append(Head(*title))
-    return tuple(columns)
+    return columns
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table of strings. `small` asks for the smaller type that many columns need.
+    """A table of strings. `small`: in the smaller type that many columns need.
 
     Raises ValueError when a row has not one cell for every column.
     """
 
-    columns: tuple[Head, ...]
-    rows: tuple[tuple[str, ...], ...]
+    columns: Sequence[Head]
+    rows: Sequence[Sequence[str]]
     caption: str
-    small: bool = False
+    small: bool = True
 
     def __post_init__(self) -> None:
         if any(len(row) != len(self.columns) for row in self.rows):
@@ -132,7 +133,7 @@ class Notice:
 
     kind: Literal["note", "warning"]
     title: str
-    lines: tuple[str, ...]
+    lines: Sequence[str]
 
 
 @dataclass(frozen=True)
@@ -181,8 +182,8 @@ class Sheet:
 
     anchor: str
     title: str
-    facts: tuple[tuple[str, str], ...]
-    lines: tuple[str, ...] = ()
+    facts: Sequence[tuple[str, str]]
+    lines: Sequence[str] = ()
     drawing: str = ""
     table: Table | None = None
     chosen: bool = False
@@ -204,18 +205,19 @@ class CellSheets:
     name, note, scales (ends of r and T), motions (letter, colour, facts, what is said, series of 0 to 999).
     """
 
-    heads: tuple[tuple[str, str], ...]
-    cells: tuple[dict, ...]
+    heads: Sequence[tuple[str, str]]
+    cells: Sequence[dict]
 
 
 @dataclass(frozen=True)
 class Links:
     """A list of other files: what each is, and its path from the report's own folder."""
 
-    files: tuple[tuple[str, str], ...]
+    files: Sequence[tuple[str, str]]
 
 
 Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet | CellSheets | Links
+Items = Iterable[Item]
 
 
 @dataclass(frozen=True)
@@ -227,7 +229,7 @@ class Report:
 
     title: str
     subtitle: str
-    items: tuple[Item, ...]
+    items: Sequence[Item]
 
 
 # Characters of Unicode's private area, as those of `sub`: no text from outside carries them.
@@ -273,7 +275,7 @@ def plain(text: str) -> str:
     return "".join(piece for _, piece in spans(text))
 
 
-def numbered(items: tuple[Item, ...]) -> list[dict]:
+def numbered(items: Iterable[Item]) -> list[dict]:
     """Every item with its kind and its number, for both renderers: headings "1", "1.1", ..., all others from 1 on."""
     counts, section, division, blocks = Counter(), 0, 0, []
     for item in items:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tables import ANSWER, any_rows, count, number, number_of, printed
 
-from .content import Bullets, Item, Report, Text
+from .content import Bullets, Report, Text
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
@@ -14,7 +14,7 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
 
     What a report says before its first heading, such as a figure, stays on that page.
     """
-    first_page: list[Item] = []
+    first_page = []
     path = directory / ANSWER
     if path.exists() and "timing" in provenance:
         lines = path.read_text(encoding="utf-8").splitlines()

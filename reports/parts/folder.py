@@ -8,9 +8,12 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from tables import Column, by_columns, read_columns, read_rows
+
+from .columns import Row
+from .selecting import having
 
 if TYPE_CHECKING:
     import xarray
@@ -30,16 +33,15 @@ _OLD = "made by an older version: run the command again, finished runs are found
 class FolderError(ValueError):
     """The folder cannot be reported on; `faults` lists every reason, str() shows them all."""
 
-    def __init__(self, directory: Path, faults: list[str]):
-        self.faults = tuple(faults)
+    def __init__(self, directory: Path, *faults: str):
+        self.faults = faults
         lines = [f"no report can be made of {directory}:"]
         for fault in faults:
             lines.append(f"  - {fault}")
         super().__init__("\n".join(lines))
 
 
-@dataclass(frozen=True)
-class Folder:
+class Folder(NamedTuple):
     """What a finished campaign left behind, read and checked: the trajectories stay on disk until asked for.
 
     table: its rows, numbers where the dictionary has digits, nan where there is none. columns: what the columns of the
@@ -48,19 +50,19 @@ class Folder:
 
     directory: Path
     provenance: dict
-    table: tuple[dict[str, object], ...]
+    table: tuple[Row, ...]
     scene: Scene
     columns: dict[str, Column]
 
     @property
-    def completed(self) -> list[dict[str, object]]:
+    def completed(self) -> list[Row]:
         """The rows of the runs that reached their full length."""
-        return [row for row in self.table if row["status"] == "ok"]
+        return having(self.table, status="ok")
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
-    def trajectory(self, row: Mapping[str, object]) -> tuple[Trajectory | None, str]:
+    def trajectory(self, row: Row) -> tuple[Trajectory | None, str]:
         """(trajectory, "") of a row of the table, or None and why: "" for a run that failed and left nothing."""
         from engine.trajectory import Trajectory, TrajectoryError
 
@@ -77,14 +79,18 @@ class Folder:
 
 
 @dataclass(frozen=True, eq=False)
-class Row:
+class TableRow:
     """One row of a campaign's table."""
 
-    row: Mapping[str, object]
+    row: Row
 
     def __getitem__(self, column: str):
         """An entry: text, or a number that is nan where the table leaves it empty or has no such column."""
         return self.row.get(column, math.nan)
+
+    def get(self, column: str):
+        """An entry; None where the table has no such column."""
+        return self.row.get(column)
 
     @property
     def ok(self) -> bool:
@@ -96,22 +102,26 @@ class Row:
         return math.isfinite(self[column])
 
 
-def read_folder(directory: str | Path, needed: tuple[str, ...] = ()) -> Folder:
+def read_folder(directory: Path, needed: tuple[str, ...] = ()) -> Folder:
     """Read and check a campaign's folder: its table has the columns of its dictionary, and text where that says so.
 
     needed: the columns without which there is no report.
     Raises FolderError naming every part that is missing or cannot be read.
     """
-    directory = Path(directory)
     parts, faults = _readable(directory, PARTS, _READERS)
     columns, table = parts.get("columns.csv"), None
     if columns is not None and "table.csv" in parts:
         try:
-            table = _table(parts["table.csv"], needed, columns)
+            rows = parts["table.csv"]
+            absent = [column for column in needed if rows and column not in rows[0]]
+            if absent:
+                plural = "s" if len(absent) > 1 else ""
+                raise ValueError(f"column{plural} missing: {', '.join(absent)}")
+            table = by_columns(rows, columns)
         except ValueError as error:
             faults.append(f"table.csv cannot be read: {error}")
     if faults:
-        raise FolderError(directory, faults)
+        raise FolderError(directory, *faults)
     return Folder(directory, parts["provenance.json"], table, parts["scene.toml"], columns)
 
 
@@ -127,7 +137,7 @@ def part_of(folder: Folder, name: str) -> Folder | None:
 
 
 def read_files(
-    directory: str | Path, wanted: Mapping[str, str], own_readers: Mapping[str, Callable[[Path], object]] | None = None
+    directory: Path, wanted: Mapping[str, str], own_readers: Mapping[str, Callable[[Path], object]] | None = None
 ) -> dict[str, object]:
     """{name: content}: rows {column: text} of a .csv file, the object of a .json file, the scene of a .toml file, the
     `Column` of every column of a dictionary of columns by name, the arrays of a .nc file, text of a .txt file, the
@@ -136,16 +146,16 @@ def read_files(
     wanted: name of a file or folder -> what it holds. own_readers: ending of a name -> reader in place of the usual.
     Raises FolderError naming all that is missing or cannot be read.
     """
-    contents, faults = _readable(Path(directory), wanted, _READERS | (own_readers or {}))
+    contents, faults = _readable(directory, wanted, _READERS | (own_readers or {}))
     if faults:
-        raise FolderError(Path(directory), faults)
+        raise FolderError(directory, *faults)
     return contents
 
 
-def provenance_of(directory: str | Path) -> dict:
+def provenance_of(directory: Path) -> dict:
     """The provenance.json of a folder, {} where it cannot be read."""
     try:
-        return _json(Path(directory) / "provenance.json")
+        return _json(directory / "provenance.json")
     except (OSError, ValueError, RecursionError):
         return {}
 
@@ -202,12 +212,3 @@ _READERS = {
     ".txt": lambda path: path.read_text(encoding="utf-8"),
     "": lambda path: [*path.iterdir()],
 }
-
-
-def _table(rows: list[dict[str, str]], needed: tuple[str, ...], columns: Mapping[str, Column]) -> tuple[dict, ...]:
-    """The rows by their columns. Raises ValueError as `by_columns`, and where a column is missing that is needed."""
-    absent = [column for column in needed if rows and column not in rows[0]]
-    if absent:
-        plural = "s" if len(absent) > 1 else ""
-        raise ValueError(f"column{plural} missing: {', '.join(absent)}")
-    return by_columns(rows, columns)

@@ -10,7 +10,7 @@ import math
 import re
 import zlib
 from collections.abc import Iterable
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from functools import lru_cache
 from html import escape
 
@@ -70,23 +70,15 @@ def explorer_json(explorer: Explorer) -> str:
 
     `low` and `high` are the ends of all points; in curves of one value a run not a number becomes null.
     """
-    columns, every_point = [], []
-    for column in explorer.columns:
-        points = [point for point in _numbers(column.points, 8) if point is not None]
-        every_point.extend(points)
-        columns.append(asdict(replace(column, points=points)))
+    content, every_point = asdict(explorer), []
+    for column in content["columns"]:
+        column["points"] = [point for point in _numbers(column["points"], 8) if point is not None]
+        every_point += column["points"]
     low, high = min(every_point, default=0.0), max(every_point, default=0.0)
-    lower = []
+    content["low"], content["high"] = low, high if high > low else low + 1.0
+    content["lower"] = []
     for label, values, errors in explorer.lower:
-        lower.append({"label": label, "values": _numbers(values), "errors": _numbers(errors)})
-    content = {
-        "x_label": explorer.x_label,
-        "y_label": explorer.y_label,
-        "low": low,
-        "high": high if high > low else low + 1.0,
-        "columns": columns,
-        "lower": lower,
-    }
+        content["lower"].append({"label": label, "values": _numbers(values), "errors": _numbers(errors)})
     # "<" would let a name end the script element that the line stands in
     return json.dumps(content, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 

@@ -7,11 +7,12 @@ from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS
 
 from .content import Head, Table
 from .folder import FolderError, read_files
+from .selecting import entries
 
 Judged = dict[str, str]
 
 
-def read_statements(directory: Path) -> tuple[Judged, ...]:
+def read_statements(directory: Path) -> list[Judged]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
     rows = read_files(directory, {STATEMENTS: "the statements of the paper as judged"})[STATEMENTS]
     for row in rows:
@@ -19,12 +20,12 @@ def read_statements(directory: Path) -> tuple[Judged, ...]:
             raise FolderError(
                 directory, [f"{STATEMENTS} cannot be read: its first line is not {','.join(STATEMENT_COLUMNS)}"]
             )
-    return tuple(rows)
+    return rows
 
 
 def counted(rows: Iterable[Judged]) -> str:
     """How many hold, and so on: "3 hold, 1 do not hold"."""
-    verdicts = [row["verdict"] for row in rows]
+    verdicts = entries(rows, "verdict")
     counts = []
     for word, phrase in VERDICTS.items():
         if word in verdicts:
@@ -36,7 +37,7 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     """Number, place, statement, verdict, evidence of the rows."""
     heads = (
         Head("no."),
-        Head("place", align="left", share=1),
+        Head("place", align="left"),
         Head("the paper", align="left", share=3),
         Head("verdict", align="left", share=3),
         Head("the runs", align="left", share=5),
@@ -49,4 +50,4 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
             verdict = f"{verdict}: {row['condition']}"
         evidence = f"{row['threshold']}. {row['evidence']}"
         body.append((row["number"], row["place"], row["statement"], verdict, row["found"], evidence))
-    return Table(heads, tuple(body), caption, small=True)
+    return Table(heads, body, caption)

@@ -80,7 +80,7 @@ def _pieces(value: object) -> object:
     """The value for JSON: every text as its pieces (style, letters), records by the names of their fields."""
     if isinstance(value, str):
         return spans(value)
-    if isinstance(value, tuple):
+    if isinstance(value, tuple | list):
         return [_pieces(entry) for entry in value]
     if is_dataclass(value):
         pieces = {}

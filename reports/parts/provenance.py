@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from tables import EMPTY, decimals, number
 
-from .content import Heading, Item, Listing, Notice, Report, Table, Text, heads, with_subscripts
+from .content import Heading, Item, Items, Listing, Notice, Report, Table, Text, heads, with_subscripts
 from .folder import Folder
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ _TIMES = {
 }
 
 
-def scene_items(scene: Scene, shipped: str, varied: dict[str, str], caption: str = "") -> list[Item]:
+def scene_items(scene: Scene, shipped: str, varied: dict[str, str], caption: str = "") -> Items:
     """The section with `scene_table`; caption: "" for that of a scene whose defaults are the shipped one's."""
     usual = f"The scene as run, from `scene.toml`; defaults are those of the scene `{shipped}`."
     return [Heading("Scene"), scene_table(scene, shipped, varied, caption or usual)]
@@ -67,7 +67,7 @@ def scene_table(scene: Scene, shipped: str, varied: dict[str, str], caption: str
         rows.append((f"`{name}`", with_subscripts(meaning), shown, unit, with_subscripts(source)))
     columns = heads("key", "parameter", ("value", ""), "unit", "source")
     origin = "Table, section, figure and eq. are those of Tjavaras et al. (1998)."
-    return Table(columns, tuple(rows), f"{caption} {origin}", small=True)
+    return Table(columns, rows, f"{caption} {origin}")
 
 
 def _key(name: str) -> str:
@@ -75,7 +75,7 @@ def _key(name: str) -> str:
     return re.sub(r"\[\d+\]", "", name)
 
 
-def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
+def timing_items(folder: Folder, *costs: Item | None) -> Items:
     """What the runs cost: `costs`, where there are any, and the time split of a campaign; nothing for none of them."""
     items, rows = list(filter(None, costs)), []
     for name, time in _flat(folder.provenance.get("timing")):
@@ -84,15 +84,15 @@ def timing_items(folder: Folder, *costs: Item | None) -> list[Item]:
             rows.append((part, decimals(time, 2)))
     if rows:
         caption = "Where the time of the campaign went, from `provenance.json`."
-        items.append(Table(heads("part", ("wall time", "s")), tuple(rows), caption))
+        items.append(Table(heads("part", ("wall time", "s")), rows, caption, small=False))
     if not items:
         return []
     return [Heading("Run times"), *items]
 
 
-def provenance_items(folder: Folder) -> list[Item]:
+def provenance_items(folder: Folder) -> Items:
     """The command and everything else that provenance.json holds."""
-    items: list[Item] = [Heading("Provenance")]
+    items = [Heading("Provenance")]
     entries = dict(folder.provenance)
     entries.pop("timing", None)
     command = entries.pop("command", None)
@@ -105,13 +105,11 @@ def provenance_items(folder: Folder) -> list[Item]:
         rows.append((f"`{key}`", _shown(entry)))
     if rows:
         caption = "All of `provenance.json` but the command and the times."
-        items.append(Table(heads("entry", "value"), tuple(rows), caption, small=True))
+        items.append(Table(heads("entry", "value"), rows, caption))
     return items
 
 
-def report_page(
-    folder: Folder, title: str, items: Iterable[Item], made: Iterable[Item] | None = None, subtitle: str = ""
-) -> Report:
+def report_page(folder: Folder, title: str, items: Items, made: Items | None = None, subtitle: str = "") -> Report:
     """A report: its items, and how it was made in an appendix that ends with the provenance.
 
     made: of the appendix, in front of the provenance; None: run times and scene. subtitle: "" for the title of the
@@ -121,18 +119,18 @@ def report_page(
     if made is None:
         made = [*timing_items(folder), *scene_items(scene, str(folder.provenance.get("scene") or scene.name), {})]
     subtitle = subtitle or scene.title or scene.name
-    return Report(title, subtitle, (*items, *appendix(*made, *provenance_items(folder))))
+    return Report(title, subtitle, [*items, *appendix(*made, *provenance_items(folder))])
 
 
 def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:
     """The warnings of a report in a box, or a note that says there are none."""
-    lines = tuple(lines)
+    lines = list(lines)
     if not lines:
         return Notice("note", "Nothing to warn of", (nothing,))
     return Notice("warning", title, lines)
 
 
-def appendix(*items: Item) -> list[Item]:
+def appendix(*items: Item) -> Items:
     """The last section of a report: how it was made; headings among the items divide it."""
     if not items:
         return []

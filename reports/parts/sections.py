@@ -4,12 +4,12 @@ import tomllib
 from functools import cache
 from importlib.resources import files
 
-from .content import Equation, Heading, Item, Text, with_subscripts
+from .content import Equation, Heading, Items, Text, with_subscripts
 
 
-def section_items(name: str, heading: str = "Equations", **insertions: str) -> list[Item]:
+def section_items(name: str, heading: str = "Question", **insertions: str) -> Items:
     """The texts and equations of a section below its heading, "" for none; insertions: what stands in braces there."""
-    items: list[Item] = [Heading(heading)] if heading else []
+    items = [Heading(heading)] if heading else []
     for template in _sections()["sections"][name]:
         text = template.format(**insertions)
         items.append(equation(text) or Text(with_subscripts(text)))

@@ -22,5 +22,5 @@ def draw(folder: str | Path, path: str | Path) -> None:
         return
     maps = [regimes(page) for page in atlas.pages]
     across = min(2, len(maps))
-    picture, _ = regime_maps(maps, atlas.labels, legend(atlas), atlas.marks, wide=across, kind="png")
+    picture, _ = regime_maps(maps, atlas.labels, legend(atlas), atlas.marks, across, kind="png")
     write_atomic(Path(path), picture.data)

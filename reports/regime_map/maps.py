@@ -1,16 +1,15 @@
 """The maps of a folder of `campaigns.regime_map`: what is on each of its pages, and the five maps of a page."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENED, Column, listed, number
 
 from ..figures.regime_map import HATCHES, Cells, Map
-from ..parts.folder import Folder, part_of
-from ..parts.selecting import entries
+from ..parts import Folder, Row, entries, part_of
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
 from ..sweep.quantities import at, series
 
@@ -19,8 +18,7 @@ LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above s
 _WHOLE = 0.995  # share of a map that is called all of it
 
 
-@dataclass(frozen=True, eq=False)
-class Page:
+class Page(NamedTuple):
     """The n cells of one page, the small ones behind those that they cover. place: its value, "" for the only one.
 
     area (n,): share of the map that each cell takes where it is on top.
@@ -28,7 +26,7 @@ class Page:
 
     number: int
     place: str
-    rows: Sequence[Mapping[str, object]]
+    rows: Sequence[Row]
     cells: Cells
     area: np.ndarray
 
@@ -46,8 +44,7 @@ class Page:
         return float(self.area[chosen].sum())
 
 
-@dataclass(frozen=True, eq=False)
-class Atlas:
+class Atlas(NamedTuple):
     """All pages over two keys; before them, where there are several pages, theirs. columns: of the cells."""
 
     keys: Sequence[Column]
@@ -97,7 +94,7 @@ def read_atlas(folder: Folder) -> Atlas | None:
     first = next(iter(part.columns))
     if first not in axes:
         keys.insert(0, part.columns[first])
-    rows_of_pages: dict[object, list] = {}
+    rows_of_pages = {}
     for row in part.table:
         value = row[first] if len(keys) > 2 else ""
         rows_of_pages.setdefault(value, []).append(row)
@@ -198,7 +195,7 @@ def _words_by_colour(atlas: Atlas) -> dict[str, list[str]]:
     words = set()
     for page in atlas.pages:
         words.update(page.cells.kinds[page.area > 0.0])
-    by_colour: dict[str, list[str]] = {}
+    by_colour = {}
     for word in sorted(words, key=_order):
         by_colour.setdefault(colour_of(word), []).append(word)
     by_colour.pop("", None)

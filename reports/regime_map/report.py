@@ -10,24 +10,36 @@ from tables import COMPUTED, FAILED, SCREENED, listed, number, percent
 
 from ..figures.orbit_diagram import NARROW_IN
 from ..figures.regime_map import Map, regime_maps
-from ..parts.content import Figure, Heading, Notice, Report, Table, heads, plain
-from ..parts.folder import PARTS, Folder, FolderError, read_files, read_folder
-from ..parts.provenance import limits, report_page
-from ..parts.sections import section_items
-from ..parts.selecting import having
-from ..parts.style import WIDTH_IN
+from ..parts import (
+    PARTS,
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Notice,
+    Report,
+    Table,
+    having,
+    heads,
+    limits,
+    plain,
+    read_files,
+    read_folder,
+    report_page,
+    section_items,
+)
 from ..sweep.quantities import at
 from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
 from .sheets import cell_sheets
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of maps. Raises FolderError for a folder that is not one."""
     files = read_files(directory, {name: PARTS[name] for name in ("scene.toml", "provenance.json")})
-    folder = Folder(Path(directory), files["provenance.json"], (), files["scene.toml"], {})
+    folder = Folder(directory, files["provenance.json"], (), files["scene.toml"], {})
     atlas = read_atlas(folder)
     if atlas is None:
-        raise FolderError(folder.directory, ["cells/table.csv cannot be read: it has no cells over two keys"])
+        raise FolderError(folder.directory, "cells/table.csv cannot be read: it has no cells over two keys")
     computed = atlas.of_source(COMPUTED) > 0.0
     if computed:
         folder = read_folder(directory, ("status", "motion", "run_key", "periods", "end_time_s", "message"))
@@ -38,7 +50,7 @@ def report(directory: str | Path) -> Report:
     other_figures = [_figure(atlas, maps, (), f"Maps over {over}", _OTHERS) for maps in numbers(atlas)]
     if len(other_figures) == 1:
         items += other_figures
-    items += section_items("regime_map", "Question")
+    items += section_items("regime_map")
     if computed:
         items += [Heading("Regimes"), _regimes(atlas)]
     if len(other_figures) > 1:
@@ -68,15 +80,15 @@ def _figure(atlas: Atlas, maps: Sequence[Map], entries, alt: str, caption: str) 
     entries: of the legend.
     """
     across = min(2, len(maps))
-    picture, places = regime_maps(maps, atlas.labels, entries, atlas.marks, WIDTH_IN, across)
-    narrow, narrow_places = regime_maps(maps, atlas.labels, entries, atlas.marks, NARROW_IN, 1)
+    picture, places = regime_maps(maps, atlas.labels, entries, atlas.marks, across)
+    narrow, narrow_places = regime_maps(maps, atlas.labels, entries, atlas.marks, 1, NARROW_IN)
     titles = "; ".join(regime_map.title.replace("\n", ", ") for regime_map in maps)
     return Figure(picture, caption, f"{alt}: {titles}.", narrow=narrow, places=(places, narrow_places))
 
 
 def _regimes(atlas: Atlas) -> Table:
     """A row a word: how much of the map it takes, where the line pulls hardest in it, what limits that."""
-    cells_of_words: dict[str, list[tuple]] = {}
+    cells_of_words = {}
     for page in atlas.pages:
         for cell in np.flatnonzero(page.on_top(COMPUTED)):
             word = str(page.cells.kinds[cell])
@@ -90,13 +102,13 @@ def _regimes(atlas: Atlas) -> Table:
         for name in LIMITS:
             limited = [cell for cell in cells if cell[0].get(name) == 1]
             cell_texts.append(percent(_area(limited) / share))
-        body.append(tuple(cell_texts))
+        body.append(cell_texts)
     limit_heads = [(reason, "") for reason in LIMITS.values()]
     columns = heads(
         "motion from rest", ("cells", ""), ("share of the map", ""), ("largest T over static", ""), "at", *limit_heads
     )
     caption = "Computed cells by the regime of the motion from rest; the last two columns: shares of their area."
-    return Table(columns, tuple(body), caption, small=True)
+    return Table(columns, body, caption)
 
 
 def _area(cells: Sequence[tuple]) -> float:
@@ -130,15 +142,11 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
         share = atlas.limited(reason)
         if share:
             lines.append(f"On {percent(share)} of the map {_LIMIT_SENTENCES[name]}.")
-    verdicts = Counter()
-    for row in having(folder.table, status="ok"):
-        verdicts[row.get("verdict")] += 1
-    verdicts.pop("", None)
-    verdicts.pop(None, None)
-    cheap = verdicts["cheap"]
+    verdicts = [row["verdict"] for row in having(folder.table, status="ok") if row.get("verdict")]
+    cheap = verdicts.count("cheap")
     if cheap:
         lines.append(
-            f"{cheap} of {verdicts.total()} verdicts are cheap: the motion repeats at one look. Sheets say which."
+            f"{cheap} of {len(verdicts)} verdicts are cheap: the motion repeats at one look. Sheets say which."
         )
     return limits("What the maps do not tell", lines, "Every cell was computed and has a full verdict.")
 

@@ -1,15 +1,13 @@
 """The sheet of every cell of a map: a page may have thousands, and a script draws the one that is chosen."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from analysis import read_evidence
 from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts.columns import LONGEST_CELL, printed_cells, shown_on
-from ..parts.content import CellSheets, plain
-from ..parts.folder import Folder
+from ..parts import LONGEST_CELL, CellSheets, Folder, Row, plain, printed_cells, shown_on
 from ..sweep.quantities import at, colours_of
 from .maps import LIMITS, PULL, Atlas
 
@@ -26,9 +24,11 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
     columns = folder.columns
     keys, cells = {"motion", *(key.name for key in atlas.keys)}, printed_cells(columns)
     names = [name for name in shown_on(columns, folder.table, RUNS, REGIMES, longest=LONGEST_CELL) if name not in keys]
-    motions_of_places: dict[tuple[str, ...], list] = {}
-    for row, curves in zip(folder.table, _curves(folder), strict=True):
+    motions_of_places = {}
+    strobes_of_runs, no_strobes = _strobes(folder), [_NOTHING] * len(_STROBES)
+    for row in folder.table:
         facts = [cells[name](row) for name in names]
+        curves = [*_history(folder, row), *strobes_of_runs.get(row["run_key"], no_strobes)]  # r and T, twice
         motions_of_places.setdefault(_place(row, atlas), []).append((row, facts, curves))
     sheets = []
     for page in atlas.pages:
@@ -43,25 +43,17 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
             }
             motions = motions_of_places.get(_place(row, atlas), [])
             sheets.append(sheet | _drawn(motions))
-    fact_heads = tuple((columns[name].head, columns[name].unit) for name in names)
-    return CellSheets(fact_heads, tuple(sheets))
+    fact_heads = [(columns[name].head, columns[name].unit) for name in names]
+    return CellSheets(fact_heads, sheets)
 
 
-def _place(row: Mapping[str, object], atlas: Atlas) -> tuple[str, ...]:
+def _place(row: Row, atlas: Atlas) -> tuple[str, ...]:
     """What joins a row of `table.csv` to its cell."""
     place = []
     for key in atlas.keys:
         value = row[key.name]
         place.append(str(value) if key.digits is None else f"{value:.9g}")
     return tuple(place)
-
-
-def _curves(folder: Folder) -> Iterator[list[np.ndarray]]:
-    """Of each row: histories of r and T, strobed r and T; empty ones where nothing was kept."""
-    nothing = [_NOTHING] * len(_STROBES)
-    strobes_of_runs = _strobes(folder)
-    for row in folder.table:
-        yield [*_history(folder, row), *strobes_of_runs.get(row["run_key"], nothing)]
 
 
 def _strobes(folder: Folder) -> dict[str, list[np.ndarray]]:

@@ -3,36 +3,46 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import Column, count, number, number_of
 
 from ..figures.stability import stiffness
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Text
-from ..parts.folder import FolderError, read_files
-from ..parts.provenance import appendix, provenance_items, timing_items
-from ..parts.sections import section_items
-from ..parts.selecting import entries, having
+from ..parts import (
+    Figure,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    appendix,
+    entries,
+    having,
+    provenance_items,
+    read_files,
+    section_items,
+    table_of,
+    timing_items,
+)
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [
+    items = [
         *unexplained_items(study),  # before the first heading: on the first page, after the answer
-        *section_items("stability", "Question"),
+        *section_items("stability"),
         *stiffness_items(study),
         *case_items(study),
         *limit_items(study),
         *appendix(*timing_items(study), *provenance_items(study)),
     ]
     kind = "quick selection" if study.provenance.get("quick") else "all cases"
-    return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", tuple(items))
+    return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", items)
 
 
 FILES = {
@@ -55,8 +65,7 @@ SHOWN = (
 DEFAULT = "EA", "EA = 50000 N, regular wave"  # whose cost is the unit
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+class Study(NamedTuple):
     """What the campaign left: `cases`, rows of text by column. Older tables have rows of random scenes as well."""
 
     provenance: dict
@@ -68,17 +77,17 @@ class Study:
         return having(self.cases, verdict=verdict)
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     files = read_files(directory, FILES)
     table, columns, provenance = files.values()
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
-        raise FolderError(Path(directory), ["table.csv cannot be read: it has no rows, or not those of this campaign"])
+        raise FolderError(directory, "table.csv cannot be read: it has no rows, or not those of this campaign")
     cases = having(table, part="case")
     return Study(provenance, columns, cases)
 
 
-def case_items(study: Study) -> list[Item]:
+def case_items(study: Study) -> Items:
     """One table of all cases, a row with its title before each group."""
     rows = []
     for about in dict.fromkeys(entries(study.cases, "about")):
@@ -92,9 +101,9 @@ def case_items(study: Study) -> list[Item]:
     return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, cells)]
 
 
-def stiffness_items(study: Study) -> Iterator[Item]:
+def stiffness_items(study: Study) -> Items:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
-    measured: dict[str, list[tuple[float, ...]]] = {}
+    measured = {}
     unit = math.nan
     for row in study.judged("ok"):
         shown = row["group"] == "EA" or row["how"] == "waves in a bar"
@@ -122,7 +131,7 @@ def stiffness_items(study: Study) -> Iterator[Item]:
     )
 
 
-def limit_items(study: Study) -> Iterator[Item]:
+def limit_items(study: Study) -> Items:
     """What ended otherwise than "ok", and what the user is told."""
     cells = {"message": lambda row: row["message"].removeprefix("faulty scene: ")}
     sections = (
@@ -138,11 +147,11 @@ def limit_items(study: Study) -> Iterator[Item]:
             yield Text("None.")
 
 
-def unexplained_items(study: Study) -> list[Item]:
+def unexplained_items(study: Study) -> Items:
     """A warning with all that nobody expected, or a note that there is nothing of the kind."""
     lines = []
     for row in study.judged("unexplained"):
         lines.append(f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip())
     if lines:
-        return [Notice("warning", "Unexplained", tuple(lines))]
+        return [Notice("warning", "Unexplained", lines)]
     return [Notice("note", "Nothing unexplained", ("Every case ended as expected, or with a reason given below.",))]

@@ -7,9 +7,7 @@ from operator import itemgetter
 
 from tables import EMPTY, OUTCOMES, UNSETTLED, number, percent
 
-from ..parts.columns import plus_minus, table_of
-from ..parts.content import Heading, Item, Table, Text, heads
-from ..parts.folder import Folder, part_of
+from ..parts import Folder, Heading, Items, Table, Text, heads, part_of, plus_minus, table_of
 from .quantities import in_order
 
 _METHOD = (
@@ -32,9 +30,9 @@ def ends_of(folder: Folder, key: str) -> list[dict]:
     return sorted(part.completed, key=lambda row: (row["motion"], row[f"{key}_with"]))
 
 
-def every_motion(folder: Folder, key: str, title: str) -> list[Item]:
+def every_motion(folder: Folder, key: str, title: str) -> Items:
     """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
-    items: list[Item] = []
+    items = []
     ends = ends_of(folder, key)
     if ends:
         items.append(_ends_table(part_of(folder, "ends"), ends, key))
@@ -78,4 +76,4 @@ def _starts_table(rows: Sequence[dict], key: str, title: str) -> Table:
         f"Starts at each value, {len(rows)} in all, and how many end in which motion; {percent(unsettled / len(rows))} "
         "are unsettled. From `starts/table.csv`, which has every start."
     )
-    return Table(heads(*titles, "into motion"), tuple(body), caption, small=True)
+    return Table(heads(*titles, "into motion"), body, caption)

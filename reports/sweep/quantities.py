@@ -8,9 +8,7 @@ import numpy as np
 from tables import EMPTY, PEAK, Column, errors_of, number, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts.columns import shown_on, table_of
-from ..parts.content import Picture, Table, heads
-from ..parts.folder import Folder
+from ..parts import Folder, Picture, Row, Table, heads, shown_on, table_of
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION
 
 PER_ROW = 2
@@ -18,9 +16,7 @@ _CALM = BLUE, GREEN, ORANGE, PURPLE, SKY  # of all motions but that of the large
 Measured = tuple[tuple[Column, Column | None], ...]  # one panel: columns of one unit, each with its errors or None
 
 
-def measured(
-    columns: Mapping[str, Column], rows: Sequence[Mapping[str, object]], without: Iterable[str]
-) -> list[Measured]:
+def measured(columns: Mapping[str, Column], rows: Sequence[Row], without: Iterable[str]) -> list[Measured]:
     """The numeric columns of a table that are not the same in all rows, in its order.
 
     A column X_..._error belongs to the column X_... before it; X_min_U and X_max_U share a panel. without: names left
@@ -47,12 +43,12 @@ def measured(
     return panels
 
 
-def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
+def colours_of(rows: Sequence[Row]) -> dict[str, str]:
     """The colour of each motion of a table by its letter; {} where it has one motion, or does not tell of any.
 
     The motion of the largest tension is vermilion; "", of runs that ended before they had one, is grey.
     """
-    peaks: dict[str, float] = {}
+    peaks = {}
     for row in in_order(rows, []):
         letter = row.get("motion") or ""
         peaks[letter] = max(peaks.get(letter, 0.0), number_of(row, PEAK))
@@ -68,23 +64,21 @@ def colours_of(rows: Sequence[Mapping[str, object]]) -> dict[str, str]:
     return colours
 
 
-def in_order(rows: Iterable[Mapping[str, object]], keys: Sequence[str]) -> list:
+def in_order(rows: Iterable[Row], keys: Sequence[str]) -> list:
     """The rows of a table by their keys, then by motion."""
 
-    def place(row: Mapping[str, object]) -> list:
+    def place(row: Row) -> list:
         return [row[name] for name in keys] + [row.get("motion") or ""]
 
     return sorted(rows, key=place)
 
 
-def series(rows: Iterable[Mapping[str, object]], column: str) -> np.ndarray:
+def series(rows: Iterable[Row], column: str) -> np.ndarray:
     """A column of a table over its rows (p,), nan where it is empty."""
     return np.array([number_of(row, column) for row in rows])
 
 
-def over_key(
-    rows: Sequence[Mapping[str, object]], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]
-) -> Picture:
+def over_key(rows: Sequence[Row], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]) -> Picture:
     """`panels_over` as one picture."""
     grid = batched(panels_over(rows, key, shown, motions), PER_ROW)
     return curves(grid, 0.6 + 1.7 * len(grid), "best")
@@ -95,9 +89,7 @@ def batched(items: Sequence, size: int) -> list[Sequence]:
     return [items[first : first + size] for first in range(0, len(items), size)]
 
 
-def panels_over(
-    rows: Sequence[Mapping[str, object]], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]
-) -> list[Panel]:
+def panels_over(rows: Sequence[Row], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Panel]:
     """Every quantity over a varied key, a panel each, with error bars where there are errors.
 
     Runs that did not reach their full length are crosses. motions: `colours_of` the table; where there are several,
@@ -133,9 +125,7 @@ def panels_over(
     return panels
 
 
-def extremes(
-    keys: Sequence[Column], rows: Sequence[Mapping[str, object]], shown: Iterable[Column], caption: str
-) -> list[Table]:
+def extremes(keys: Sequence[Column], rows: Sequence[Row], shown: Iterable[Column], caption: str) -> list[Table]:
     """The least and the greatest value of every quantity, and where; nothing where no run has one."""
     cells = []
     for column in shown:
@@ -145,14 +135,14 @@ def extremes(
         line = [column.meaning or column.head, column.unit or EMPTY]
         for row in (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))]):
             line += [column.cell(row), at(keys, row)]
-        cells.append(tuple(line))
+        cells.append(line)
     columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
     if not cells:
         return []
-    return [Table(columns, tuple(cells), caption, small=True)]
+    return [Table(columns, cells, caption)]
 
 
-def at(keys: Sequence[Column], row: Mapping[str, object]) -> str:
+def at(keys: Sequence[Column], row: Row) -> str:
     """Where a row stands: "H = 21 m, kA = 0.1"; with the letter of its motion, where keys have that: "motion B"."""
     parts = []
     for key in keys:

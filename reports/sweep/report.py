@@ -1,7 +1,6 @@
 """The report of `campaigns.sweep`: built from the table and its dictionary of columns alone, whatever was varied."""
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,11 +8,26 @@ import numpy as np
 from tables import Column, listed, number
 
 from ..figures.maps import Map, maps
-from ..parts.columns import LONGEST_CELL, shown_on, table_of
-from ..parts.content import Figure, Heading, Item, Notice, Report, Table, Text, plain
-from ..parts.folder import FolderError, read_folder
-from ..parts.provenance import limits, report_page, scene_items, timing_items
-from ..parts.selecting import having
+from ..parts import (
+    LONGEST_CELL,
+    Figure,
+    FolderError,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Table,
+    Text,
+    having,
+    limits,
+    plain,
+    read_folder,
+    report_page,
+    scene_items,
+    shown_on,
+    table_of,
+    timing_items,
+)
 from .motions import every_motion
 from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
 
@@ -29,12 +43,12 @@ _EXCURSIONS = {  # words of a message (`engine.trajectory.excursions`) -> what t
 _COUNTED = ("end_time_s", "periods")  # columns that tell of the run, not of the motion
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a sweep's folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, ("status", "run_key", "message"))
     vary = folder.provenance.get("vary")
     if not isinstance(vary, dict) or not 1 <= len(vary) <= 2 or not set(vary) <= set(folder.columns):
-        raise FolderError(folder.directory, ["provenance.json cannot be read: it does not name what was varied"])
+        raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
     keys = [folder.columns[name] for name in vary]
     rows, motions = in_order(folder.table, list(vary)), colours_of(folder.table)
     shown = measured(folder.columns, rows, (*vary, *_COUNTED))
@@ -44,7 +58,7 @@ def report(directory: str | Path) -> Report:
     varied, key_cells = {}, {}
     for key in keys:
         varied[key.name] = listed(map(number, np.unique(series(rows, key.name))))
-        key_cells[key.name] = partial(_key_cell, key.name)
+        key_cells[key.name] = lambda row, name=key.name: number(float(row[name]))  # with the digits that it needs
     shipped = str(folder.provenance.get("scene") or folder.scene.name)
     key_names = listed(f"`{name}`" for name in varied)
     if len(keys) == 1:
@@ -73,8 +87,8 @@ def _columns_of(shown: Sequence[Measured]) -> list[Column]:
     return [column for pairs in shown for column, _ in pairs]
 
 
-def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Item]:
-    items: list[Item] = []
+def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> Items:
+    items = []
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for column in _columns_of(part))
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
@@ -82,17 +96,17 @@ def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, 
     return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
 
 
-def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> list[Item]:
+def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> Items:
     if not motions:
         return _maps(keys, rows, shown, "")
-    items: list[Item] = []
+    items = []
     for letter in motions:
         members = having(rows, motion=letter)
         items += _maps(keys, members, shown, f", motion {letter}")
     return items
 
 
-def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> list[Item]:
+def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> Items:
     x, y = series(rows, keys[0].name), series(rows, keys[1].name)
     places = np.unique(x), np.unique(y)
     across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)
@@ -108,7 +122,7 @@ def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) 
         drawn.append(Map("", "regime", laid(regimes, "")))
     for column in _columns_of(shown):
         drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
-    items: list[Item] = []
+    items = []
     for part in batched(drawn, _MAPS):
         names = listed(drawn_map.name for drawn_map in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
@@ -149,8 +163,3 @@ def _tables(columns: Mapping[str, Column], key_cells: Mapping[str, Callable], ro
             caption = f"Every run, columns {place} of {len(parts)}."
         tables.append(table_of(columns, [*key_cells, *part], rows, caption, key_cells))
     return tables
-
-
-def _key_cell(name: str, row: Mapping[str, object]) -> str:
-    """The value of a varied key in a row, with the digits that it needs."""
-    return number(float(row[name]))

@@ -6,14 +6,13 @@ from pathlib import Path
 from tables import printed
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
-from ..parts.content import Figure, Heading, Item, Listing, Report, Table, Text, heads
-from ..parts.folder import FolderError, read_files
+from ..parts import Figure, FolderError, Heading, Items, Listing, Report, Table, Text, heads, read_files
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
 PASSED = {True: "yes", False: "no", None: "not asked"}
 
 
-def read_judged(directory: str | Path) -> dict[str, object]:
+def read_judged(directory: Path) -> dict[str, object]:
     """{file: content} of the folder: text, JSON, and curves in which a cell without a value is NaN.
 
     Raises FolderError naming every file that is missing or cannot be read.
@@ -24,31 +23,31 @@ def read_judged(directory: str | Path) -> dict[str, object]:
     curves = {".csv": partial(pandas.read_csv, dtype=float)}
     files = read_files(directory, dict.fromkeys(names, "python -m analysis writes it"), curves)
     if "measures" not in files["answer.json"]:
-        raise FolderError(Path(directory), ["answer.json is of an older version: run the command again"])
+        raise FolderError(directory, "answer.json is of an older version: run the command again")
     return files
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a folder of `python -m analysis`. Raises FolderError for any other."""
     judged = read_judged(directory)
     answer, source = judged["answer.json"], judged["provenance.json"]
     figures = _figures(judged, answer["unit_of_time"], source["column"])
     items = [*_verdict(answer), *figures, *_evidence(answer), *_origin(source, judged["answer.txt"])]
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
-    return Report(title, under, tuple(items))
+    return Report(title, under, items)
 
 
-def _verdict(answer: dict) -> list[Item]:
-    rows = tuple(tuple(printed(cell) for cell in row) for row in answer["measures"])
+def _verdict(answer: dict) -> Items:
+    rows = [list(map(printed, row)) for row in answer["measures"]]
     caption = "Measures with one standard error; none: no value, for the reason beside it."
     return [
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
         Text(f"{answer['record']}. The section has {answer['section']['how']}."),
-        Table(heads("measure", ("value", ""), "unit", "from"), rows, caption),
+        Table(heads("measure", ("value", ""), "unit", "from"), rows, caption, small=False),
     ]
 
 
-def _figures(judged: dict, unit: str, column: str) -> list[Item]:
+def _figures(judged: dict, unit: str, column: str) -> Items:
     curves = {name: judged[f"{name}.csv"].to_numpy().T for name in CURVES}
     time, values = curves["series"]
     # By name: a folder of an older version has another column, Kantz's curve, and more than one number of delays.
@@ -82,14 +81,14 @@ def _figures(judged: dict, unit: str, column: str) -> list[Item]:
     ]
 
 
-def _evidence(answer: dict) -> list[Item]:
+def _evidence(answer: dict) -> Items:
     rows = []
     for test in answer["evidence"]:
         value, threshold = _number(test["value"]), _number(test["threshold"])
         rows.append((test["name"], PASSED[test["passed"]], value, threshold, printed(test["sentence"])))
     columns = heads("test", "passed", ("value", ""), ("compared with", ""), "meaning")
     caption = "Every test behind the word, in the order in which it was made (`analysis/verdicts.py`)."
-    return [Heading("Evidence"), Table(columns, tuple(rows), caption, small=True)]
+    return [Heading("Evidence"), Table(columns, rows, caption)]
 
 
 def _number(value: float | None) -> str:
@@ -98,7 +97,7 @@ def _number(value: float | None) -> str:
     return f"{value:.4g}"
 
 
-def _origin(source: dict, page: str) -> list[Item]:
+def _origin(source: dict, page: str) -> Items:
     lines = [f"{key}: {value}" for key, value in source.items() if key not in ("campaign", "versions")]
     lines += [f"{name} {version}" for name, version in source["versions"].items()]
     items = [Heading("The answer as printed"), Listing(page)]

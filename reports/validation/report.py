@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from tables import count, number, number_of
 
 from ..figures.curves import Curve, Panel, curves
-from ..parts.columns import table_of
-from ..parts.content import Figure, Heading, Item, Report, Table, Text, heads
-from ..parts.folder import Folder, FolderError, read_files, read_folder
-from ..parts.provenance import report_page, timing_items
-from ..parts.sections import section_items
+from ..parts import (
+    Figure,
+    Folder,
+    FolderError,
+    Heading,
+    Items,
+    Report,
+    Table,
+    Text,
+    heads,
+    read_files,
+    read_folder,
+    report_page,
+    section_items,
+    table_of,
+    timing_items,
+)
 from ..parts.style import BLUE, VERMILION
 
 FILES = {"cases.csv": "cases and verdicts", "curves.csv": "both curves of each case"}
@@ -24,38 +35,33 @@ RUNS = ("run", "status", "steps", "wall_s", "run_key")
 MANY = 40  # points of a curve from which on it is a line without marks
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
-    """What the campaign left. cases: rows of cases.csv by case; points: by case and curve, (x, ours, theirs) (3, n)."""
+class Study(NamedTuple):
+    """What the campaign left. cases: rows of cases.csv by case; points: (x, ours, theirs) by case and curve."""
 
     folder: Folder
     cases: dict[str, list[dict[str, str]]]
-    points: dict[str, dict[str, np.ndarray]]
+    points: dict[str, dict[str, list]]
 
 
-def read_study(directory: str | Path) -> Study:
+def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
     folder, files = read_folder(directory), read_files(directory, FILES)
     judged = files["cases.csv"]
     if not judged or not {"case", *NUMBERS} <= set(judged[0]):
-        raise FolderError(folder.directory, ["cases.csv cannot be read: it has no rows, or not those of this campaign"])
-    cases: dict[str, list[dict[str, str]]] = {}
+        raise FolderError(folder.directory, "cases.csv cannot be read: it has no rows, or not those of this campaign")
+    cases, points = {}, {}
     for row in judged:
         cases.setdefault(row["case"], []).append(row)
-    points: dict[str, dict[str, list]] = {}
     for row in files["curves.csv"]:
-        curve_points = points.setdefault(row["case"], {}).setdefault(row["curve"], [])
-        curve_points.append([float(row["x"]), float(row["ours"]), float(row["theirs"])])
-    arrays: dict[str, dict[str, np.ndarray]] = {}
-    for case, case_curves in points.items():
-        arrays[case] = {name: np.array(curve_points).T for name, curve_points in case_curves.items()}
-    return Study(folder, cases, arrays)
+        point = [float(row[name]) for name in ("x", "ours", "theirs")]
+        points.setdefault(row["case"], {}).setdefault(row["curve"], []).append(point)
+    return Study(folder, cases, points)
 
 
-def report(directory: str | Path) -> Report:
+def report(directory: Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items: list[Item] = [*section_items("validation", "Question"), Heading("All cases"), summary(study)]
+    items = [*section_items("validation"), Heading("All cases"), summary(study)]
     for case in study.cases:
         items += case_items(study, case)
     items += [
@@ -89,10 +95,10 @@ def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) ->
         words = [row[name] for name in first]
         body.append((*words, number(number_of(row, "error"), 4), number(number_of(row, "bar"), 4), row["unit"]))
     word_heads = ["case" if name == "title" else name for name in first]
-    return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), tuple(body), caption, small=True)
+    return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), body, caption)
 
 
-def case_items(study: Study, case: str) -> Iterator[Item]:
+def case_items(study: Study, case: str) -> Items:
     """The page of a case: source, both curves on one axis, numbers and verdicts."""
     rows = study.cases[case]
     first = rows[0]
@@ -115,7 +121,8 @@ def figure(study: Study, case: str) -> Figure:
     first, pairs = study.cases[case][0], study.points[case]
     *_, last = pairs
     panels = []
-    for name, (x, ours, theirs) in pairs.items():
+    for name, points in pairs.items():
+        x, ours, theirs = np.array(points).T
         theirs_look, ours_look = {"width": 1.6}, {"width": 0.9, "line": (0, (4, 2))}
         if len(x) < MANY:
             theirs_look = {"mark": "o", "size": 7.0, "line": "", "filled": False}

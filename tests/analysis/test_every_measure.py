@@ -55,6 +55,14 @@ def test_a_step_that_is_no_positive_number_is_refused(call, step):
         call(np.zeros(101), step)
 
 
+def test_a_record_does_not_change_through_its_arrays_and_has_numbers_of_python():
+    x = np.arange(101.0)
+    spectrum = analysis.spectrum(x, 0.1, 5.0, 0, 1)
+    with pytest.raises(ValueError, match="read-only"):
+        spectrum.amplitude[0] = 1.0
+    assert type(analysis.extremes(x, 0.1).maximum) is float and analysis.extremes(x, 0.1) == analysis.extremes(x, 0.1)
+
+
 PACKAGE = Path(analysis.__file__).parent
 MODULES = {path.stem for path in PACKAGE.glob("*.py")} - {"__init__", "__main__"}
 

@@ -1,7 +1,5 @@
 """Exponents of a tangent map: means of growth per period, with errors that hold for correlated growth; their record."""
 
-import pickle
-
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -38,20 +36,10 @@ def test_errors_of_long_records_are_sure():
     assert "this one run" in result[0].reason
 
 
-def test_columns_are_exponents_in_their_order_and_periods_can_be_left_out():
+def test_columns_are_exponents_in_their_order_after_the_transient():
     result = tangent_lyapunov(np.log([[2.0, 0.25]] * 100), transient_periods=10)
     assert [item.value for item in result] == pytest.approx([1.0, -2.0])
     assert [item.details["periods"] for item in result] == [90, 90]
-    growth = np.where(np.arange(100) % 10 == 0, 50.0, np.log(2.0))
-    (result,) = tangent_lyapunov(growth, left_out=np.arange(100) % 10 == 0)
-    assert result.value == pytest.approx(1.0) and result.details["periods"] == 90
-    with pytest.raises(ValueError, match="left_out"):
-        tangent_lyapunov(np.zeros(40), left_out=[True])
-
-
-def test_a_short_record_gives_no_number_but_the_reason():
-    (result,) = tangent_lyapunov(np.zeros(40), transient_periods=9)
-    assert np.isnan(result.value) and "32 periods" in result.reason
 
 
 @pytest.mark.parametrize("coupling", [0.0, 0.1, 0.25, 0.4])
@@ -70,34 +58,15 @@ def test_loops_released_leave_no_exponent_across_the_plane():
     assert transverse_lyapunov(growth, 41, released).found
     lost = transverse_lyapunov(growth, 40, released)
     assert not lost.found and "released in 1 of" in lost.reason
-    with pytest.raises(ValueError, match="released"):
-        transverse_lyapunov(growth, 0, released[1:])
 
 
 def test_one_bit_a_period_is_ln_2_nats_over_the_period():
     sigma = Exponent(np.log(2.0) / 5.0, 0.1 * np.log(2.0) / 5.0, "nats/time", "method").in_bits_per_period(5.0)
     assert (sigma.value, sigma.error, sigma.unit) == (pytest.approx(1.0), pytest.approx(0.1), "bits/period")
     assert sigma.in_bits_per_period(7.0) is sigma
-    rate = sigma.in_nats_per_time(5.0)
-    assert (rate.value, rate.unit) == (pytest.approx(np.log(2.0) / 5.0), "nats/time")
-    assert rate.in_nats_per_time(5.0) is rate
 
 
 def test_without_a_value_there_is_a_reason_and_no_error():
     none = no_exponent("method", "nothing qualified")
     assert np.isnan(none.value) and np.isnan(none.error) and not none.found
     assert none.in_bits_per_period(5.0).reason == "nothing qualified"
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "unit"), [(1.0, -0.1, "nats/time"), (1.0, 0.1, "nats"), (np.nan, 0.1, "nats/time")]
-)
-def test_nonsense_is_refused(value, error, unit):
-    with pytest.raises(ValueError):
-        Exponent(value, error, unit, "method")
-
-
-def test_details_travel_between_processes():
-    record = Exponent(1.0, 0.1, "nats/time", "method", details={"curve": np.arange(3.0)})
-    copy = pickle.loads(pickle.dumps(record))
-    assert copy.value == 1.0 and np.array_equal(copy.details["curve"], np.arange(3.0))

@@ -51,11 +51,3 @@ def test_blocks_of_blocks_are_longer_blocks_and_a_part_of_one_counts_for_nothing
     tens = block_maxima(x, 10)
     assert len(tens) == 100 and np.array_equal(block_maxima(tens, 5), block_maxima(x, 50))
     assert np.array_equal(block_maxima(x, 1), x) and len(block_maxima(x, 1004)) == 0
-    with pytest.raises(ValueError, match="samples"):
-        block_maxima(x, 0)
-
-
-@pytest.mark.parametrize(("series", "transient"), [([1.0, 2.0], 0.3), ([], 0.0), (np.ones(11), 1.0)])
-def test_a_record_within_the_transient_is_refused(series, transient):
-    with pytest.raises(ValueError, match="transient"):
-        slack_fraction(series, 0.1, transient_s=transient)

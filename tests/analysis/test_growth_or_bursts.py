@@ -107,5 +107,3 @@ def test_the_envelope_is_the_largest_value_of_each_span_where_it_is():
     time, size = envelope_of(y, STEP, PERIOD)
     assert len(size) == 10 and size[[0, 1, 2, 9]].tolist() == [2.0, 1.0, 3.0, 0.5]
     assert time[[0, 1, 2, 9]] == pytest.approx([0.15, 7.5, 13.0, 49.95])
-    with pytest.raises(ValueError, match="two steps"):
-        growth_or_bursts(y, STEP, STEP)

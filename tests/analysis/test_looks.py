@@ -89,9 +89,3 @@ def test_perturbations_may_be_carried_from_later_on():
     assert verdict.regime == "chaotic"
     growth[400:410] = 50.0  # they need ten periods to turn, which do not count
     assert motion_regime(orbit, growth, scale=1.0).named("exponent") == verdict.named("exponent")
-
-
-@pytest.mark.parametrize(("states", "growth"), [(np.zeros(10), np.zeros(10)), (np.full(200, np.nan), None)])
-def test_what_does_not_fit_is_refused(states, growth):
-    with pytest.raises(ValueError, match=r"growth_nats|finite"):
-        motion_regime(states, growth)

@@ -112,11 +112,3 @@ def test_shares_have_wilsons_interval(confidence, z):
     assert wilson.share == 16 / 49 and wilson.low < wilson.share < wilson.high
     for end in (wilson.low, wilson.high):
         assert abs(end - 16 / 49) == pytest.approx(z * np.sqrt(end * (1.0 - end) / 49), abs=1e-6)
-
-
-def test_records_that_do_not_fit_are_refused():
-    x = np.zeros((10, 2))
-    with pytest.raises(ValueError, match="measures: 9 rows"):
-        settled(x, x, scale=1.0)
-    with pytest.raises(ValueError, match="scale"):
-        settled(x, x[:-1], scale=(1.0, 0.0))

@@ -43,10 +43,9 @@ def test_a_period_seen_through_noise_has_a_negative_exponent():
     assert exponent.value + 3.0 * exponent.error < 0.0
 
 
-def test_units_do_not_matter_and_a_short_section_says_so():
+def test_units_do_not_matter():
     plain, moved = (section_lyapunov(item)[0].value for item in (henon(300), 21.0 - 1e-3 * henon(300)))
     assert moved == pytest.approx(plain, rel=1e-6)
-    assert "too short" in section_lyapunov(henon(20))[0].reason and not section_lyapunov(np.ones(300))[0].found
 
 
 def test_a_map_on_a_line_needs_one_row_and_henons_two():
@@ -55,14 +54,10 @@ def test_a_map_on_a_line_needs_one_row_and_henons_two():
 
 
 @pytest.mark.parametrize("points", [300, 3000])
-def test_chaos_and_noise_forget(points):
-    for record in (logistic(3.9, points), henon(points), np.random.default_rng(0).normal(size=points)):
+def test_chaos_in_bands_or_without_and_noise_forget(points):
+    bands = logistic(3.9, points) + 10.0 * (np.arange(points) % 2)
+    for record in (logistic(3.9, points), henon(points), np.random.default_rng(0).normal(size=points), bands):
         assert long_memory(record) < 7.0 / np.sqrt(points)
-
-
-def test_chaos_in_bands_forgets_within_them():
-    bands = logistic(3.9, 400) + 10.0 * (np.arange(400) % 2)
-    assert long_memory(bands) < 0.4
 
 
 @pytest.mark.parametrize("sigma", [1.3, 1.5, 1.7])

@@ -53,13 +53,6 @@ def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding():
     assert [spectrum(x, STEP, period).interpolated for period in (5.0, 4.999)] == [False, True]
 
 
-def test_a_short_record_is_refused_with_what_is_needed_and_given():
-    with pytest.raises(ValueError, match=r"needs 60 forcing periods.*300 s.*given 59\.99.*299\.95 s"):
-        spectrum(np.zeros(6000), STEP, T)
-    with pytest.raises(ValueError, match=r"needs 60 forcing periods.*given 0 "):
-        spectrum([], STEP, T)
-
-
 @pytest.mark.parametrize("rest", [0.0, 5.0, 1e3])
 def test_lines_come_largest_first_at_their_bins_whatever_constant_is_added(rest):
     x = 0.1 * np.cos(WAVE * TIME) + 0.3 * np.cos(WAVE / 4 * TIME) + 0.02 * np.cos(3 * WAVE * TIME)
@@ -89,6 +82,3 @@ def test_a_motion_at_rest_has_no_peak(rest):
 def test_small_lines_count_only_when_asked_for():
     s = spectrum(np.cos(WAVE * TIME) + 0.005 * np.cos(2 * WAVE * TIME), STEP, T)
     assert [len(spectral_peaks(s, least)) for least in (0.01, 0.004)] == [1, 2]
-    for share in (0.0, 1.5):
-        with pytest.raises(ValueError, match="least_prominence"):
-            spectral_peaks(s, least_prominence=share)

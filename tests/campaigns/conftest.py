@@ -1,6 +1,5 @@
 """A sweep of the fake engine in this process, or in one of its own, with its table."""
 
-import csv
 import json
 import os
 import signal
@@ -16,6 +15,8 @@ from campaigns.explore.judgement import judgement_of
 from campaigns.explore.rows import buoy_row
 from campaigns.machinery.store import Store
 from engine import Trajectory
+from reports import build
+from tables import read_rows
 from tests.campaigns.fake_engine import FakeEngine
 
 ROOT = Path(__file__).parents[2]
@@ -25,8 +26,28 @@ VALUES = [f"{0.01 * number:.2f}" for number in range(1, 13)]  # of a sweep long 
 
 def rows_of(out, table="table.csv"):
     """A table as a list of dicts of strings."""
-    with open(Path(out, table), newline="") as file:
-        return list(csv.DictReader(file))
+    return read_rows(Path(out, table))
+
+
+def ran(campaign, out, *words, **how):
+    """The table of a campaign that is run in this process without a report, and that ends well."""
+    usual = ["--no-report", "--backend", "threading", "--jobs", "2", "--out", str(out)]
+    assert campaign.main([*map(str, words), *usual], **how) == 0
+    return rows_of(out)
+
+
+def chosen(rows, **wanted):
+    """The rows with these entries, of which there are some."""
+    chosen_rows = [row for row in rows if {name: str(entry) for name, entry in wanted.items()}.items() <= row.items()]
+    assert chosen_rows
+    return chosen_rows
+
+
+def built_twice(folder):
+    """The page of a folder and its PDF, which are the same when they are drawn again."""
+    files = [path.read_bytes() for path in build(folder)]
+    assert [path.read_bytes() for path in build(folder, again=True)] == files
+    return files
 
 
 def statuses(rows):

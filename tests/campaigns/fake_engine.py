@@ -65,10 +65,12 @@ class FakeEngine:
         looped = steepness in self.loops and scene.motion.dimensions == 2
         return sines(scene, periods, releases=3 if looped else 0)
 
-    def each(self, scenes, periods=None, duration_s=None):
-        """Called like engine.simulate_each."""
-        for number, scene in enumerate(scenes):
-            yield number, self(scene, periods, duration_s)
+    def each(self, scenes, periods, duration_s, starts, then):
+        """Called like engine.simulate_each; no run goes on."""
+        for number, (scene, length) in enumerate(zip(scenes, periods, strict=True)):
+            run = self(scene, length, duration_s)
+            assert then(number, run) is None
+            yield number, run
 
     def begun(self) -> list[float]:
         """Steepness of every run begun so far."""

@@ -12,22 +12,19 @@ from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
 from campaigns.machinery.plan import Job
 from engine import load_scene
-from reports import build
 from reports.accuracy.sections import read_study, smooth_series, within, work_items
 from reports.figures.work_precision import cheapest
 from reports.parts.content import Table
 from tables import names
-from tests.campaigns.conftest import rows_of
+from tests.campaigns.conftest import built_twice, chosen, ran, rows_of
 from tests.campaigns.fake_engine import GRID_M, KnownErrors
 
-USUAL = ["--quick", "--backend", "threading", "--jobs", "2", "--no-report"]
 OWN = [method for method in ORDERS if method != "paper-box"]
 
 
 def made(folder, *words, **engine):
     """The rows of a campaign of the fake engine."""
-    assert accuracy.main([*USUAL, *words, "--out", str(folder)], simulate=KnownErrors(**engine)) == 0
-    return rows_of(folder)
+    return ran(accuracy, folder, "--quick", *words, simulate=KnownErrors(**engine))
 
 
 @pytest.fixture(scope="module")
@@ -39,20 +36,6 @@ def out(tmp_path_factory):
 
 def orders_of(folder):
     return rows_of(folder, "orders.csv")
-
-
-def chosen(rows, **wanted):
-    return [row for row in rows if wanted.items() <= row.items()]
-
-
-def test_a_damaged_file_counts_as_computed_again(tmp_path, capsys):
-    made(tmp_path)
-    damaged = sorted((tmp_path / "trajectories").glob("*.nc"))[:2]
-    for path in damaged:
-        path.write_bytes(path.read_bytes()[:100])
-    capsys.readouterr()
-    made(tmp_path)
-    assert f": {len(damaged)} computed" in capsys.readouterr().out
 
 
 def test_every_series_shows_the_order_that_was_put_in(out):
@@ -157,8 +140,7 @@ def test_the_line_of_a_diagram_joins_what_nothing_cheaper_beats():
 
 @pytest.mark.slow
 def test_same_folder_same_report(out):
-    first = [path.read_bytes() for path in build(out)]
-    assert [path.read_bytes() for path in build(out, again=True)] == first
+    built_twice(out)
 
 
 def test_a_report_says_what_failed(tmp_path):

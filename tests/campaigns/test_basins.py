@@ -10,7 +10,7 @@ from analysis import joins, settled
 from campaigns.basins import edge, main, read_order
 from campaigns.basins.answer import _shock
 from campaigns.basins.grid import PAIRS, StartGrid
-from campaigns.basins.smallest import SHARP, Shock, smallest
+from campaigns.basins.shocks import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
 from engine import load_scene, simulate, simulate_each
 from reports.basins.report import report

@@ -55,7 +55,7 @@ def nine(monkeypatch, tmp_path):
     """plan, summary and cases of a planar sweep of nine values, whose sphere flies at the last four; its jobs."""
     jobs = []
     scene = load_scene("tethered_buoy", {"output.tangent_vectors": 1})
-    monkeypatch.setattr(batches.Batch, "do", lambda batch, plan: jobs.extend(batch.jobs))
+    monkeypatch.setattr(batches, "batch", lambda plan, folder, title, columns, row, of_batch: jobs.extend(of_batch))
     monkeypatch.setattr(batches, "run_of", lambda folder, row: sines(scene, 2))
     rows = [
         {"steepness": 0.02 * n, "status": "ok", "run_key": str(n), "tension_top_max_N": 1000.0 * n}

@@ -146,7 +146,7 @@ def test_whoever_is_killed_costs_what_was_running(dask, campaign, lost):
 
 def changed(folder):
     """A copy of the workbench that differs in its code."""
-    for part in ("machine_code", "engine", "analysis", "campaigns", "reports", "tests"):
+    for part in ("machine_code", "tables", "engine", "analysis", "campaigns", "reports", "tests"):
         shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
     with open(folder / "engine" / "__init__.py", "a") as file:
         file.write("changed = True\n")

@@ -54,8 +54,12 @@ MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(enc
 ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
 
 
+def table(rows):
+    return "\n".join(["t,x", *rows])
+
+
 def changed(row, text):
-    return "\n".join(["t,x", *ROWS[:row], text, *ROWS[row + 1 :]])
+    return table([*ROWS[:row], text, *ROWS[row + 1 :]])
 
 
 FILES = {
@@ -74,23 +78,23 @@ FILES = {
     "gap.csv": changed(7, "0.700,"),
     "word.csv": changed(7, "0.700,broken"),
     "comma.csv": changed(7, "0.700,1,5"),
-    "jump.csv": "\n".join(["t,x", *ROWS[:100], *ROWS[150:]]),
+    "jump.csv": table(ROWS[:100] + ROWS[150:]),
     "back.csv": changed(7, "0.650,0.3").replace("0.600,", "0.800,"),
-    "creep.csv": "\n".join(["t,x", *(f"{k * (1 + 1e-3 * k)},{np.sin(k)}" for k in range(300))]),
-    "short.csv": "\n".join(["t,x", *ROWS[:99]]),
-    "flat.csv": "\n".join(["t,x", *(f"{k},3.5" for k in range(300))]),
+    "creep.csv": table(f"{k * (1 + 1e-3 * k)},{np.sin(k)}" for k in range(300)),
+    "short.csv": table(ROWS[:99]),
+    "flat.csv": table(f"{k},3.5" for k in range(300)),
     "twice.csv": "\n".join(["x,x", *ROWS]),
     "empty.csv": "\n",
-    "good.csv": "\n".join(["t,x", *ROWS]),
-    "both.csv": "\n".join(["t,x", *(row.replace(".", ",") for row in ROWS)]),
-    "units.csv": "\n".join(["t,x", "s,m", *ROWS]),
-    "dates.csv": "\n".join(["t,x", *(f"2026-11-21 13:{k // 60:02d}:{k % 60:02d},{k % 7}" for k in range(300))]),
-    "rounded.csv": "\n".join(["t,x", *(f"{k / 30:.2f},{np.sin(k)}" for k in range(300))]),
-    "huge.csv": "\n".join(["t,x", *(f"{k},{np.sin(k)}e300" for k in range(300))]),
+    "good.csv": table(ROWS),
+    "both.csv": table(row.replace(".", ",") for row in ROWS),
+    "units.csv": table(["s,m", *ROWS]),
+    "dates.csv": table(f"2026-11-21 13:{k // 60:02d}:{k % 60:02d},{k % 7}" for k in range(300)),
+    "rounded.csv": table(f"{k / 30:.2f},{np.sin(k)}" for k in range(300)),
+    "huge.csv": table(f"{k},{np.sin(k)}e300" for k in range(300)),
     "title.csv": "\n".join(["Tank 3", "", "t,x", *ROWS]),
     "blank.csv": "t x\n" + "\0" * 500,
-    "kept/series.csv": "\n".join(["t,x", *ROWS]),
-    "whole/series.csv": "\n".join(["t,x", *ROWS]),
+    "kept/series.csv": table(ROWS),
+    "whole/series.csv": table(ROWS),
     "whole/provenance.json": json.dumps({"campaign": "time_series"}),
     "image.csv": bytes(range(128, 256)),
     "latin1.csv": "t,höhe\n".encode("latin-1"),

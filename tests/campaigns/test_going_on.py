@@ -1,6 +1,6 @@
 """What a run does next (`campaigns.machinery.long_runs`): on to its next look, to a tighter tolerance, or nothing.
 
-Chaos beside periodic motions that began as chaos has to outlast their transients (`campaigns.explore.transients`).
+Chaos beside periodic motions that began as chaos has to outlast their transients (`campaigns.explore.stages`).
 """
 
 from functools import partial
@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.explore.transients import TIMES, outlasting
+from campaigns.explore.stages import TIMES, outlasting
 from campaigns.machinery.cli import Running
 from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
 from campaigns.machinery.plan import Job, Plan
@@ -39,7 +39,7 @@ def checked(periods, status="ok"):
 
 @pytest.mark.parametrize(("looks", "periods"), [(True, 90), (False, 300)])
 def test_a_run_begins_with_its_first_look_or_its_whole_length(looks, periods):
-    assert until_judged(SCENE, None, None, {}, 300, looks) == (SCENE, periods, None, False)
+    assert until_judged(SCENE, None, None, {}, 300, looks) == Part(SCENE, periods)
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_a_run_on_disk_goes_on_by_what_is_asked_for_beyond_it(counts, tmp_path):
     (tmp_path / "trajectories").mkdir()
     starts = []
 
-    def simulate(scene, periods, start=None):
+    def simulate(scene, periods, duration_s, start=None):
         starts.append(start)
         run = sines(scene, periods)
         run.columns["time_s"] += 0.0 if start is None else start.columns["time_s"][-1]

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap
-from campaigns.orbits import cases, read_order
 from campaigns.orbits.tables import tables
 from campaigns.orbits.tree import SHARP, Tree
 from tables import Column
@@ -116,18 +115,3 @@ def test_what_is_not_followed_or_not_found_is_a_row_with_its_reason(tmp_path):
     assert (sound["status"], lost["status"], left["status"]) == ("ok", "no-orbit", "no-orbit")
     assert lost["motion"] == "C" and "a loop is released" in lost["message"]
     assert left["period"] == "2" and "--branches" in left["message"]
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["--vary", "waves.steepness", "0.05"], "--vary"),
-        (["--vary", "tether.nodes", "9", "17"], "grid"),
-        (["--start-from", "a.nc", "--motion", "A"], "--motion"),
-    ],
-)
-def test_what_has_no_orbits_is_refused_in_words(words, said, tmp_path):
-    order = read_order([*words, "--out", str(tmp_path / "new")], faults := [])
-    if not faults:
-        list(cases(order))
-    assert any(said in fault for fault in faults)

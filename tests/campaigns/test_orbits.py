@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from campaigns.explore.grid import varied
 from campaigns.explore.tracing import Line, Scenes, line_task, work
 from campaigns.finer import finer
 from campaigns.machinery.cli import Running
@@ -19,6 +20,10 @@ from tests.campaigns.conftest import rows_of
 QUICK = ["--set", "tether.nodes=9", "water.depth_m=25", "--vary", "waves.steepness", "0.1", "0.12", "--values", "2"]
 
 
+def key_of(name):
+    return varied([name, "1", "50", "2"], [])
+
+
 def loops(line, *given):
     raise ArithmeticError("a loop is released")
 
@@ -29,7 +34,7 @@ def doubles(line, value):
 
 def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     scene = load_scene("tethered_buoy", {"tether.nodes": 9})
-    line = Line(Scenes(scene.to_toml(), "waves.steepness", "waves.steepness"), 0.1, 0.2, 0.1, Digest(), 0.1)
+    line = Line(Scenes(scene, key_of("waves.steepness")), 0.1, 0.2, 0.1, Digest(), 0.1)
     plan = Plan(Running(tmp_path, 1, "threading"), None, None, ())
     task = line_task(doubles, line, (0.3,))
 
@@ -44,7 +49,8 @@ def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
     assert result_of(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
     assert result_of(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
     lines = [replace(line, **{name: 0.15}) for name in ("low", "high", "size", "value", "rtol")]
-    lines += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2).to_toml(), line.scenes.key, "a"))]
+    lines += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2), line.scenes.key))]
+    lines += [replace(line, scenes=Scenes(scene, key_of("water.depth_m")))]
     keys = {line_task(doubles, other, (0.3,)).key for other in (line, *lines)}
     assert len(keys | {line_task(doubles, line, (0.4,)).key}) == len(lines) + 2, "a key has all that a result rests on"
 
@@ -58,10 +64,10 @@ class Digest:
 
 def test_scenes_along_a_key_and_along_an_element_of_a_list():
     scene = load_scene("tethered_buoy")
-    assert Scenes(scene.to_toml(), "water.depth_m", "water.depth_m").at(23.5).water.depth_m == 23.5
-    kicked = Scenes(scene.to_toml(), "start.buoy_velocity_mps[2]", "start.buoy_velocity_mps", 2)
-    assert kicked.at(1.5).start.buoy_velocity_mps == (0.0, 0.0, 1.5)
-    assert Scenes(scene.to_toml(), "tether.nodes", "tether.nodes")(20.5) is None
+    assert Scenes(scene, key_of("water.depth_m"))(23.5).water.depth_m == 23.5
+    kicked = Scenes(scene, key_of("start.buoy_velocity_mps[2]"))
+    assert kicked(1.5).start.buoy_velocity_mps == (0.0, 0.0, 1.5)
+    assert Scenes(scene, key_of("tether.nodes"))(20.5) is None
 
 
 def test_an_orbit_lies_on_a_branch_begun_at_any_strobe():

@@ -16,17 +16,13 @@ from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
 from reports.parts.content import Figure, Notice
 from tables import names
-from tests.campaigns.conftest import rows_of
+from tests.campaigns.conftest import chosen, ran, rows_of
 from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
-
-USUAL = ["--backend", "threading", "--jobs", "2", "--no-report"]
 
 
 def made(place, periods, **engine):
     """The rows of a campaign of the fake engine."""
-    words = ["--periods", str(periods), *USUAL, "--out", str(place)]
-    assert out_of_plane.main(words, simulate=SpaceEngine(**engine)) == 0
-    return rows_of(place)
+    return ran(out_of_plane, place, "--periods", periods, simulate=SpaceEngine(**engine))
 
 
 @pytest.fixture(scope="module")
@@ -37,12 +33,6 @@ def place(tmp_path_factory):
 @pytest.fixture(scope="module")
 def rows(place):
     return made(place, 60)
-
-
-def chosen(rows, **wanted):
-    chosen_rows = [row for row in rows if all(row[key] == str(value) for key, value in wanted.items())]
-    assert chosen_rows
-    return chosen_rows
 
 
 def test_everything_the_question_needs_is_run_once():
@@ -199,8 +189,11 @@ def test_the_paper_is_borne_out_where_its_large_wave_grows_to_the_size_of_the_mo
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("failing", [(25.0,), (21.0, 21.6, 22.0)], ids=["a depth", "the base"])
-def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(failing, tmp_path):
+@pytest.mark.parametrize(
+    ("failing", "figures"), [((25.0,), [3, 1]), ((21.0, 21.6, 22.0), [1, 1])], ids=["a depth", "the base"]
+)
+def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(failing, figures, tmp_path):
+    """The figure over the depth is drawn from the table; the others need trajectories of the base."""
     made(tmp_path, 80, raises=(0.016,), failing=failing)
     items = report(tmp_path).items
     assert any("statics-failed" in line for line in warned(items))
@@ -209,7 +202,7 @@ def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(failing, tmp_path
     for path in (tmp_path / "trajectories").glob("*.nc"):
         path.unlink()
     later = report(tmp_path).items
-    assert sum(isinstance(item, Figure) for item in later) < sum(isinstance(item, Figure) for item in items)
+    assert [[type(item) for item in page].count(Figure) for page in (items, later)] == figures
     assert sum("missing" in line for line in warned(later)) > 10
 
 

@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from campaigns.accuracy import jobs
 from campaigns.accuracy.peers import scipy as peer_scipy
@@ -36,25 +35,6 @@ def test_a_breaking_line_comes_back_with_its_strain():
     assert run.status == "ok" and run.profiles.strain.shape == (5, 21)
     assert run.profiles.strain[0] == pytest.approx(run.profiles.strain[0, 0], rel=1e-9)
     assert run.profiles.strain[-1, -1] < 0.9 * run.profiles.strain[0, -1]
-
-
-def test_the_pendulum_with_a_rope_of_no_mass_is_the_elastic_spherical_pendulum():
-    """M x'' = -M g z - (EA/L)(|x| - L) x/|x|: three equations by scipy, 1e-11. The mass of the rope, a millionth of the
-    bob's, counts as its third."""
-    work = BY_NAME["pendulum"]
-    scene = work.made({"tether.density_kgpm3": 5e-3, "tether.nodes": 6, "solver.rtol": 1e-6, "buoy.mass_kg": 2.0})
-    run = simulate(scene, duration_s=work.duration_s)
-    assert run.status == "ok"
-    M, L, EA, g = 2.0, scene.tether.length_m, scene.tether.tension.stiffness_N, scene.gravity_mps2
-
-    def rates(t, y):
-        r = np.linalg.norm(y[:3])
-        return np.concatenate([y[3:], -EA / (L * M) * (r - L) / r * y[:3] - [0.0, 0.0, g]])
-
-    start = [0.0, 0.0, -L * (1 + M * g / EA), *scene.start.buoy_velocity_mps]
-    t = run.columns["time_s"]
-    exact = solve_ivp(rates, (0.0, t[-1]), start, t_eval=t, rtol=1e-11, atol=1e-11).y[:3].T
-    assert rms_mm(samples_of(work, run), exact) < 0.1
 
 
 def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):

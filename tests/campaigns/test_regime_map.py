@@ -5,13 +5,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns import buoy_sweep
+from campaigns import buoy_sweep, regime_map
 from campaigns.explore.grid import varied
 from campaigns.regime_map import main, maps, read_order
 from campaigns.regime_map.answer import sentences
 from campaigns.regime_map.cells import CellGrid, Quadtree
 from engine import load_scene
-from tests.campaigns.conftest import finished, rows_of
+from tests.campaigns.conftest import finished, ran, rows_of
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
 
@@ -25,11 +25,6 @@ def grid(*words):
 
 def square(count=SIDE):
     return grid(f"waves.steepness -0.4 0.4 {count}", f"water.depth_m -0.4 0.8 {count}")
-
-
-def run(out, *words, engine=None):
-    usual = ["--no-report", "--backend", "threading", "--out", str(out)]
-    return main([*map(str, words), *usual], simulate=engine or FakeEngine())
 
 
 def area_of(shape, cell):
@@ -74,7 +69,7 @@ def unscreened(monkeypatch):
 
 
 def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
-    assert run(tmp_path, *VARY, engine=FakeEngine(raises=(0.06,))) == 0
+    rows = ran(regime_map, tmp_path, *VARY, simulate=FakeEngine(raises=(0.06,)))
     cells = rows_of(tmp_path, "cells/table.csv")
     assert [(cell_of_table["waves.steepness"], cell_of_table["water.depth_m"]) for cell_of_table in cells] == [
         (kA, depth) for kA in ("0.02", "0.06", "0.1") for depth in ("21.0", "23.0")
@@ -85,7 +80,6 @@ def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
             ("failed", True) if failed else ("computed", False)
         )
         assert cell_of_table["width_waves.steepness"] == "0.04"
-    rows = rows_of(tmp_path)
     assert {row["status"] for row in rows} == {"ok", "error"} and len(rows) == 6
     assert {(row["regime"], row["verdict"]) for row in rows} == {("period-1", "cheap"), ("", "")}
 
@@ -93,7 +87,7 @@ def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
 def test_the_same_command_computes_nothing_again_but_what_is_damaged(tmp_path, unscreened, capsys):
     engine = FakeEngine(log=str(tmp_path / "log"))
     for count in ("6 computed, 0 found", "0 computed, 6 found", "1 computed, 5 found"):
-        assert run(tmp_path / "out", *VARY, engine=engine) == 0
+        ran(regime_map, tmp_path / "out", *VARY, simulate=engine)
         assert f": {count}" in capsys.readouterr().out
         path, *_ = (tmp_path / "out" / "trajectories").glob("*.nc")
         if count.startswith("0"):
@@ -139,7 +133,8 @@ def test_a_cheap_verdict_needs_a_close_return_or_perturbations_that_do_not_grow(
 
 @pytest.mark.slow
 def test_a_massless_screen_computes_no_cell(tmp_path):
-    assert run(tmp_path, *VARY, "--screen") == 0
+    run = ["--screen", "--no-report", "--backend", "threading", "--out", str(tmp_path)]
+    assert main([*map(str, VARY), *run], simulate=FakeEngine()) == 0
     cells = rows_of(tmp_path, "cells/table.csv")
     assert {cell_of_table["source"] for cell_of_table in cells} == {"screened"} and len(cells) == 6
     assert all(float(cell_of_table["tension_over_static"]) > 1.0 for cell_of_table in cells)

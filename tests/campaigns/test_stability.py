@@ -1,7 +1,6 @@
 """The stability campaign: verdicts mean what they say, a whole small campaign works, and is not done twice;
 statements of its report follow the tables, and a broken folder is refused."""
 
-import json
 import os
 import time
 from functools import partial
@@ -20,8 +19,9 @@ from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases, case_
 from reports import build
 from reports.parts.folder import FolderError
 from reports.stability.report import read_study, unexplained_items
-from tables import names, write_table
-from tests.campaigns.conftest import rows_of
+from tables import names
+from tests.campaigns.conftest import built_twice, rows_of
+from tests.reports.conftest import folder_at
 
 NOT_STARTED = {"statuses": (REFUSED,)}
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5, "tether.nodes": 5}
@@ -199,12 +199,8 @@ CASES = [
 
 
 def folder(place, judged=CASES):
-    place.mkdir()
     rows = [{"part": "case", "about": row["group"], "dimensions": 2, **row} for row in judged]
-    write_table(place / "table.csv", cases.COLUMNS, rows)
-    made_by = {"campaign": "stability", "quick": False, "command": ["python"]}
-    (place / "provenance.json").write_text(json.dumps(made_by))
-    return place
+    return folder_at(place, "stability", rows, cases.COLUMNS, quick=False, command=["python"])
 
 
 def test_verdicts_and_faults_follow_the_tables(tmp_path):
@@ -222,10 +218,8 @@ def test_what_is_unexplained_leads(tmp_path):
 
 
 def test_same_folder_same_bytes(tmp_path):
-    place = folder(tmp_path / "out")
-    first = [path.read_bytes() for path in build(place)]
-    assert [path.read_bytes() for path in build(place, again=True)] == first
-    assert first[0].count(b"<figure") == first[0].count(b"<figcaption") == 1
+    page, _ = built_twice(folder(tmp_path / "out"))
+    assert page.count(b"<figure") == page.count(b"<figcaption") == 1
 
 
 def test_a_broken_folder_is_refused(tmp_path):

@@ -1,7 +1,6 @@
 """Euler parameters, rotation matrices and shortest rotations in plain NumPy; complex numbers pass through."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 
 def product(a, b):
@@ -28,13 +27,6 @@ def frames(beta):
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         cross[:, i, j], cross[:, j, i] = -vectors[:, k], vectors[:, k]
     return (np.eye(3) + 2 * beta[:, :1, None] * cross + 2 * cross @ cross).transpose(0, 2, 1)
-
-
-def parameters_of_frames(t, n):
-    """Euler parameters (m, 4) of frames with tangents t and normals n (m, 3), with no jump of sign."""
-    beta = Rotation.from_matrix(np.stack([t, n, np.cross(t, n)], 2)).as_quat()[:, [3, 0, 1, 2]]
-    beta[1:] *= np.cumprod(np.sign(np.sum(beta[1:] * beta[:-1], axis=1)))[:, None]
-    return beta
 
 
 def shortest(u, v):

@@ -164,20 +164,6 @@ def test_going_on_is_not_stopping():
     assert np.array_equal(whole.measures, np.concatenate([first.measures, second.measures], axis=1))
 
 
-def test_two_motions_in_deep_water():
-    """Period 1 of 4199 N and period 3 of 5654 N, of the equations above by LSODA; the cable: 4197 and 5623 N."""
-    scene = scene_of(DEEP)
-    axis = np.linspace(-6.0, 6.0, 7)
-    found = massless_runs(scene, starts_of(scene, np.array([(u, w) for u in axis for w in axis])), 150)
-    section = found.strobed[:, -13:, :2]
-    repeats = [np.abs(section[:, :-n] - section[:, n:]).max((1, 2)) < 1e-3 for n in (1, 2, 3)]
-    largest = found.measures[:, -6:, 2].max(1)
-    once, thrice = largest[repeats[0]], largest[repeats[2] & ~repeats[0]]
-    assert len(once) + len(thrice) > 40
-    np.testing.assert_allclose(once, 4199.0, atol=1.0)
-    np.testing.assert_allclose(thrice, 5654.0, atol=1.0)
-
-
 def test_a_start_that_flies_off_is_not_a_number_and_disturbs_no_other():
     scene = scene_of(DEEP)
     starts = starts_of(scene)

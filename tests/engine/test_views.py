@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray
 
 from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
@@ -66,14 +65,6 @@ def test_exponent_and_verdict_speak_of_the_same_part():
     verdict, exponent = run.verdict(), run.exponent()
     assert verdict.transient == 130 and exponent.details["periods"] == PERIODS - 130
     assert exponent.value == pytest.approx(-0.2 / np.log(2.0), abs=0.01)
-
-
-def test_everything_goes_to_xarray_with_units():
-    run = moved(0.5, 0.0)
-    data = run.to_xarray()
-    assert isinstance(data, xarray.Dataset) and data.attrs["status"] == "ok"
-    np.testing.assert_array_equal(data["radius_m"], run.columns["radius_m"])
-    assert data["radius_m"].attrs["units"] == "m" and data["growth_nats"].shape == (PERIODS, 1)
 
 
 def test_a_column_is_told_by_its_name_or_refused_with_all_names():

@@ -4,7 +4,6 @@ The browser is the Chromium of the machine, driven by Playwright. Where there is
 skipped, and `pytest` says so with the reason at its end (`-rs` in pyproject.toml).
 """
 
-import csv
 import re
 import shutil
 from collections.abc import Mapping
@@ -21,6 +20,7 @@ from matplotlib.figure import Figure as Drawing
 
 from campaigns import buoy_sweep
 from campaigns.explore.rows import COLUMNS, STEEPNESS
+from campaigns.machinery.folder import write_json
 from engine.scene import load_scene
 from reports import build, content_of
 from reports.parts.content import (
@@ -44,7 +44,7 @@ from reports.parts.content import (
 )
 from reports.parts.html import render_html
 from reports.parts.sections import equation
-from tables import dictionary
+from tables import write_table
 from tests.campaigns.fake_engine import FakeEngine, sines
 
 WORD = COLUMNS[2]
@@ -199,14 +199,19 @@ def drawn(monkeypatch):
     return figures
 
 
+def folder_at(place, campaign, rows, columns, **provenance):
+    """The folder of a campaign of the shipped buoy, without its runs."""
+    (place / "trajectories").mkdir(parents=True)
+    (place / "scene.toml").write_text(load_scene("tethered_buoy").to_toml(), encoding="utf-8")
+    write_json(place / "provenance.json", {"campaign": campaign, **provenance})
+    write_table(place / "table.csv", columns, rows)
+    return place
+
+
 def write(place, rows, columns=COLUMNS):
     """The table and its dictionary of a folder."""
     place.mkdir(exist_ok=True)
-    (place / "columns.csv").write_bytes(dictionary(columns))
-    with open(place / "table.csv", "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, [column.name for column in columns], extrasaction="ignore")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_table(place / "table.csv", columns, rows)
 
 
 def columns_of(rows, words, symbols=None):
@@ -216,12 +221,6 @@ def columns_of(rows, words, symbols=None):
         usual = WORD if name in words else STEEPNESS
         columns.append(replace(usual, name=name, symbol=(symbols or {}).get(name, "")))
     return tuple(columns)
-
-
-def rows_in(place) -> list[dict]:
-    """The table of a folder, as text."""
-    with open(place / "table.csv", newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def points_of(axes):

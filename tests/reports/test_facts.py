@@ -42,10 +42,10 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
     table = table_of(columns, names, rows, "Two runs.", {"status": lambda row: row["status"].upper()})
     assert [plain(column.title) for column in table.columns] == ["kA", "rmin", "σ", "status"]
     assert [(column.unit, column.align) for column in table.columns[1::2]] == [("m", "right"), ("", "left")]
-    assert table.rows == (
-        ("0.130", "19.88", "−0.040\u00a0±\u00a00.002", "OK"),
-        ("0.100", "–", "1e-9\u00a0±\u00a0–", ""),
-    )
+    assert table.rows == [
+        ["0.130", "19.88", "−0.040\u00a0±\u00a00.002", "OK"],
+        ["0.100", "–", "1e-9\u00a0±\u00a0–", ""],
+    ]
     assert shown_on(columns, rows[1:]) == ["steepness", "growth"], "what says nothing is left out"
     caption = "Two runs. kA: wave steepness; rmin: least distance, after the transient; σ: exponent."
     assert plain(table.caption) == caption

@@ -16,16 +16,14 @@ import pytest
 
 from campaigns.accuracy.rows import COLUMNS as of_accuracy
 from campaigns.explore.rows import COLUMNS as of_a_buoy
-from campaigns.machinery.folder import write_json
 from campaigns.out_of_plane.rows import COLUMNS as of_plane
-from engine import load_scene
 from reports import build, content_of
 from reports.__main__ import main
 from reports.buoy_sweep.report import report
 from reports.parts.content import Bullets, Figure, Heading, Notice, Picture, Report, Sheet, Text, plain
 from reports.parts.pdf import render_pdf
-from tables import read_rows, write_table
-from tests.reports.conftest import campaign
+from tables import read_rows
+from tests.reports.conftest import campaign, folder_at
 
 ROOT = Path(__file__).parents[2]
 LINK, PAGE = re.compile(rb"/Subtype ?/Link\b"), re.compile(rb"/Type ?/Page\b")
@@ -180,12 +178,10 @@ def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, ca
     ],
 )
 def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, capsys, campaign, columns, said):
-    write_json(tmp_path / "provenance.json", {"campaign": campaign})
-    if columns:
-        write_table(tmp_path / "table.csv", columns, [{"status": "ok"}])
-        (tmp_path / "scene.toml").write_text(load_scene("tethered_buoy").to_toml(), encoding="utf-8")
-        (tmp_path / "trajectories").mkdir()
-    assert main([str(tmp_path)]) == 2
+    place = folder_at(tmp_path / "out", campaign, [{"status": "ok"}], columns)
+    if not columns:
+        (place / "table.csv").unlink()
+    assert main([str(place)]) == 2
     assert said in capsys.readouterr().err
 
 

@@ -14,13 +14,14 @@ from campaigns.explore.rows import COLUMNS
 from reports import build, content_of
 from reports.buoy_sweep.figures import evidence_table, orbit_figure
 from reports.buoy_sweep.runs import read_sweep
-from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Range, Strobes
+from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Strobes
 from reports.parts.content import Bullets, Figure, Heading, Text, plain
 from reports.parts.first_page import how_long
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
 from tables import printed, read_table
-from tests.reports.conftest import Page, points_of, rows_in, write
+from tests.campaigns.conftest import rows_of
+from tests.reports.conftest import Page, points_of, write
 
 LABELS = "kA", "r (m)"
 VALUES = np.linspace(0.02, 0.16, 29)
@@ -44,8 +45,8 @@ def bar_of(axes):
 def test_every_column_is_drawn_in_the_colour_of_its_word_and_the_bar_says_where_it_holds(drawn):
     between = [Strobes(at, np.array([20.0]), "") for at in 0.5 * (VALUES[1:] + VALUES[:-1])]
     columns = sorted(columns_of() + between, key=lambda one: one.at)
-    loops = Range("loops released", [column.at > 0.12 for column in columns])
-    OrbitDiagram(columns, LABELS, [], [loops], [(0.13, "paper")]).drawn()
+    loops = {"loops released": [column.at > 0.12 for column in columns]}
+    OrbitDiagram(columns, LABELS, [], loops, [(0.13, "paper")]).drawn()
     top, bar, released = drawn[0].axes
     points = points_of(top)
     assert sum(map(len, points.values())) == len(columns)
@@ -114,13 +115,13 @@ def test_wolf_s_exponent_is_drawn_where_no_other_is_known_and_never_where_the_mo
 
 def test_the_tests_behind_a_regime_are_told_with_its_reason(sweep):
     tables = [evidence_table(run) for run in read_sweep(sweep).judged]
-    assert [table.rows for table in tables] == [(("halves", "−0.5", "0.01", "no"),)] * 3
+    assert [table.rows for table in tables] == [[("halves", "−0.5", "0.01", "no")]] * 3
     assert tables[2].caption == "Evidence at kA = 0.13, in the order of the tests: it drifts."
 
 
 def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_made_without_them_too(sweep, drawn):
     orbit_figure(read_sweep(sweep))
-    rows = {float(row["steepness"]): row for row in rows_in(sweep)}
+    rows = {float(row["steepness"]): row for row in rows_of(sweep)}
     write(sweep / "between", [{**rows[0.05], "steepness": 0.06, "regime": "", "transient_periods": 30}])
     (sweep / "between" / "trajectories").symlink_to(sweep / "trajectories")
     capped = {"status": "ok", "role": "wetted cap", "steepness": 0.13, "tension_top_max_N": 3000.0}
@@ -138,7 +139,7 @@ def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_
 
 
 def test_a_transient_of_each_run_s_own_is_left_out_of_its_points_or_that_of_the_provenance(sweep):
-    rows = [row | {"transient_periods": 10 + place} for place, row in enumerate(rows_in(sweep))]
+    rows = [row | {"transient_periods": 10 + place} for place, row in enumerate(rows_of(sweep))]
     write(sweep, rows)
     good = read_sweep(sweep).good
     assert [len(run.section) for run in good] == [81 - run["transient_periods"] for run in good]
@@ -197,7 +198,7 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
         (sweep / "report.html").unlink,
         lambda: (sweep / "report.pdf").write_bytes(b"%PDF"),
         lambda: (sweep / "answer.txt").write_text("Another answer.\n"),
-        lambda: write(sweep, rows_in(sweep)[:-1]),
+        lambda: write(sweep, rows_of(sweep)[:-1]),
         next((sweep / "trajectories").iterdir()).unlink,
         lambda: (sweep / ".report.json").write_text("[]"),
         lambda: monkeypatch.setattr("reports.parts.unchanged._LIBRARIES", ("numpy",)),

@@ -17,7 +17,8 @@ from reports.parts.style import VERMILION
 from reports.sweep.quantities import colours_of, panels_over
 from reports.sweep.report import _maps_of_each
 from tables import Column
-from tests.reports.conftest import points_of, rows_in, write
+from tests.campaigns.conftest import rows_of
+from tests.reports.conftest import points_of, write
 from tests.reports.test_words_apart import crowded
 
 WORD, NUMBER = COLUMNS[2], STEEPNESS
@@ -38,7 +39,7 @@ LARGE = {0.03: 0.25, 0.08: 0.5, 0.1: 0.25}  # where the motion of kA = 0.13 is t
 def several(folder, tmp_path):
     """The eight runs: A up to 0.1, B at 0.13, at 0.16 none; and B again at three smaller values, not at 0.05."""
     place = shutil.copytree(folder, tmp_path / "several", ignore=shutil.ignore_patterns("report.*", ".report*"))
-    rows = rows_in(place)
+    rows = rows_of(place)
     for row in rows:
         kA = float(row["steepness"])
         row |= {"motion": "" if row["status"] != "ok" else "B" if kA > 0.11 else "A", "found_by": "rest"}
@@ -123,13 +124,13 @@ def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
     motions, *_ = tables = [item for item in items if isinstance(item, Table)]
     assert [row[0] for row in motions.rows] == ["A", "B"]
-    assert motions.rows[1][5:7] == ("2 of 8 to 8 of 8", "kick and rest")
+    assert motions.rows[1][5:7] == ["2 of 8 to 8 of 8", "kick and rest"]
     (starts,) = (table for table in tables if "Starts at" in table.caption)
-    assert starts.rows == (("0.03", "4", "0", "3", "1", "A 2, B 1"),)
+    assert starts.rows == [("0.03", "4", "0", "3", "1", "A 2, B 1")]
 
 
 def test_a_run_between_takes_the_colour_of_the_motion_that_it_is_like(several):
-    rows = {(row["motion"], float(row["steepness"])): row for row in rows_in(several)}
+    rows = {(row["motion"], float(row["steepness"])): row for row in rows_of(several)}
     unjudged = [{**rows[letter, 0.08], "steepness": 0.09, "regime": ""} for letter in "BA"]
     write(several / "between", unjudged)
     (several / "between" / "trajectories").symlink_to(several / "trajectories")
@@ -137,7 +138,7 @@ def test_a_run_between_takes_the_colour_of_the_motion_that_it_is_like(several):
 
 
 def test_a_table_with_one_motion_gives_the_figure_of_one_without(folder, several):
-    rows = [row | {"motion": "A" if row["status"] == "ok" else ""} for row in rows_in(folder)]
+    rows = [row | {"motion": "A" if row["status"] == "ok" else ""} for row in rows_of(folder)]
     write(several, rows, (*COLUMNS, MORE[0]))
     assert orbit_figure(read_sweep(several)) == orbit_figure(read_sweep(folder))
 

@@ -17,7 +17,8 @@ from reports.parts.provenance import _flat, scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
 from tables import PLANE, RUNS, SHEET, Column, read_columns, write_table
-from tests.reports.conftest import columns_of, rows_in, write
+from tests.campaigns.conftest import rows_of
+from tests.reports.conftest import columns_of, write
 from tests.reports.test_regime_map import SYMBOLS, WORDS, folder_of
 
 __all__ = ["folder_of"]  # a fixture
@@ -41,7 +42,7 @@ def one_row(columns) -> dict[str, object]:
 
 def test_a_new_column_is_in_the_sheets_of_a_map(folder_of):
     place = folder_of()
-    rows = [{**row, NEW.name: 0.75} for row in rows_in(place)]
+    rows = [{**row, NEW.name: 0.75} for row in rows_of(place)]
     write(place, rows, columns_of(rows, WORDS, SYMBOLS))
     folder = read_folder(place)
     sheets = cell_sheets(folder, read_atlas(folder))
@@ -67,7 +68,7 @@ def test_a_column_is_printed_where_its_declaration_says(folder, tmp_path):
     place = tmp_path / "with_column"
     shutil.copytree(folder, place)
     for page, runs in ((RUNS, 8), (PLANE, 2), (SHEET, 0)):  # of the eight runs two release loops
-        rows = [{**row, NEW.name: 0.25} for row in rows_in(place)]
+        rows = [{**row, NEW.name: 0.25} for row in rows_of(place)]
         write(place, rows, (*COLUMNS, Column(NEW.name, NEW.unit, NEW.symbol, NEW.meaning, 2, page)))
         items = content_of(place)[0].items
         assert len(shown(items)) == runs

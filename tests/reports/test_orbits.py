@@ -13,7 +13,8 @@ from reports.orbits.branches import read_branches
 from reports.orbits.report import report
 from reports.parts.content import Figure, Notice, Table
 from reports.parts.folder import FolderError, read_folder
-from tests.reports.conftest import columns_of, rows_in, write
+from tests.campaigns.conftest import rows_of
+from tests.reports.conftest import columns_of, folder_at, write
 from tests.reports.test_words_apart import crowded
 
 WORDS = ("branch", "kind", "motion", "begins", "ends", "leads_to", "found_by", "status", "message")
@@ -24,15 +25,6 @@ FOLD, FLIP = 0.06, 0.11  # at the fold the orbits are 21 m and the multiplier is
 @pytest.fixture
 def orbits(folder, tmp_path):
     """A saddle comes up to the fold, the node leaves it, flips, and begins a branch of period 2 that ends early."""
-    place = tmp_path / "orbits"
-    (place / "trajectories").mkdir(parents=True)
-    shutil.copy(folder / "scene.toml", place)
-    provenance = json.loads((folder / "provenance.json").read_text()) | {
-        "campaign": "orbits",
-        "vary": {"steepness": [0, 1]},
-    }
-    (place / "provenance.json").write_text(json.dumps(provenance))
-    (place / "answer.txt").write_text("Two branches.")
     usual, rows = {"status": "ok", "message": "", "motion": "A"}, []
     strobes = ["branch,place,strobe,radius_m"]
     for name, period, places in (("1", 1, np.linspace(-0.3, 0.3, 14)), ("2", 2, np.linspace(0.02, 0.2, 8))):
@@ -45,6 +37,10 @@ def orbits(folder, tmp_path):
                 "multiplier_modulus": abs(mu), "tension_top_max_N": 3000.0 + 5000.0 * s,
             })  # fmt: skip
             strobes += [f"{name},{number},{k},{21.0 + 0.1 * k + kA}" for k in range(period)]
+    timing = json.loads((folder / "provenance.json").read_text())
+    columns, vary = columns_of(rows, WORDS, SYMBOLS), {"steepness": [0, 1]}
+    place = folder_at(tmp_path / "orbits", rows=rows, columns=columns, **timing | {"campaign": "orbits", "vary": vary})
+    (place / "answer.txt").write_text("Two branches.")
     (place / "strobes.csv").write_text("\n".join(strobes))
     fold = usual | {
         "branch": "1", "kind": "fold", "steepness": FOLD, "tension_top_max_N": 3000.0, "angle_rad": 0.0,
@@ -65,12 +61,12 @@ def orbits(folder, tmp_path):
         "ends": "at 0.15 no step above 0.001 succeeds: a loop is released",
     }
     chosen = [rows[2], rows[11]]
-    for part, table in (("", rows), ("events", [fold, flip]), ("branches", [complete, failed]), ("orbits", chosen)):
+    for part, table in (("events", [fold, flip]), ("branches", [complete, failed]), ("orbits", chosen)):
         write(place / part, table, columns_of(table, WORDS, SYMBOLS))
     for row in chosen:
         history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"
         (place / "orbits" / f"1_{row['place']}.csv").write_text(history)
-    runs = [row | {"motion": "AB"[float(row["steepness"]) > 0.09]} for row in rows_in(folder) if row["status"] == "ok"]
+    runs = [row | {"motion": "AB"[float(row["steepness"]) > 0.09]} for row in rows_of(folder) if row["status"] == "ok"]
     write(place / "motions", runs, (*COLUMNS, replace(COLUMNS[2], name="motion")))
     (place / "motions" / "trajectories").symlink_to(folder / "trajectories")
     return place
@@ -99,7 +95,7 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     caveats = " ".join(notice.lines)
     assert "Branch 2 was not followed to its end: at 0.15" in caveats and "flip of branch 1 at 0.1100" in caveats
     multipliers = next(item for item in items if isinstance(item, Table) and item.columns[2].title == "μ1")
-    known = [float(row["multiplier_1_real"]) for row in rows_in(orbits / "orbits")]
+    known = [float(row["multiplier_1_real"]) for row in rows_of(orbits / "orbits")]
     assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]
 
 

@@ -1,7 +1,5 @@
 """The report on the paper from a folder that lacks parts, and what it says of other depths and treatments."""
 
-import csv
-import json
 import re
 from itertools import product
 
@@ -13,44 +11,33 @@ from campaigns.paper.measured import Results
 from campaigns.paper.parts import COLUMNS
 from campaigns.paper.statements import claims
 from campaigns.statements import write_statements
-from engine import load_scene
 from reports.figures.line_panels import LinePanel, limits
 from reports.paper.index import entries, markdown, named_in
 from reports.paper.report import report, short_answer
 from reports.parts.content import Links, Notice, Table, Text
 from reports.parts.html import render_html
 from reports.parts.judged import read_statements, statements_table
-from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS, dictionary, names
+from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
-
-
-def write(path, columns, rows):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.with_name("columns.csv").write_bytes(dictionary(columns))
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, names(columns), extrasaction="ignore")
-        writer.writeheader()
-        writer.writerows(rows)
+from tests.reports.conftest import folder_at, write
 
 
 @pytest.fixture(scope="module")
 def content(tmp_path_factory):
     """Of a folder as the campaign leaves it where the dependence study was done, and of another part the page alone."""
-    folder = tmp_path_factory.mktemp("paper")
-    (folder / "trajectories").mkdir()
-    (folder / "provenance.json").write_text(json.dumps({"campaign": "paper", "command": ["python"], "quick": False}))
-    (folder / "scene.toml").write_text(load_scene("tethered_buoy").to_toml())
-    write_statements(folder, claims(), Results())
     row = {"part": "dependence", "status": "ok", "runs": 8, "failed": 0, "run_s": 1.5, "total_s": 90.0}
-    write(folder / "table.csv", COLUMNS, [row])
+    folder = folder_at(
+        tmp_path_factory.mktemp("paper") / "out", "paper", [row], COLUMNS, command=["python"], quick=False
+    )
+    write_statements(folder, claims(), Results())
     rows = []
     for kA, H, (under, EI) in product(
         (0.13, 0.016), (21.0, 22.5), (("full", 0.4), ("full", 4.0), ("spherical-cap", 0.4))
     ):
         regime = "chaotic" if (kA, H) == (0.13, 21.0) else "period-1"
         rows.append(deep(kA, H, submergence=under, bending_stiffness_Nm2=EI, regime=regime))
-    write(folder / "dependence" / "table.csv", DEPENDENCE, [*rows, deep(0.13, 25.0, status="newton-failed")])
+    write(folder / "dependence", [*rows, deep(0.13, 25.0, status="newton-failed")], DEPENDENCE)
     (folder / "buoy").mkdir()
     (folder / "buoy" / "report.html").write_text("")
     return report(folder)

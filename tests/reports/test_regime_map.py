@@ -4,7 +4,6 @@ import base64
 import json
 import re
 import zlib
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, Map, legend, 
 from reports.regime_map.report import _regimes, _warnings
 from reports.regime_map.sheets import cell_sheets
 from tests.campaigns.fake_engine import sines
-from tests.reports.conftest import columns_of, write
+from tests.reports.conftest import columns_of, folder_at, write
 from tests.reports.test_browser import violations
 from tests.reports.test_words_apart import crowded
 
@@ -83,10 +82,7 @@ def folder_of(tmp_path):
     """`folder_of(pages)`: a folder of maps over steepness and depth."""
 
     def made(pages=("",), counts=(NX, NY)):
-        place, cells = tmp_path / f"maps{len(pages)}{counts[0]}", []
-        (place / "trajectories").mkdir(parents=True)
-        (place / "scene.toml").write_text(load_scene("tethered_buoy").to_toml())
-        (place / "provenance.json").write_text(json.dumps({"campaign": "regime_map", "vary": {X: [], Y: []}}))
+        cells = []
         for page in pages:
             for j, i in np.ndindex(counts[::-1]):
                 x, y = round(0.02 + WIDE * i, 9), round(21.0 + HIGH * j, 9)
@@ -95,8 +91,9 @@ def folder_of(tmp_path):
                     quarter = [(x + a * WIDE / 4, y + b * HIGH / 4) for a in (-1, 1) for b in (-1, 1)]
                     cells += [cell(*at, 1, page) for at in quarter]
         rows = [motion for row in cells for motion in motions_of(row)]
+        place, vary = tmp_path / f"maps{len(pages)}{counts[0]}", {X: [], Y: []}
+        folder_at(place, "regime_map", rows, columns_of(rows, WORDS, SYMBOLS), vary=vary)
         write(place / "cells", cells, columns_of(cells, WORDS, SYMBOLS))
-        write(place, rows, columns_of(rows, WORDS, SYMBOLS))
         sines(load_scene("tethered_buoy"), 8).save(place / "trajectories" / "0.nc", {"run_key": "0"})
         strobes = {"radius_m": np.linspace(19.0, 21.0, 64)[None], "tension_N": np.full((1, 64), 2400.0)}
         np.savez(place / "strobes.npz", run_key=np.array(["0"]), **strobes)
@@ -144,7 +141,7 @@ def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
     nothing = np.zeros(12, bool)
     for kinds, length in (((i + j) % 2, 3 * 3 + 4 * 2), (i > 1.5, 3), (0 * i, 0)):
         cells = Cells(np.column_stack([i, i + 1, j, j + 1]), kinds.astype(str), nothing, nothing)
-        (picture, places) = regime_maps([Map(cells, "", np.full(12, "#a0a0a0"))], ("x", "y"))
+        (picture, places) = regime_maps([Map(cells, "", np.full(12, "#a0a0a0"))], ("x", "y"), (), ((), ()), 1)
         line = drawn[-1].axes[0].lines[0]
         steps = np.diff(np.column_stack(line.get_data()).reshape(-1, 3, 2)[:, :2], axis=1)
         assert np.abs(steps).sum() == pytest.approx(length)
@@ -192,7 +189,7 @@ def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_ma
         known = {(value, colour) for value, colour in seen if np.isfinite(value)}
         assert len(known) == len(dict(known)) > 1
     first = atlas.pages[0]
-    bare = replace(atlas, pages=[replace(first, rows=[row | {_EXPONENT: None} for row in first.rows])])
+    bare = atlas._replace(pages=[first._replace(rows=[row | {_EXPONENT: None} for row in first.rows])])
     titles, rest = ([shown.title for shown in numbers(pages)[0]] for pages in (atlas, bare))
     assert rest == titles[:3]
 

@@ -55,7 +55,9 @@ def test_a_spectrum_is_linear_with_its_peak_in_sight_and_logarithmic_over_four_d
 def test_a_sheet_has_tensions_in_kN_and_exponents_in_bits(monkeypatch):
     """A perturbation that doubles each wave period grows by one bit."""
     shown = {}
-    monkeypatch.setattr(runs, "run_sheet", lambda *given, **panels: shown.update(panels, pull=given[3][0]))
+    monkeypatch.setattr(
+        runs, "run_sheet", lambda *given: shown.update(pull=given[3][0], spectrum=given[6], exponent=given[8])
+    )
     tangent = SimpleNamespace(growth_nats=np.full((60, 1), math.log(2.0)))
     runs.drawing(Run(SOUND, transient=40, periods_done=60.0), replace(sines(SCENE, 60), tangent=tangent), 80, None)
     at, bits = shown["exponent"]
@@ -73,10 +75,10 @@ SINKING_M = 20.0 * (1.0 + MODES.static_strain) + 0.5 * DIAMETER_M  # depth at wh
     ("below", "above", "phrase"),
     [
         ({"tension_top_max_error_N": 49.9}, {"tension_top_max_error_N": 50.1}, "no better than 5 %"),
-        ({}, {"tension_top_max_error_N": math.nan}, "nothing is known of the error"),
+        ({}, {"tension_top_max_error_N": math.nan}, "the error of the largest tension is not known"),
         ({}, {"loop_releases": 1}, "loops were released"),
         ({"max_turn_rad": 1.57}, {"max_turn_rad": 1.58}, "turns by more than π/2"),
-        ({}, {"message": "becomes another motion"}, "the motion becomes another one"),
+        ({}, {"message": "becomes another motion"}, "the run ends in another motion"),
         ({}, {"message": "ringing is not resolved"}, "ringing of the line is not resolved"),
         ({HEIGHT: DIAMETER_M - 0.01}, {HEIGHT: DIAMETER_M + 0.12}, "its lowest point by up to 0.12 m"),
         ({}, {"status": "newton-failed", "message": "no end"}, "newton-failed; the first after 60 periods: no end"),
@@ -116,7 +118,7 @@ def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(d
 
 def test_curves_of_a_validation_are_called_whose_they_are(drawn):
     case = dict.fromkeys(("title", "verdict", "quantity", "x_label", "y_label", "ours", "theirs"), "told")
-    figure(Study(None, {"a": [case]}, {"a": {"b": np.array([[0.0, 1.0], [3.0, 3.0], [5.0, 5.0]])}}), "a")
+    figure(Study(None, {"a": [case]}, {"a": {"b": [[0.0, 3.0, 5.0], [1.0, 3.0, 5.0]]}}), "a")
     seen = {line.get_label(): line.get_ydata()[0] for line in drawn[0].axes[0].lines}
     assert seen == {"ours": 3.0, "theirs": 5.0}
 

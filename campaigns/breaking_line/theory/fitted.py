@@ -24,7 +24,7 @@ class ShockPath:
     emission_s: np.ndarray  # when the characteristic met from ahead left the end; 0: the shock leads the wave
 
     def at(self, time_s):
-        """(place [m], strain ahead, strain behind, speed [m/s]) at times (m,) of the path; nan outside it.
+        """(place [m], strain ahead, strain behind) at times (m,) of the path; nan outside it.
 
         The place is a cubic with the speeds as slopes. Strains grow as the root of the time since the start.
         """
@@ -32,14 +32,13 @@ class ShockPath:
 
         t = np.asarray(time_s, float)
         if len(self.time_s) < 2:
-            return tuple(np.full(t.shape, np.nan) for _ in range(4))
+            return tuple(np.full(t.shape, np.nan) for _ in range(3))
         inside = (t >= self.time_s[0]) & (t <= self.time_s[-1])
         root = np.sqrt(np.clip(t - self.time_s[0], 0.0, None))
         place = CubicHermiteSpline(self.time_s, self.place_m, -self.speed_mps)(t)
         rows = PchipInterpolator(np.sqrt(self.time_s - self.time_s[0]), [*zip(self.ahead, self.behind, strict=True)])
         ahead, behind = rows(root).T
-        speed = np.interp(t, self.time_s, self.speed_mps)
-        return tuple(np.where(inside, column, np.nan) for column in (place, ahead, behind, speed))
+        return tuple(np.where(inside, column, np.nan) for column in (place, ahead, behind))
 
 
 @dataclass(frozen=True, eq=False)

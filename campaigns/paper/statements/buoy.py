@@ -5,6 +5,7 @@ is chaotic; then eq. (33) with figure 19b, and the motion across the plane of th
 """
 
 import math
+from itertools import groupby
 from operator import itemgetter
 
 from campaigns.explore.motions import from_rest
@@ -167,18 +168,12 @@ def is_slack(row: Row) -> bool:
 
 def spans(chosen: list[bool], rows: list[Row]) -> str:
     """The steepnesses of the chosen rows in words, neighbours of one motion joined into "a to b (motion)"."""
-    groups: list[tuple[str, list[float]]] = []
-    previous = None
-    for wanted, row in zip(chosen, rows, strict=True):
-        motion = row.get("motion") or ""
-        if not wanted:
-            previous = None
-            continue
-        if motion != previous:
-            groups.append((motion, []))
-        groups[-1][1].append(row["steepness"])
-        previous = motion
-    return listed(_span(motion, members) for motion, members in groups)
+    runs = groupby(zip(chosen, rows, strict=True), key=lambda pair: (pair[0], pair[1].get("motion") or ""))
+    words = []
+    for (wanted, motion), members in runs:
+        if wanted:
+            words.append(_span(motion, [row["steepness"] for _, row in members]))
+    return listed(words)
 
 
 def _span(motion: str, steepnesses: list[float]) -> str:

@@ -12,8 +12,7 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
-from ...parts.content import Figure
-from ...parts.folder import read_arrays
+from ...parts import Figure, read_arrays
 from .breaking import breaking
 from .buoy import history, spectra
 from .chaos import offplane_histories, running_exponents, sections
@@ -35,7 +34,7 @@ PREFACE = (
 )
 
 
-def figures_of(root: str | Path, kind: str = "svg") -> dict[int, Figure]:
+def figures_of(root: Path, kind: str = "svg") -> dict[int, Figure]:
     """The figures that can be drawn from the files in a campaign's folder, by their number in the paper."""
     figures = {}
     for number in NUMBERS:
@@ -46,10 +45,10 @@ def figures_of(root: str | Path, kind: str = "svg") -> dict[int, Figure]:
     return figures
 
 
-def left_out(root: str | Path) -> dict[int, str]:
+def left_out(root: Path) -> dict[int, str]:
     """Why there is no figure, by its number in the paper, for each that cannot be drawn."""
     try:
-        reasons = json.loads((Path(root) / "figures" / "left_out.json").read_text(encoding="utf-8"))
+        reasons = json.loads((root / "figures" / "left_out.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         reasons = {}
     drawn = figures_of(root)
@@ -60,7 +59,7 @@ def left_out(root: str | Path) -> dict[int, str]:
     return missing
 
 
-def pictures(root: str | Path) -> dict[Path, bytes]:
+def pictures(root: Path) -> dict[Path, bytes]:
     """The drawings to keep beside the data."""
     files = {}
     for kind in ("svg", "png"):
@@ -69,8 +68,8 @@ def pictures(root: str | Path) -> dict[Path, bytes]:
     return files
 
 
-def _place(root: str | Path, number: int, kind: str) -> Path:
-    return Path(root) / "figures" / f"fig_{number:02d}.{kind}"
+def _place(root: Path, number: int, kind: str) -> Path:
+    return root / "figures" / f"fig_{number:02d}.{kind}"
 
 
 @lru_cache(maxsize=2 * len(NUMBERS))

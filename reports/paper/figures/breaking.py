@@ -5,18 +5,13 @@ along the breaking line, 5 ms; fig. 5 motion of the breaking line, 50 ms; fig. 6
 ms; fig. 7 velocity along the breaking line, 50 ms.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+import xarray
 
 from tables import number, sub
 
 from ...figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, seen
-from ...parts.content import Figure
+from ...parts import Figure
 from .drawing import behind, value
-
-if TYPE_CHECKING:
-    import xarray
 
 F_HS = "F" + sub("h,s")
 

@@ -7,24 +7,18 @@ fig. 12 spectra, kA = 0.016; fig. 13 top tension, kA = 0.13; fig. 15 motion alon
 kA = 0.13; fig. 17 spectrum of r, kA = 0.13; fig. 18 spectrum of θ, kA = 0.13.
 """
 
-from __future__ import annotations
-
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
+import xarray
 
 from tables import decimals, listed, number, sub
 
 from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import envelope, spectrum_panels
-from ...parts.content import Figure
+from ...parts import L_0, OMEGA_I, T_I, T_S, TAU_0, Figure
 from ...parts.style import BLUE, GREEN, INK, VERMILION
-from ...parts.symbols import L_0, OMEGA_I, T_I, T_S, TAU_0
 from .drawing import DASHED, behind, sources_of, spans, value
-
-if TYPE_CHECKING:
-    import xarray
 
 DETAIL_PERIODS = 10
 ALONG = r"$t/T_i$ (wave periods)"
@@ -41,8 +35,7 @@ OMEGA_NR, OMEGA_NTHETA = "ω" + sub("nr"), "ω" + sub("nθ")  # as section 4.2.1
 SPECTRUM_TO = 2.5  # wave frequencies
 
 
-@dataclass(frozen=True)
-class Side:
+class Side(NamedTuple):
     """One of the three histories: what it is, its array, labels left and right, factor from left to right, levels to
     mark with their names in the key; band: arrays of least and largest values between samples."""
 

@@ -8,23 +8,16 @@ In the paper: fig. 14 Lyapunov exponents over time; fig. 19 sections: buoy (a), 
 plane of the waves.
 """
 
-from __future__ import annotations
-
-from dataclasses import replace
-from typing import TYPE_CHECKING
+import xarray
 
 from tables import decimals, number
 
 from ...figures.curves import Curve, Panel, curves
 from ...figures.motion import settled
 from ...figures.offplane_history import History, lateral_histories
-from ...parts.content import Figure
+from ...parts import L_0, T_I, Figure
 from ...parts.style import BLUE, INK, VERMILION
-from ...parts.symbols import L_0, T_I
 from .drawing import DASHED, behind, sources_of, spans, value
-
-if TYPE_CHECKING:
-    import xarray
 
 _STYLES = {"large": (VERMILION, "-"), "small": (BLUE, DASHED)}  # solid and dashed as in the paper's key
 _METHODS = {"wolf": ("Wolf", 1.2, 1.0), "tangent": ("tangent", 2.4, 0.4)}
@@ -71,13 +64,13 @@ def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     early = []
     for curve in full_curves:
         begin = curve.x <= first
-        early.append(replace(curve, x=curve.x[begin], y=curve.y[begin]))
+        early.append(curve._replace(x=curve.x[begin], y=curve.y[begin]))
     limits = {"ylim": settled([curve.y for curve in early]), "xmargin": 0.01}
     x_label, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
     panels = [Panel(early, x_label, sigma, level=0.0, settings=limits)]
     if longest > 1.5 * first:
         later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
-        panels = [replace(panels[0], title=f"first {first:.0f} wave periods"), later]
+        panels = [panels[0]._replace(title=f"first {first:.0f} wave periods"), later]
     return panels
 
 

@@ -3,18 +3,14 @@
 The data are one netCDF-3 file, which its campaign wrote. Arrays carry `units` and `long_name`.
 """
 
-from __future__ import annotations
-
 import json
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+
+import xarray
 
 from tables import decimals, number
 
-from ...parts.symbols import RHO_W
-
-if TYPE_CHECKING:
-    import xarray
+from ...parts import RHO_W
 
 DASHED = (0, (4, 1.5))  # the second of two lines of the paper's keys
 

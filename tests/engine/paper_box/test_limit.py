@@ -14,7 +14,6 @@ from engine import load_scene, simulate
 from engine.paper_box.driver import run as run_boxed
 from tests.engine.lines import held, line, linear, orders
 
-END_S = 1.5
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
 AIR = {"water": None, "waves": None, "tether.bending_stiffness_Nm2": 24.0}
 SOFT = {"tether.tension": linear(500.0)}
@@ -77,28 +76,6 @@ def test_a_released_end_falls_freely():
     assert np.abs(dropped.columns["tension_top_N"][:3] - T).max() < 1e-6 * T
     assert np.abs(dropped.columns["z_m"][:3] - 15.0).max() < 1e-6
     assert dropped.columns["z_m"][-1] < 14.9
-
-
-@pytest.mark.slow
-def test_a_held_end_is_in_its_place_in_space():
-    """Slack, in a current across the plane of the chord: the shape turns about the chord, the end stays."""
-    place = [12.0, 9.0, 5.0]
-    water = {"depth_m": 30.0, "density_kgpm3": 1027.0}
-    current = {"water": water, "current": {"law": "uniform", "velocity_mps": [-0.3, 0.5, 0.0]}, "motion.dimensions": 3}
-    found = run_of(21, 0.005, AIR, current, held(*place), duration_s=0.2)
-    assert np.abs(places(found)[:, :, -1] - np.array(place)[:, None]).max() < 1e-8
-    middle = found.columns["offplane_m"][0]
-    assert middle > 9.0 + 1e-3  # blown out to the side
-
-
-@pytest.mark.slow
-def test_a_free_end_hangs_under_its_force_in_any_direction():
-    """Weightless and stiff against stretching: the line lies along the force."""
-    force = [30.0, -40.0, 20.0]
-    pulled = {"motion.dimensions": 3, "gravity_mps2": 0.0, "buoy": None, "end.kind": "free", "end.force_N": force}
-    found = run_of(5, 0.01, AIR, pulled, duration_s=0.05)
-    size = np.linalg.norm(force)
-    assert places(found)[:, -1, -1] == pytest.approx(20.0 * (1 + size / 5e4) * np.array(force) / size, rel=1e-9)
 
 
 SMALL = {"solver.scheme": "paper-box", "waves.steepness": 0.016, "tether.nodes": 7, "solver.step_s": 0.05}

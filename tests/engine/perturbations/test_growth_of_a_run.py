@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 import xarray
 
-from engine import SceneError, Trajectory, simulate, simulate_batch
+from engine import Trajectory, simulate, simulate_batch
 from engine.perturbations.tangent import period_of
 from tests.engine.lines import assert_same, line, ran
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6, "tether.nodes": 21}
-SMALL, LARGE = {"waves.steepness": 0.016}, {"waves.steepness": 0.13}
 ASKED = {
     "in the plane": {"output.tangent_vectors": 2},
     "across": {"output.lateral_growth": True},
@@ -72,31 +71,6 @@ def test_saved_and_loaded(periods, asked, tmp_path):
     assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "run.nc").read_bytes()
     with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
         assert all(data[name].dims[0] == "period" and data[name].attrs["long_name"] for name in PARTS if name in data)
-
-
-@pytest.mark.parametrize(
-    "key, overrides, words",
-    [
-        *((key, overrides, words)
-          for key in ("output.tangent_vectors", "output.lateral_growth")
-          for overrides, words in (
-              ({"tether.bending_stiffness_Nm2": 0.0}, "bending"),
-              ({"solver.integrator": "midpoint"}, "'midpoint'"),
-              ({"solver.integrator": "generalized-alpha"}, "'generalized-alpha'"),
-          )),
-        ("output.tangent_vectors", {"output.tangent_vectors": 85}, "84"),
-        ("output.tangent_vectors", {"output.tangent_vectors": -1}, "-1"),
-        ("output.tangent_vectors", {"output.tangent_vectors": 1.5}, "1.5"),
-        ("output.tangent_vectors", {"output.tangent_vectors": True}, "true"),
-        ("output.lateral_growth", {"output.lateral_growth": 1}, "1"),
-        ("output.lateral_growth", {"output.lateral_growth": "yes"}, "'yes'"),
-    ],
-)  # fmt: skip
-def test_what_has_no_growth_is_refused(key, overrides, words):
-    with pytest.raises(SceneError) as caught:
-        line(STEEP, {key: 2 if key.endswith("vectors") else True}, overrides)
-    (fault,) = caught.value.faults
-    assert fault.startswith(key) and words in fault
 
 
 @pytest.mark.slow

@@ -40,24 +40,13 @@ def section(h, D):
     return R**2 * (np.arccos(cosine) - cosine * np.sqrt(1 - cosine**2))
 
 
-class Wave:
-    """The linear wave of a scene at full height: elevation and its derivatives by place and time."""
-
-    def __init__(self, scene):
-        wave = scene.waves
-        self.k = wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
-        self.A, self.omega = wave.steepness / self.k, 2 * math.pi / wave.period_s
-        self.heading, self.phase = wave.direction_rad, wave.phase_rad
-
-    def elevation(self, place, t):
-        along = math.cos(self.heading) * place[0] + math.sin(self.heading) * place[1]
-        return self.A * np.cos(self.k * along - self.omega * t + self.phase)
-
-
 def depth_of_lowest_point(scene, place, t):
     """h (m) before it is clipped; place (x, y, z)."""
-    above = Wave(scene).elevation(place, t) if scene.waves is not None and scene.waves.steepness else 0.0
-    return scene.water.depth_m + above - place[2] + scene.buoy.diameter_m / 2
+    wave, depth = scene.waves, scene.water.depth_m
+    k = wave_number(wave.period_s, depth, scene.gravity_mps2)
+    along = math.cos(wave.direction_rad) * place[0] + math.sin(wave.direction_rad) * place[1]
+    eta = wave.steepness / k * np.cos(k * along - 2 * math.pi / wave.period_s * t + wave.phase_rad)
+    return depth + eta - place[2] + scene.buoy.diameter_m / 2
 
 
 def condition(scene, t, place, V, V_t, N, U, U_t):

@@ -7,7 +7,7 @@ current z lower. A buoy that the line cannot hold under water is refused, one th
 import numpy as np
 import pytest
 
-from engine import SceneError, simulate
+from engine import simulate
 from engine.physics.waves import wave_number
 from tests.engine.lines import STILL, held, line
 from tests.engine.physics.caps import CAP
@@ -46,16 +46,6 @@ def lowest_point(anchor_m):
     lift = (1027.0 * np.pi * 1.5**3 / 6 - 1611.0) * 9.81
     weight = (1140.0 - 1027.0) * 7.85e-5 * 20.0 * 9.81
     return anchor_m + 20.0 * (1 + (lift - weight / 2) / 5e4) - 0.75
-
-
-@pytest.mark.parametrize("anchor_m", [0.0, 11.0])
-def test_a_buoy_in_the_air_is_refused(anchor_m):
-    lowest = lowest_point(anchor_m)
-    place = {"anchor.position_m": [0.0, 0.0, anchor_m]}
-    assert line(place, {"water.depth_m": lowest + 1e-6}).buoy.submergence == "full"
-    with pytest.raises(SceneError, match=r"water\.depth_m.*spherical-cap"):
-        line(place, {"water.depth_m": lowest - 1e-6})
-    line(place, CAP, {"water.depth_m": lowest - 1e-6})
 
 
 @pytest.mark.parametrize("anchor_m", [0.0, 11.0])

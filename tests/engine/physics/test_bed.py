@@ -101,7 +101,7 @@ def test_a_line_that_lies_on_the_bed_in_part(dimensions):
         expected = H, np.hypot(H, WEIGHT * (CHAIN["length_m"] - lying))
         errors.append(np.abs(found / expected - 1).max())
         lowest = positions(motion.Y, motion.h)[:, -1].min()
-        assert -1.2 * 1.5 * WEIGHT / (BED["stiffness_Npm3"] * math.sqrt(4e-4 / math.pi)) > lowest > -1e-3 or lowest < 0
+        assert lowest < 0.0
     assert errors[0] < 2e-3
     assert errors[1] < 0.6 * errors[0]
 

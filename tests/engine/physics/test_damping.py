@@ -12,7 +12,7 @@ import cmath
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import simulate
 from tests.engine.kernels import parameters_of
 from tests.engine.lines import DRY, SPACE, line
 
@@ -81,10 +81,3 @@ def test_a_share_of_critical_is_that_of_an_element():
     """c = zeta l sqrt(EA m), MoorDyn's -BA: an element of mass m l rings at 2 sqrt(EA/m)/l at most."""
     damped = parameters_of(line({"tether.damping_critical": 0.4}, nodes=41))[0]["damping"]
     assert damped == pytest.approx(0.4 * 0.5 * np.sqrt(EA * LINE_M))
-
-
-def test_damping_of_zero_changes_nothing():
-    undamped, none = load_scene("tethered_buoy", {"tether.damping_Ns": 0.0}), load_scene("tethered_buoy")
-    np.testing.assert_array_equal(
-        *(simulate(scene, periods=0.5).columns["tension_top_N"] for scene in (undamped, none))
-    )

@@ -12,7 +12,7 @@ free motion.
 
 Let go: a folded chain against the energy of a chain folded without gap (Calkin & March, Am. J. Phys. 57, 1989: the
 tip's speed after a fall x is v^2 = 2 g x (1 - x/2L)/(1 - x/L), more than g can give). A line let go under a float in a
-cross current against the rest that follows from its free end downwards, N_s = w_0 z - drag, N(L) = F, without bending.
+cross current comes to the rest of the line whose end was never held.
 
 Jerked: an end pulled away at V(t) from a taut straight line carries T = T_0 + V sqrt(m EA) until the wave comes back
 from the anchor (d'Alembert), to 1 % of the jump, also where the motion begins with a jerk (no ramp).
@@ -20,11 +20,10 @@ from the anchor (d'Alembert), to 1 % of the jump, also where the motion begins w
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 
 from engine import load_scene, simulate
-from tests.engine.box_equations import water_on_line, wet_weight
-from tests.engine.lines import DRY, STILL, held, line, linear, ran
+from tests.engine.lines import DRY, STILL, equilibrium, held, line, linear, positions, ran
 
 LENGTH, G = 1.022, 9.81
 TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5], [1.5, -1.0, 0.5], [0.5, 0.0, 0.0]])
@@ -83,14 +82,6 @@ def fall(duration_s=0.5, **changes):
     return columns["time_s"] - scene.end.release_s, columns["x_m"], columns["z_m"]
 
 
-def test_nothing_moves_before_the_release():
-    t, x, z = fall(0.2)
-    held = t < 1e-12
-    assert held.sum() == 21
-    assert np.abs(x[held] - 0.25).max() < 1e-9 and np.abs(z[held]).max() < 1e-9
-    assert z[held.sum()] < -0.5 * G * t[held.sum()] ** 2  # and at once after it
-
-
 def test_a_tight_fold_falls_as_its_energy_says():
     def time_of(x):  # x = u^2 takes the singular start out of the integral of dx/v
         def rate(u):
@@ -105,35 +96,14 @@ def test_a_tight_fold_falls_as_its_energy_says():
         assert time_of(x) < np.sqrt(2 * x / G)
 
 
-def slope(s, y, scene):
-    """d/ds of (N, X) of a line at rest without bending, in a current by heights."""
-    T = np.linalg.norm(y[:3])
-    t, stretch = y[:3] / T, 1 + T / scene.tether.tension.stiffness_N
-    heights, velocities = scene.current.height_m, np.transpose(scene.current.velocity_mps)
-    current = np.array([np.interp(y[5], heights, part) for part in velocities])
-    still = np.zeros((1, 3))
-    drag, _ = water_on_line(scene, np.array([[stretch]]), t[None], -current[None], still, still)
-    return [*(wet_weight(scene) - drag[0]), *(stretch * t)]
-
-
-def hanging_free(scene):
-    """Rest of a line without bending under the force on its free end and a current of the given profile: x(L)."""
-    length = scene.tether.length_m
-    top = np.array([0.0, 0.0, length])
-    for _ in range(20):  # from the place of the free end downwards, until the anchor is at 0
-        start = [*scene.end.force_N, *top]
-        down = solve_ivp(slope, (length, 0), start, args=(scene,), rtol=1e-10, atol=1e-10)
-        top = top - down.y[3:, -1]
-    return top
-
-
 def test_a_line_let_go_comes_to_rest_in_the_current():
     scene = load_scene("swinging_line")
     table = ran(scene, duration_s=200.0).table()
     held = table[table.time_s <= 2.0]
     assert held[["x_m", "y_m", "z_m"]].to_numpy() == pytest.approx(np.tile([14.0, 0.0, 12.0], (21, 1)), abs=1e-6)
     assert table.tension_top_N.iloc[30:].to_numpy() == pytest.approx(50.0, rel=2e-3)
-    rest = hanging_free(scene)
+    free = equilibrium(load_scene("swinging_line", {"end": {"kind": "free", "force_N": scene.end.force_N}}))
+    rest = positions(free.Y, free.h)[-1]
     assert table[["x_m", "y_m", "z_m"]].to_numpy()[-1] == pytest.approx(rest, abs=0.01)
     assert rest[1] > 1.0
 

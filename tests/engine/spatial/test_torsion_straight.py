@@ -15,16 +15,25 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from tests.engine.lines import Motion, axes_of, positions
-from tests.engine.spatial.rods import Rod, at_rest
+from tests.engine.lines import DRY, SPACE, Motion, axes_of, equilibrium, held, line, linear, positions
 
 EI, GI, EA, LENGTH = 0.4, 0.3, 1e5, 5.0
+ALONG_X = (1.0, 0.0, 0.0)
 
 
-def rod(twist, tension, axis=(1.0, 0.0, 0.0), **changes):
-    place = tuple(LENGTH * (1 + tension / EA) * np.array(axis))
-    return Rod(**{"EI": EI, "GI": GI, "EA": EA, "length": LENGTH, "place": place, "twist": twist,
-                  "below": axis, "above": axis, **changes})  # fmt: skip
+def clamped(place, below, above, twist, nodes, *changes, length_m=LENGTH):
+    """The scene of a dry, weightless line to a place, between clamps of these directions, twisted by `twist` rad."""
+    anchor = {"anchor": {"rotation": "clamped", "direction": list(below)}}
+    end = held(*place, rotation="clamped", direction=list(above), twist_rad=twist)
+    return line(
+        DRY, SPACE, {"gravity_mps2": 0.0}, anchor, end, *changes, length_m=length_m, nodes=nodes,
+        bending_stiffness_Nm2=EI, torsion_stiffness_Nm2=GI, tension=linear(EA),
+    )  # fmt: skip
+
+
+def straight(twist, tension, nodes, *changes, axis=ALONG_X, above=None):
+    place = LENGTH * (1 + tension / EA) * np.array(axis)
+    return clamped(place, axis, above or axis, twist, nodes, *changes)
 
 
 def critical_torque(tension):
@@ -43,20 +52,20 @@ def critical_torque(tension):
 
 
 @pytest.mark.parametrize("twist", [0.3, -3.0, 40.0, 400.0])
-@pytest.mark.parametrize("axis", [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.6, 0.48, 0.64)])
+@pytest.mark.parametrize("axis", [ALONG_X, (0.0, 0.0, 1.0), (0.6, 0.48, 0.64)])
 def test_a_straight_rod_is_only_twisted(twist, axis):
     tension = 2 * max(1.0, (GI * twist / LENGTH) ** 2 / (4 * EI))
-    Y, h = at_rest(rod(twist, tension, axis), 41)
-    assert GI * Y[:, 10] == pytest.approx(GI * twist / LENGTH, rel=1e-14)
-    assert np.abs(Y[:, [1, 2]]).max() < 1e-9 * tension and np.abs(Y[:, [11, 12]]).max() < 1e-9
-    assert positions(Y, h) == pytest.approx(np.outer(np.cumsum([0, *h]), axis) * (1 + tension / EA), abs=1e-9)
+    rest = equilibrium(straight(twist, tension, 41, axis=axis))
+    assert GI * rest.Y[:, 10] == pytest.approx(GI * twist / LENGTH, rel=1e-14)
+    assert np.abs(rest.Y[:, [1, 2]]).max() < 1e-9 * tension and np.abs(rest.Y[:, [11, 12]]).max() < 1e-9
+    assert positions(rest.Y, rest.h) == pytest.approx(np.outer(rest.s, axis) * (1 + tension / EA), abs=1e-9)
 
 
 def test_twist_put_in_slowly_moves_nothing_else():
     """Torque GIp Phi(t)/L at every step, Phi = Phi_0 sin^2(pi t/(2 ramp)), at 0.9 of the critical torque."""
     tension = 3.0
     twist = 0.9 * critical_torque(tension) * LENGTH / GI
-    scene = rod(twist, tension).scene(41, **{"end.twist_ramp_s": 4.0, "output.step_s": 0.1})
+    scene = straight(twist, tension, 41, {"end.twist_ramp_s": 4.0, "output.step_s": 0.1})
     history = list(Motion(scene, 5.0).states())
     assert len(history) > 40
     for t, Y in history[1:]:
@@ -71,12 +80,10 @@ def buckling_twist(nodes, tension):
     shares = np.array([0.99, 0.995, 0.998])
     inverse = []
     for share in shares:
-        tilted = rod(share * exact, tension, above=(1.0, 1e-7, 0.0))
-        Y, h = at_rest(tilted, nodes)
-        x = positions(Y, h)
+        tilted = equilibrium(straight(share * exact, tension, nodes, above=(1.0, 1e-7, 0.0)))
+        x = positions(tilted.Y, tilted.h)
         inverse.append(1e-7 / np.hypot(*x[nodes // 2, 1:]))
-    parabola = np.polynomial.Polynomial.fit(shares, inverse, 2)
-    roots = parabola.roots().real
+    roots = np.polynomial.Polynomial.fit(shares, inverse, 2).roots().real
     return roots[np.argmin(np.abs(roots - 1))]
 
 
@@ -88,13 +95,13 @@ def test_it_buckles_at_the_exact_critical_twist(tension):
     assert fine == pytest.approx(1, abs=1e-3)
 
 
-def test_a_line_that_hangs_between_opposed_clamps_is_not_twisted():
+@pytest.mark.parametrize("twist", [0.0, 1.0])
+def test_a_line_that_hangs_between_opposed_clamps_is_not_twisted(twist):
     """A U in any vertical plane, without twist, is planar; with twist its torque is the same in every such plane."""
-    for twist in (0.0, 1.0):
-        torsions = []
-        for azimuth in (0.0, 0.6435011, np.pi / 2, -2.0):
-            place = (np.cos(azimuth), np.sin(azimuth), 0.0)
-            Y, _ = at_rest(Rod(EI, GI, 1e5, 4.0, place, twist, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)), 81)
-            torsions.append(Y[0, 10])
-        assert np.ptp(torsions) < 1e-8
-        assert np.abs(torsions).max() < 1e-9 if twist == 0 else torsions[0] > 0.1
+    torsions = []
+    for azimuth in (0.0, 0.6435011, np.pi / 2, -2.0):
+        place = np.cos(azimuth), np.sin(azimuth), 0.0
+        rest = equilibrium(clamped(place, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0), twist, 81, length_m=4.0))
+        torsions.append(rest.Y[0, 10])
+    assert np.ptp(torsions) < 1e-8
+    assert np.abs(torsions).max() < 1e-9 if twist == 0 else torsions[0] > 0.1

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine import Trajectory, __main__, load_scene, simulate, simulate_each
+from engine import Trajectory, __main__, load_scene, simulate
 from engine.planar import columns as col
 from engine.record import RELEASES
 from engine.run.going_on import between
@@ -141,11 +141,13 @@ FAULTY = {
     "half a file": (lambda state: replace(state, K=NONE), {}, "K of shape"),
     "no state": (lambda state: 7, {}, "given 7; allowed: a Trajectory"),
     "space": (lambda state: simulate(scene_of({**SMALL, "motion.dimensions": 3}), duration_s=1), {}, "in 3 dimensions"),
-    "ended early": (lambda state: simulate(scene_of(OUT[0]), duration_s=1), {}, "without a final state"),
+    "ended early": (
+        lambda state: simulate(scene_of({**SMALL, FAR[0]: [1e4, 0.0, 0.0]}), duration_s=1),
+        {},
+        "without a final state",
+    ),
 }
 FAR = "start.buoy_velocity_mps", "start.buoy_displacement_m"
-OUT = [{**SMALL, FAR[0]: [u, 0.0, w]} for u, w in ((1e4, 0.0), (0.0, -1e8), (0.0, 1e30), (-1e2, 1e2))]
-OUT += [{**SMALL, FAR[1]: place} for place in ([1e3, 0.0, 0.0], [0.0, 0.0, 1e30], [0.0, 0.0, 90.0])]
 
 
 @pytest.mark.parametrize("kind", FAULTY)
@@ -153,13 +155,6 @@ def test_a_run_that_cannot_go_on_says_why(kind, first):
     made, changes, words = FAULTY[kind]
     with pytest.raises(ValueError, match=words):
         simulate(scene_of({**SMALL, **changes}), duration_s=1.0, start=made(first.final_state))
-
-
-@pytest.mark.parametrize("number", range(len(OUT)))
-def test_a_start_out_of_sight_is_a_run_with_its_reason(number):
-    run = simulate(scene_of(OUT[number]), periods=5)
-    assert (run.status != "ok" and run.message) or all(np.isfinite(values).all() for values in run.columns.values())
-    assert (run.status == "statics-failed") == ("displacement" in run.message)
 
 
 def test_on_the_command_line(first, tmp_path, capsys):
@@ -197,16 +192,11 @@ def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, 
 @pytest.mark.parametrize("place", [[3.0, 0.0, -4.0], [-2.0, 0.0, 1.0]], ids=["slack", "stretched"])
 def test_a_displaced_line_begins_as_one_that_is_held_there(place):
     scene = scene_of({**STILL, FAR[1]: place, "output.profiles": True})
-    lanes = {**STILL, FAR[1]: place}
     run = simulate(scene, duration_s=1.0)
     end = {name: float(run.columns[name][0]) for name in ("x_m", "y_m", "z_m")}
     held = {"end": {"kind": "held", "position_m": list(end.values())}, "buoy": None, "output.profiles": True}
     there = simulate(scene_of({**STILL, **held}), duration_s=0.1)
     for name in ("x_m", "z_m", "tension_N"):
         assert getattr(run.profiles, name)[0] == pytest.approx(getattr(there.profiles, name)[0], abs=1e-6)
-    scenes = [scene_of({**lanes, "waves.steepness": kA}) for kA in (0.0, 0.03)]
-    for number, found in simulate_each(scenes, duration_s=1.0):
-        alone = simulate(scenes[number], duration_s=1.0)
-        assert np.array_equal(found.columns["radius_m"], alone.columns["radius_m"])
     space = simulate(scene_of({**STILL, FAR[1]: place, "motion.dimensions": 3}), duration_s=1.0)
     assert space.columns["radius_m"] == pytest.approx(run.columns["radius_m"], abs=1e-6)
