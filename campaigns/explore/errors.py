@@ -121,7 +121,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     orbits = orbits_in(plan.how.out)
     scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)
     if period and "approach: " in (row.get("evidence") or ""):
-        run = orbit_ahead(run, orbits)[0].run
+        run, transient = orbit_ahead(run, orbits)[0].run, 0  # a run on the orbit, from its first moment on
     if run.final_state is None or not goes_in_lanes(scene):
         return None
     length, motion = OTHERS, None

@@ -105,10 +105,10 @@ def until_judged(
     """Until the regime of the run is known.
 
     looks: whether the run is judged after 60, 90, 135, ... wave periods, up to `budget`; if not, it is one part of
-    `budget` periods. After 60 only an orbit can decide on which the run lies (`campaigns.explore.multipliers`). If a later
-    look finds no period, and no period that the motion approaches, the run carries perturbations from then on. A run
-    that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for longer than the run
-    was judged; the first part of this check is as long as chaos needs to show by SURE errors.
+    `budget` periods. After 60 only an orbit can decide on which the run lies (`campaigns.explore.multipliers`). If a
+    later look finds no period, and no period that the motion approaches, the run carries perturbations from then on. A
+    run that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for longer than the
+    run was judged; the first part of this check is as long as chaos needs to show by SURE errors.
     start: the state of another run in which this run begins; None: the start of the scene. most: wave periods after
     which the run has no further look, though `budget` allows it. least: wave periods that chaos has to last, because
     transients of this length are known (`campaigns.explore.stages`).
