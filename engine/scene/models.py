@@ -147,6 +147,10 @@ class Scene(Section):
             return self.output.step_s
         return self.waves.period_s / 100.0 if self.waves is not None else 0.05
 
+    def with_values(self, section: str, **values: object) -> "Scene":
+        """The scene with other values in one of its sections, which are not checked."""
+        return self.model_copy(update={section: getattr(self, section).model_copy(update=values)})
+
     def as_dict(self) -> dict[str, object]:
         """Every value as plain dicts, lists and numbers, without absent options and without a derived diameter."""
         plain = self.model_dump(mode="json", exclude_none=True)
