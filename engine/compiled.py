@@ -62,6 +62,20 @@ def by_kind(planar, spatial, lanes=None, plain=None, extra=None):
     return _Choice(planar, spatial, lanes, lanes if plain is None else plain, extra)
 
 
+def of_extras(otherwise=None):
+    """Declare a kernel that EXTRA and EXTRA_SPATIAL runs have (`by_kind`); all others get the constant `otherwise`."""
+
+    def declared(function):
+        def without(p, *arguments):
+            return otherwise
+
+        without.__qualname__ = f"{function.__module__}_{function.__name__}"  # Numba names machine code by this
+        constant = compiled_in_parts(without, None)
+        return by_kind(constant, constant, extra=kernel(function))
+
+    return declared
+
+
 class _Choice:
     def __init__(self, *kernels):
         self.kernels = kernels  # a type of Numba does not keep them alive

@@ -1,6 +1,6 @@
 """A run as one asks for it in Python: its figure, spectrum, section, exponent, verdict, and what it did in a few lines.
 
-The methods of `engine.Trajectory` are done here, because this is the only module of the engine that uses `analysis` and
+The methods of `engine.Trajectory` stand here, because this is the only module of the engine that uses `analysis` and
 matplotlib, and it imports both when a method is called. How the motion of a buoy is strobed and measured is declared
 here once; the campaigns read it.
 """
@@ -106,7 +106,12 @@ def strobed_radius(run: "Trajectory", transient_periods: int) -> "numpy.ndarray"
     return poincare_section(sound, step_s, period_s, transient_periods=transient_periods).points
 
 
-def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "Spectrum":
+def spectrum(run: "Trajectory", column: str = "radius_m", transient_periods: int | None = None) -> "Spectrum":
+    """Eq. (31) of a column of the table after the transient, the first third of the run (`analysis.spectrum`).
+
+    The window is the last multiple of 12 forcing periods, so that motions of period 2, 3, 4 or 6 do not leak. Raises
+    ValueError where neither regular waves nor a shaken end drive the run, as do `section`, `exponent` and `verdict`.
+    """
     from analysis import spectrum as spectrum_of
 
     step_s, period_s = _forcing(run)
@@ -116,15 +121,25 @@ def spectrum(run: "Trajectory", column: str, transient_periods: int | None) -> "
 
 
 def section(
-    run: "Trajectory", columns: "str | Sequence[str]", transient_periods: int | None, phase: float
+    run: "Trajectory",
+    columns: "str | Sequence[str]" = ("radius_m", "radius_rate_mps"),
+    transient_periods: int | None = None,
+    phase: float = 0.0,
 ) -> "PoincareSection":
+    """Columns of the table once per period after the transient, its first third (`analysis.poincare_section`)."""
     from analysis import poincare_section
 
     shown = {name: _samples(run, name) for name in ([columns] if isinstance(columns, str) else columns)}
     return poincare_section(shown, *_forcing(run), phase, _transient(run, transient_periods))
 
 
-def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
+def exponent(run: "Trajectory", transient_periods: int | None = None) -> "Exponent":
+    """The largest Lyapunov exponent after the transient, that of `verdict` or the first third, in bits per forcing
+    period.
+
+    From the tangent dynamics where the run carried them (`output.tangent_vectors`), else by Wolf's method from r, which
+    is far less certain and takes seconds; its `method` says which.
+    """
     from analysis import tangent_lyapunov, wolf_lyapunov
     from analysis.tangent_growth import turned
 
@@ -141,7 +156,11 @@ def exponent(run: "Trajectory", transient_periods: int | None) -> "Exponent":
 
 
 def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) -> "Verdict":
-    """`Trajectory.verdict`. tighter: as in `analysis.motion_regime`."""
+    """The regime of a buoy in regular waves with the evidence for it (`analysis.motion_regime`), as campaigns judge it.
+
+    Chaos and tori need a run with `output.tangent_vectors` = 1, and any word 135 periods or more.
+    tighter: as in `analysis.motion_regime`.
+    """
     from analysis import motion_regime
 
     if not in_regular_waves(run.scene):
@@ -184,7 +203,7 @@ def facts(run: "Trajectory") -> dict[str, str]:
         texts["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
     if run.status == "ok" and in_regular_waves(run.scene):
         if carried(run):
-            texts["exponent"] = f"{exponent(run, None)}, after wave period {_transient(run, None)}"
+            texts["exponent"] = f"{exponent(run)}, after wave period {_transient(run, None)}"
         texts["verdict"] = str(verdict(run))
     return texts
 
@@ -211,7 +230,8 @@ def html(run: "Trajectory") -> str:
     return f"<table>{rows}</table>"
 
 
-def dataset(run: "Trajectory") -> "xarray.Dataset":
+def to_xarray(run: "Trajectory") -> "xarray.Dataset":
+    """Everything that `save` writes but the final state, as an xarray Dataset with units and long names."""
     import xarray
 
     from engine.trajectory.final_state import PREFIX
@@ -220,7 +240,12 @@ def dataset(run: "Trajectory") -> "xarray.Dataset":
     return data.drop_vars([name for name in data.variables if name.startswith(PREFIX)])
 
 
-def plot(run: "Trajectory", path: "str | Path | None") -> "dict[str, Axes]":
+def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes]":
+    """A figure: tension and radius over the whole run and its end; section and spectrum, or the path without waves.
+
+    path: a .png, .svg or .pdf file to write; without one the figure belongs to `matplotlib.pyplot`: a notebook shows
+    it, a script with `pyplot.show()`. Returns matplotlib's Axes by the name of the panel.
+    """
     import numpy as np
     from matplotlib import pyplot
     from matplotlib.figure import Figure

@@ -139,7 +139,6 @@ def _march(scene, record, tables, starts, periods, settings):
 
 def _steps(scene):
     """Steps a wave period, by the faster of waves and radial motion under the load of the whole sphere."""
-    buoy = scene.buoy.model_copy(update={"submergence": "full"})
-    modes = natural_frequencies(scene.model_copy(update={"buoy": buoy}))
+    modes = natural_frequencies(scene.with_values("buoy", submergence="full"))
     steps = STEPS_PER_PERIOD[scene.buoy.submergence]
     return math.ceil(steps * max(1.0, modes.radial_radps / modes.wave_radps if modes else 1.0))

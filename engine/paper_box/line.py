@@ -65,9 +65,7 @@ class Line:
 
 def line_of(scene: Scene, accelerations: bool = False) -> Line:
     """The `Line` of a scene."""
-    tables = []
-    record = parameters.record_of(scene, tables)[0]
-    tables = np.concatenate(tables)
+    record, tables = parameters.numbers_of(scene)
     h = lengths_of(record, tables)
     per = np.array([record[name] if name else 1.0 for name in SCALES])
     active = PLANE if scene.motion.dimensions == 2 else SPACE

@@ -80,18 +80,17 @@ def settled(
 
 def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     """The engine's equilibrium in the vertical plane of the end's place or force, as (code, Y (13, n))."""
-    end, name = scene.end, {"held": "position_m", "free": "force_N"}.get(scene.end.kind)
-    x, y, z = (getattr(end, name) if name else None) or (0.0, 0.0, 0.0)
+    name = {"held": "position_m", "free": "force_N"}.get(scene.end.kind)
+    x, y, z = (getattr(scene.end, name) if name else None) or (0.0, 0.0, 0.0)
     azimuth = math.atan2(y, x) if y else 0.0
     flat = (math.hypot(x, y) if azimuth else x, 0.0, z)
-    changes = {
-        "motion": scene.motion.model_copy(update={"dimensions": 2}),
-        "end": end.model_copy(update={name: flat}) if name else end,
-        "current": None if azimuth else scene.current,
-    }
-    planar, tables = scene.model_copy(update=changes), []
-    record = parameters.record_of(planar, tables)[0]
-    code, Y = statics.static_equilibrium(record, planar, np.concatenate(tables), np.array([flat[0], flat[2]]))
+    planar = scene.with_values("motion", dimensions=2)
+    if name:
+        planar = planar.with_values("end", **{name: flat})
+    if azimuth:
+        planar = planar.model_copy(update={"current": None})
+    record, tables = parameters.numbers_of(planar)
+    code, Y = statics.static_equilibrium(record, planar, tables, np.array([flat[0], flat[2]]))
     return code, lifted(Y, azimuth) if code == OK else None
 
 

@@ -74,6 +74,12 @@ def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
     return p
 
 
+def _fill(record, **numbers):
+    """Numbers into the fields of these names."""
+    for name, number in numbers.items():
+        record[name] = number
+
+
 def _extras(record, scene):
     """What only the laws of `engine.physics.extras` have."""
     for axis, place in zip("xyz", scene.anchor.position_m, strict=True):
@@ -89,34 +95,42 @@ def _extras(record, scene):
     if record["surfaced"]:
         record["buoyed"] = scene.water.density_kgpm3 * tether.area_m2 * scene.gravity_mps2
     if floor is not None:
-        record["floored"], d = True, tether.diameter_m
-        record["bed_stiffness"], record["bed_damping"] = floor.stiffness_Npm3 * d, floor.damping_Nspm3 * d
-        record["bed_friction"], record["bed_speed"] = floor.friction, floor.friction_speed_mps
-        weight = abs(float(record["w0"])) or float(record["m"])
-        record["bed_onset"] = weight / record["bed_stiffness"]  # the depth of the line's own weight
+        stiffness, weight = floor.stiffness_Npm3 * tether.diameter_m, abs(record["w0"]) or record["m"]
+        _fill(
+            record,
+            floored=True,
+            bed_stiffness=stiffness,
+            bed_damping=floor.damping_Nspm3 * tether.diameter_m,
+            bed_friction=floor.friction,
+            bed_speed=floor.friction_speed_mps,
+            bed_onset=weight / stiffness,  # the depth of the line's own weight
+        )
 
 
 def _tether(record, scene, place):
     tether = scene.tether
     wet = scene.water is not None
     rho_w = scene.water.density_kgpm3 if wet else 0.0
-    g = scene.gravity_mps2
-    record["m"] = tether.density_kgpm3 * tether.area_m2
-    record["w0"] = (tether.density_kgpm3 - rho_w) * tether.area_m2 * g
-    record["EI"] = tether.bending_stiffness_Nm2
-    record["bent"] = tether.bending_stiffness_Nm2 > 0
     d = tether.diameter_m
     displaced = rho_w * math.pi * d**2 / 4
-    record["wet"] = wet
-    record["ct"] = 0.5 * rho_w * math.pi * d * tether.drag_tangential
-    record["cn"] = 0.5 * rho_w * d * tether.drag_normal
-    record["ma"] = tether.added_mass * displaced
-    record["Rw"] = displaced + record["ma"]
-    record["barrier"] = tether.compression_barrier_N
-    record["diameter"] = d
-    record["law"] = tension.NAMES.index(tether.tension.law)
+    added_mass = tether.added_mass * displaced
+    _fill(
+        record,
+        m=tether.density_kgpm3 * tether.area_m2,
+        w0=(tether.density_kgpm3 - rho_w) * tether.area_m2 * scene.gravity_mps2,
+        EI=tether.bending_stiffness_Nm2,
+        bent=tether.bending_stiffness_Nm2 > 0,
+        wet=wet,
+        ct=0.5 * rho_w * math.pi * d * tether.drag_tangential,
+        cn=0.5 * rho_w * d * tether.drag_normal,
+        ma=added_mass,
+        Rw=displaced + added_mass,
+        barrier=tether.compression_barrier_N,
+        diameter=d,
+        law=tension.NAMES.index(tether.tension.law),
+        drag=drag.NAMES.index("quadratic" if tether.drag is None else tether.drag.law),
+    )
     _law(record, tension.LAWS, "law", tether.tension, place)
-    record["drag"] = drag.NAMES.index("quadratic" if tether.drag is None else tether.drag.law)
     if tether.drag is not None:
         _law(record, drag.LAWS, "drag", tether.drag, place)
 
@@ -124,8 +138,7 @@ def _tether(record, scene, place):
 def _law(record, laws, field, section, place):
     """The numbers of a law, whose code the record has in `field`, and its table at field_at."""
     numbers, table = laws[record[field]].numbers(section)
-    for name, value in numbers.items():
-        record[name] = value
+    _fill(record, **numbers)
     if len(table):
         record[f"{field}_at"] = place(table)
 
@@ -188,13 +201,18 @@ def _end(record, scene, place):
     rho_w = scene.water.density_kgpm3 if wet else 0.0
     volume = math.pi * buoy.diameter_m**3 / 6
     added = buoy.added_mass_kg if wet else 0.0
-    record["M_total"] = buoy.mass_kg + added
-    record["M_wave"] = rho_w * volume + added  # what the acceleration of the water acts on
-    record["lift"] = (rho_w * volume - buoy.mass_kg) * scene.gravity_mps2
-    record["C_buoy"] = 0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4
-    record["spherical_cap"] = wet and buoy.submergence == "spherical-cap"
-    record["D_buoy"], record["M_added"], record["impact_loss"] = buoy.diameter_m, added, buoy.impact_loss
-    record["B_whole"] = rho_w * volume * scene.gravity_mps2
+    _fill(
+        record,
+        M_total=buoy.mass_kg + added,
+        M_wave=rho_w * volume + added,  # what the acceleration of the water acts on
+        lift=(rho_w * volume - buoy.mass_kg) * scene.gravity_mps2,
+        C_buoy=0.5 * rho_w * buoy.drag * math.pi * buoy.diameter_m**2 / 4,
+        spherical_cap=wet and buoy.submergence == "spherical-cap",
+        D_buoy=buoy.diameter_m,
+        M_added=added,
+        impact_loss=buoy.impact_loss,
+        B_whole=rho_w * volume * scene.gravity_mps2,
+    )
     _put(record, "start_", scene.start.buoy_velocity_mps)
 
 
@@ -241,37 +259,46 @@ def _solver(record, scene, place, h):
     method = integrators.METHODS[solver.integrator]
     record["adaptive"] = method.ADAPTIVE and solver.step_s is None
     if method.ADAPTIVE:
-        stages = len(method.A)
-        record["method"], record["stages"] = codes.RUNGE_KUTTA, stages
-        record["method_at"] = place(
-            np.concatenate([method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED])
+        weights = [method.A.ravel(), method.A.sum(axis=1), method.A[-1] - method.B_EMBEDDED]
+        _fill(
+            record,
+            method=codes.RUNGE_KUTTA,
+            stages=len(method.A),
+            method_at=place(np.concatenate(weights)),
+            order=min(method.ORDER, method.EMBEDDED_ORDER) + 1,
         )
-        record["order"] = min(method.ORDER, method.EMBEDDED_ORDER) + 1
     else:
         record["method"] = codes.ONE_STAGE
         record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
-    record["phase_per_step"] = method.PHASE
     period = scene.waves.period_s if scene.waves is not None else None
     driven = [part.period_s for part in (scene.waves, scene.end.motion) if hasattr(part, "period_s")]
-    record["output_step"] = scene.sample_step_s()
-    record["profile_step"] = (scene.output.profiles_step_s or record["output_step"]) if scene.output.profiles else 0.0
-    record["fixed_step"] = solver.step_s or (min(driven) / 400 if driven else 0.0125)
-    record["max_step"], record["min_step"] = min(scales.longest_steps(scene).values()), solver.min_step_s
     if solver.shock_viscosity is not None:
         record["viscous"] = True
         record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
-    record["rtol"], record["growth_per_step"] = solver.rtol, solver.growth_per_step
-    record["shortest"] = solver.shortest_period_s or solver.max_step_s / 50
-    record["shortest_wave"] = (math.pi / h.min()) ** 2
-    record["newton_tolerance"] = solver.newton_tolerance or 1e-2 * solver.rtol
-    record["max_newton"] = solver.max_newton_iterations
-    record["loop_release"], record["max_releases"] = solver.loop_release, solver.max_loop_releases
     begun = (*scene.start.buoy_velocity_mps, *scene.start.buoy_displacement_m)
     moving = scene.end.kind == "buoy" and any(begun)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
     moved = record["end_motion"] != codes.STILL or bool(scene.end.twist_ramp_s)
-    record["at_rest"] = not (moving or impulsive or moved)
-    record["all_waves"] = scene.end.kind == "held" and scene.end.release_s is None  # let go, a line whips: no ringing
+    output_step_s = scene.sample_step_s()
+    _fill(
+        record,
+        phase_per_step=method.PHASE,
+        output_step=output_step_s,
+        profile_step=(scene.output.profiles_step_s or output_step_s) if scene.output.profiles else 0.0,
+        fixed_step=solver.step_s or (min(driven) / 400 if driven else 0.0125),
+        max_step=min(scales.longest_steps(scene).values()),
+        min_step=solver.min_step_s,
+        rtol=solver.rtol,
+        growth_per_step=solver.growth_per_step,
+        shortest=solver.shortest_period_s or solver.max_step_s / 50,
+        shortest_wave=(math.pi / h.min()) ** 2,
+        newton_tolerance=solver.newton_tolerance or 1e-2 * solver.rtol,
+        max_newton=solver.max_newton_iterations,
+        loop_release=solver.loop_release,
+        max_releases=solver.max_loop_releases,
+        at_rest=not (moving or impulsive or moved),
+        all_waves=scene.end.kind == "held" and scene.end.release_s is None,  # let go, a line whips: no ringing
+    )
     scales.put_scales(record, scene, h)
     if solver.courant is not None:
         record["pace"] = solver.courant / scales.fastest_wave(record, scene)

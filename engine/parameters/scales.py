@@ -15,7 +15,7 @@ TRANSIT_STEPS = 12  # after a loop release in the time that an axial wave takes 
 
 def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     """Inverse scales in which Newton updates and step errors are measured (Table 1: 0.04, 100 N, 1 m/s, 5 rad/m)."""
-    length, g = scene.tether.length_m, scene.gravity_mps2
+    length, g, m = scene.tether.length_m, scene.gravity_mps2, float(record["m"])
     stiff = buckling_load(scene.tether, scene.end)
     load = max(abs(float(record["lift"])), abs(float(record["w0"])) * length, stiff, 1e-3)
     if scene.end.force_N is not None:
@@ -28,10 +28,10 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     stiffness = max(tension_at(strain, scene.tether.tension), 1e-9) / strain  # secant: what the law offers up to there
     pulled = end_speed(scene.end)
     if pulled > 0:  # an end that is pulled away sends out a wave of the force V sqrt(m T/eps)
-        load = max(load, pulled * math.sqrt(float(record["m"]) * stiffness))
+        load = max(load, pulled * math.sqrt(m * stiffness))
         strain = max(strain, strain_at(load, scene.tether.tension))
     record["per_strain"] = 1 / strain
-    transit = length * math.sqrt(float(record["m"]) / stiffness)
+    transit = length * math.sqrt(m / stiffness)
     record["release_step"] = min(transit / TRANSIT_STEPS, float(record["max_step"]))
     # after a loop release in the time 2/rate, the rate that of the fastest bending wave of the grid
     rate = (math.pi / float(np.mean(h))) ** 2 * math.sqrt(record["EI"] / (record["m"] + record["ma"]))
@@ -39,13 +39,13 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
     record["turn_step"] = min(gone, record["max_step"])
     record["per_force"] = 20 / load
     # the longest axial motion: the heave of a buoy on the line, or the line's own first one
-    line = float(record["m"]) * length
+    line = m * length
     held = {"buoy": 0.0, "held": math.pi**-2, "free": 4 * math.pi**-2}[scene.end.kind]
     record["inertia"] = length * (held * line or float(record["M_total"]) + line / 3)
     fastest = min(length * math.sqrt(stiffness / float(record["inertia"])), length / transit)
-    record["per_ringing"] = float(record["per_strain"]) / fastest
+    record["per_ringing"] = 1 / strain / fastest
     recoil = strain * length / transit if scene.end.force_decay_s else 0.0  # of the end of a line that breaks
-    bent = stiff / float(record["m"])
+    bent = stiff / m
     record["per_speed"] = 1 / max(math.sqrt(max(g * length, bent)) / 14, recoil / 14, pulled, 1e-3)
     record["per_curvature"] = float(np.mean(h)) / 2.5
 

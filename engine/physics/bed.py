@@ -12,7 +12,7 @@ Vectors have three components; a plane has y = 0. Numbers: of an EXTRA record (`
 
 import math
 
-from ..compiled import by_kind, kernel
+from ..compiled import by_kind, kernel, of_extras
 from ..spatial.vectors import affine, dot, mixed
 
 ZERO = (0.0, 0.0, 0.0)
@@ -54,46 +54,24 @@ def bed_load(p, in_motion, z, V):
     return (N * way[0], N * way[1], -N), rows, (-way[0] * by_depth, -way[1] * by_depth, by_depth)
 
 
-@kernel
-def _no_bed(p):
-    return 0, 0.0
-
-
-@kernel
-def _with_bed(p):
+@of_extras((0, 0.0))
+def bed_under(p):
+    """Is there one, and the height (m) of the anchor above it?"""
     return p.floored, p.anchor_z
 
 
-bed_under = by_kind(_no_bed, _no_bed, extra=_with_bed)  # is there one, and the height (m) of the anchor above it
-
-
-@kernel
-def _none_held(p, z):
-    return 0.0
-
-
-@kernel
-def _held(p, z):
+@of_extras(0.0)
+def bed_energy(p, z):
+    """In the spring at the height z (m), J/m."""
     return p.bed_stiffness * _spring(p, -z)[2]
 
 
-bed_energy = by_kind(_none_held, _none_held, extra=_held)  # in the spring at the height z (m), J/m
-
-
-@kernel
-def _no_powers(p, z, V):
-    return ZERO, 0.0, 0.0, 0.0
-
-
-@kernel
-def _powers(p, z, V):
+@of_extras((ZERO, 0.0, 0.0, 0.0))
+def bed_powers(p, z, V):
+    """The load at the height z (m) and the velocity V, and its powers (W/m): into the spring, the damper, friction."""
     load = bed_load(p, 1.0, z, V)[0]
     spring = -p.bed_stiffness * _spring(p, -z)[0] * V[2]
     return load, spring, load[2] * V[2] - spring, load[0] * V[0] + load[1] * V[1]
-
-
-# the load at the height z (m) and the velocity V, and its powers (W/m): into the spring, the damper, friction
-bed_powers = by_kind(_no_powers, _no_powers, extra=_powers)
 
 
 @kernel

@@ -1,6 +1,6 @@
 """The laws of `engine.physics.extras` in the nodal quantities of the plane, and in its matrix."""
 
-from ..compiled import by_kind, kernel
+from ..compiled import by_kind, kernel, of_extras
 from ..physics.bed import bed_load
 from ..physics.ends import released
 from ..physics.extras import ZERO, sum_of, surface_load, surface_turn, wetting
@@ -13,13 +13,8 @@ from . import columns as col
 SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(10)
 
 
-@kernel
-def _nothing(p, tables, stage, Y, work):
-    pass
-
-
-@kernel
-def _added(p, tables, stage, Y, work):
+@of_extras()
+def more_loads(p, tables, stage, Y, work):
     """Add to Q, as `node_quantities` left it, what these laws do at every node, at X~ + V/cq (THEORY.md, section 5)."""
     t, in_motion, cq, cv = stage
     ahead, over, known = (p.direction, 0.0, 0.0), 1.0 / cq, (p.anchor_x, 0.0, p.anchor_z)
@@ -72,9 +67,6 @@ def _added(p, tables, stage, Y, work):
                 row[col.GXX + at] += row[col.OWN + at] + row[col.BY_PLACE + at]
 
 
-more_loads = by_kind(_nothing, _nothing, extra=_added)
-
-
 @kernel
 def _turns(p, row):
     return row[col.NZ], row[col.NX]
@@ -88,27 +80,14 @@ def _turns_damped(p, row):
 force_by_turn = by_kind(_turns, _turns, extra=_turns_damped)  # -dN_x/dphi and dN_z/dphi
 
 
-@kernel
-def _all_drag(p, row):
-    return 1.0, (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)
-
-
-@kernel
-def _less_drag(p, row):
+@of_extras((1.0, (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)))
+def beside_drag(p, row):
+    """Share of a node in the water; what dG/dV has beside inertia and drag: through V itself, and through the place."""
     return row[col.SHARE], quaternion(row, col.OWN), quaternion(row, col.BY_PLACE)
 
 
-# share of a node in the water; what else than inertia and drag dG/dV has: through V itself, and through the place
-beside_drag = by_kind(_all_drag, _all_drag, extra=_less_drag)
-
-
-@kernel
-def _no_push(p, over, row, J):
-    pass
-
-
-@kernel
-def _push(p, over, row, J):
+@of_extras()
+def push_by_place(p, over, row, J):
     """Add to dG/dV what the place does to the push of the water, J (8) its slopes (`engine.physics.water`)."""
     push = over * p.pushed * row[col.SHARE]
     row[col.GXX] -= push * J[2]
@@ -117,44 +96,22 @@ def _push(p, over, row, J):
     row[col.GZZ] -= push * J[7]
 
 
-push_by_place = by_kind(_no_push, _no_push, extra=_push)
-
-
-@kernel
-def _no_force(p, rate, row, dC_tilde):
-    return 0.0, 0.0
-
-
-@kernel
-def _damping_force(p, rate, row, dC_tilde):
+@of_extras((0.0, 0.0))
+def known_force(p, rate, row, dC_tilde):
+    """Change of N that a change of C~ makes."""
     c, s = row[col.COS], row[col.SIN]
     force = -p.damping * rate * (c * dC_tilde[col.CX] + s * dC_tilde[col.CZ])
     return force * c, force * s
 
 
-known_force = by_kind(_no_force, _no_force, extra=_damping_force)  # change of N that a change of C~ makes
-
-
-@kernel
-def _no_end(p, t, x, z):
-    return 0.0, 0.0
-
-
-@kernel
-def _end_of_force(p, t, x, z):
+@of_extras((0.0, 0.0))
+def known_end(p, t, x, z):
+    """Of `known_force` at the upper end, what the condition there has."""
     return (0.0, 0.0) if p.end == HELD and not released(p, t) else (x, z)
 
 
-known_end = by_kind(_no_end, _no_end, extra=_end_of_force)  # of that, what the condition of the upper end has
-
-
-@kernel
-def _no_more(p, base, X, Q, F, H):
-    pass
-
-
-@kernel
-def _more_across(p, base, X, Q, F, H):
+@of_extras()
+def more_across(p, base, X, Q, F, H):
     """Change the coefficients H of lateral perturbations (`engine.perturbations.lateral`) of every node."""
     Y, K, ahead = base.Y, base.K, (p.direction, 0.0, 0.0)
     for k in range(Y.shape[0]):
@@ -177,9 +134,6 @@ def _more_across(p, base, X, Q, F, H):
             h[G_V] += bed_load(p, 1.0, x[2], V)[1][1][1]
 
 
-more_across = by_kind(_no_more, _no_more, extra=_more_across)
-
-
 @kernel
 def _inertia_of(p, rate, e, Qa, Qb, below, above):
     return e * ((p.m + p.ma) * rate), below + above
@@ -194,14 +148,7 @@ def _inertia_of_shares(p, rate, e, Qa, Qb, below, above):
 lateral_inertia = by_kind(_inertia_of, _inertia_of, extra=_inertia_of_shares)
 
 
-@kernel
-def _width(p):
-    return col.NODE_WIDTH
-
-
-@kernel
-def _wider(p):
+@of_extras(col.NODE_WIDTH)
+def node_width(p):
+    """Columns of Q."""
     return col.EXTRA_WIDTH
-
-
-node_width = by_kind(_width, _width, extra=_wider)

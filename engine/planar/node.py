@@ -24,7 +24,7 @@ compatibility, with the tangent; eq. (23) weight in water; eq. (24) Morison's fo
 
 import math
 
-from ..compiled import by_kind, kernel
+from ..compiled import kernel, of_extras
 from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
@@ -34,17 +34,10 @@ from . import columns as col
 from .extras import more_loads
 
 
-@kernel
-def _origin(p):
-    return 0.0, 0.0
-
-
-@kernel
-def _above_the_bed(p):
+@of_extras((0.0, 0.0))
+def lower_end(p):
+    """Place (m) of the anchor."""
     return p.anchor_x, p.anchor_z
-
-
-lower_end = by_kind(_origin, _origin, extra=_above_the_bed)  # place (m) of the anchor
 
 
 @kernel

@@ -145,7 +145,8 @@ class PeriodMap:
         scene = self.scene_of(value)
         if scene.tether.nodes != self.nodes:
             raise ValueError("a map over a wave period: all scenes must have one grid")
-        run = Idle(scene.model_copy(update={"output": scene.output.model_copy(update=_NO_MORE)}), scene.waves.period_s)
+        bare = scene.with_values("output", profiles=False, energy=False, tangent_vectors=0, lateral_growth=False)
+        run = Idle(bare, scene.waves.period_s)
         run.record["output_step"] = scene.waves.period_s / self.samples_of(scene)
         run.record["newton_tolerance"] = min(NEWTON, float(run.record["newton_tolerance"]))
         run.record["ramp"] = 0.0
@@ -261,6 +262,3 @@ class PeriodMap:
             return np.concatenate([motion.C.ravel(), motion.K.ravel()]) / self.scale, derivative
 
         return image
-
-
-_NO_MORE = {"profiles": False, "energy": False, "tangent_vectors": 0, "lateral_growth": False}

@@ -57,8 +57,7 @@ def compile_piece(key: tuple, scene: Scene) -> None:
     """Compile a piece, or load it compiled; no step is made, but in the paper's own scheme."""
     _, name, *options = key
     if name in ("carry", "follow"):
-        carried = {"tangent_vectors": int(options[0]), "lateral_growth": options[1]}
-        scene = scene.model_copy(update={"output": scene.output.model_copy(update=carried)})
+        scene = scene.with_values("output", tangent_vectors=int(options[0]), lateral_growth=options[1])
     if name == "paper-box":
         from ..paper_box import driver
 

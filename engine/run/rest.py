@@ -64,6 +64,5 @@ def static_tension_N(scene: Scene, columns: Mapping[str, np.ndarray]) -> float:
     resting = columns["radius_rate_mps"][0] == 0.0 == columns["angle_rate_radps"][0]
     if resting and not any(scene.start.buoy_displacement_m):
         return float(columns["tension_top_N"][0])
-    start = scene.start.model_copy(update={"buoy_displacement_m": (0.0, 0.0, 0.0)})
-    rest = rest_of(scene.model_copy(update={"start": start}))
+    rest = rest_of(scene.with_values("start", buoy_displacement_m=(0.0, 0.0, 0.0)))
     return rest.top_N if rest.status == OK else np.nan

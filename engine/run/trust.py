@@ -46,9 +46,8 @@ def _coarse_at_rest(run: "Run") -> str:
     """Says that a line which is bent at rest has another tension at the top on a finer grid, or nothing."""
     if run.rest is None or run.rest.turn < BENT:
         return ""
-    tether = run.scene.tether
-    nodes = FINER * (tether.nodes - 1) + 1
-    finer = rest_of(run.scene.model_copy(update={"tether": tether.model_copy(update={"nodes": nodes})}))
+    nodes = FINER * (run.scene.tether.nodes - 1) + 1
+    finer = rest_of(run.scene.with_values("tether", nodes=nodes))
     top_N = run.rest.top_N
     if finer.status != OK or abs(top_N - finer.top_N) <= NOTED * max(abs(top_N), abs(finer.top_N)):
         return ""
@@ -62,8 +61,8 @@ def _steps_too_long(run: "Run", columns: dict[str, np.ndarray]) -> str:
     solver = run.scene.solver
     if run.record["method"] != ONE_STAGE or solver.courant is not None:
         return ""
-    twice = solver.model_copy(update={"step_s": 2 * float(run.record["fixed_step"])})
-    longer = type(run)(run.scene.model_copy(update={"solver": twice}), run.duration_s, run.started)
+    twice = run.scene.with_values("solver", step_s=2 * float(run.record["fixed_step"]))
+    longer = type(run)(twice, run.duration_s, run.started)
     longer.advance(longer.goal)
     largest_N = float(columns["tension_top_high_N"].max())
     other_N = float(longer.output.samples[: longer.goal, TOP_HIGH].max())

@@ -136,7 +136,7 @@ class Scene(Section):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Scene":
-        faults = cross_faults(self.model_dump(), set(), type(self))
+        faults = cross_faults(self.model_dump(), set())
         if faults:
             raise PydanticCustomError("scene_consistency", "{text}", {"text": "\n".join(faults)})
         return self
@@ -146,6 +146,10 @@ class Scene(Section):
         if self.output.step_s is not None:
             return self.output.step_s
         return self.waves.period_s / 100.0 if self.waves is not None else 0.05
+
+    def with_values(self, section: str, **values: object) -> "Scene":
+        """The scene with other values in one of its sections, which are not checked."""
+        return self.model_copy(update={section: getattr(self, section).model_copy(update=values)})
 
     def as_dict(self) -> dict[str, object]:
         """Every value as plain dicts, lists and numbers, without absent options and without a derived diameter."""
@@ -184,7 +188,7 @@ def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> S
         scene = Scene.model_validate(raw)
     except ValidationError as error:
         faults, bad = field_faults(error, Scene)
-        raise SceneError((*extra_faults, *faults, *cross_faults(raw, bad, Scene))) from None
+        raise SceneError((*extra_faults, *faults, *cross_faults(raw, bad))) from None
     if extra_faults:
         raise SceneError(extra_faults)
     return scene

@@ -1,19 +1,14 @@
 """The laws of `engine.physics.extras` in the nodal quantities in space, and in its matrix."""
 
-from ..compiled import by_kind, kernel
+from ..compiled import kernel, of_extras
 from ..physics.bed import bed_load
 from ..physics.extras import ZERO, sum_of, surface_load, surface_turn, wetting
 from . import columns as col
 from .vectors import dot, mixed, put, put_rows, rows_of, vector
 
 
-@kernel
-def _nothing(p, tables, stage, Y, work):
-    pass
-
-
-@kernel
-def _added(p, tables, stage, Y, work):
+@of_extras()
+def more_loads(p, tables, stage, Y, work):
     """Add to Q, as `node_quantities` left it, what these laws do at every node, at X~ + V/cq (THEORY.md, section 5)."""
     t, in_motion, cq, cv = stage
     ahead, over, known = (p.dir_x, p.dir_y, 0.0), 1.0 / cq, (p.anchor_x, p.anchor_y, p.anchor_z)
@@ -71,30 +66,13 @@ def _in_z(a, column):
     return (0.0, 0.0, a * column[0]), (0.0, 0.0, a * column[1]), (0.0, 0.0, a * column[2])
 
 
-more_loads = by_kind(_nothing, _nothing, extra=_added)
-
-
-@kernel
-def _no_change(p, row):
-    return 0.0, 0.0
-
-
-@kernel
-def _damped(p, row):
+@of_extras((0.0, 0.0))
+def along_by_turn(p, row):
+    """What dN/dtheta2 and dN/dtheta3 along t are less."""
     return row[col.N_TURN2], row[col.N_TURN3]
 
 
-along_by_turn = by_kind(_no_change, _no_change, extra=_damped)  # what dN/dtheta2 and dN/dtheta3 along t are less
-
-
-@kernel
-def _width(p):
-    return col.NODE_WIDTH
-
-
-@kernel
-def _wider(p):
+@of_extras(col.NODE_WIDTH)
+def node_width(p):
+    """Columns of Q."""
     return col.EXTRA_WIDTH
-
-
-node_width = by_kind(_width, _width, extra=_wider)

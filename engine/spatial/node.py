@@ -28,7 +28,7 @@ momentum; eq. (12) momentum in the local frame; eq. (23) weight in water; eq. (2
 
 import math
 
-from ..compiled import by_kind, kernel
+from ..compiled import kernel, of_extras
 from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
@@ -37,17 +37,10 @@ from .extras import more_loads
 from .vectors import dot, frame, mixed, put, put_rows, quaternion, relative, rotation_vector, vector
 
 
-@kernel
-def _origin(p):
-    return 0.0, 0.0, 0.0
-
-
-@kernel
-def _above_the_bed(p):
+@of_extras((0.0, 0.0, 0.0))
+def lower_end(p):
+    """Place (m) of the anchor."""
     return p.anchor_x, p.anchor_y, p.anchor_z
-
-
-lower_end = by_kind(_origin, _origin, extra=_above_the_bed)  # place (m) of the anchor
 
 
 @kernel

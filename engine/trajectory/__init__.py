@@ -4,7 +4,6 @@ On disk a netCDF-3 file (it opens in xarray and in any netCDF tool); scene, stat
 attributes, and a digest of the whole content lets `load` tell a damaged file from a sound one.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -24,10 +23,6 @@ from .stored import TrajectoryError
 
 if TYPE_CHECKING:
     import pandas
-    import xarray
-    from matplotlib.axes import Axes
-
-    from analysis import Exponent, PoincareSection, Spectrum, Verdict
 
 
 @dataclass(frozen=True)
@@ -76,55 +71,12 @@ class Trajectory:
 
         return pandas.DataFrame({name: self.columns[name] for name in COLUMNS})
 
-    def plot(self, path: "str | Path | None" = None) -> "dict[str, Axes]":
-        """A figure: tension and radius over the whole run and its end; section and spectrum, or the path without waves.
-
-        path: a .png, .svg or .pdf file to write; without one the figure belongs to `matplotlib.pyplot`: a notebook
-        shows it, a script with `pyplot.show()`. Returns matplotlib's Axes by the name of the panel.
-        """
-        return views.plot(self, path)
-
-    def spectrum(self, column: str = "radius_m", transient_periods: int | None = None) -> "Spectrum":
-        """Eq. (31) of a column of the table after the transient, the first third of the run (`analysis.spectrum`).
-
-        The window is the last multiple of 12 forcing periods, so that motions of period 2, 3, 4 or 6 do not leak.
-        Raises ValueError where neither regular waves nor a shaken end drive the run, as do the three below.
-        """
-        return views.spectrum(self, column, transient_periods)
-
-    def section(
-        self,
-        columns: str | Sequence[str] = ("radius_m", "radius_rate_mps"),
-        transient_periods: int | None = None,
-        phase: float = 0.0,
-    ) -> "PoincareSection":
-        """Columns of the table once per period after the transient, its first third (`analysis.poincare_section`)."""
-        return views.section(self, columns, transient_periods, phase)
-
-    def exponent(self, transient_periods: int | None = None) -> "Exponent":
-        """The largest Lyapunov exponent after the transient, that of `verdict` or the first third, in bits per forcing
-        period.
-
-        From the tangent dynamics where the run carried them (`output.tangent_vectors`), else by Wolf's method from r,
-        which is far less certain and takes seconds; its `method` says which.
-        """
-        return views.exponent(self, transient_periods)
-
-    def verdict(self) -> "Verdict":
-        """The regime of a buoy in regular waves with the evidence for it (`analysis.motion_regime`), as campaigns judge
-        it. Chaos and tori need a run with `output.tangent_vectors` = 1, and any word 135 periods or more.
-        """
-        return views.verdict(self)
-
-    def to_xarray(self) -> "xarray.Dataset":
-        """Everything that `save` writes but the final state, as an xarray Dataset with units and long names."""
-        return views.dataset(self)
+    # how one looks at a run: each of these takes the run and is described there
+    plot, spectrum, section, exponent = views.plot, views.spectrum, views.section, views.exponent
+    verdict, to_xarray, _repr_html_ = views.verdict, views.to_xarray, views.html
 
     def __repr__(self) -> str:
         return f"Trajectory({self.scene.name!r}, {self.status!r}, {len(self.columns['time_s'])} samples)"
-
-    def _repr_html_(self) -> str:
-        return views.html(self)
 
     def save(self, path: str | Path, attributes: dict[str, str] | None = None) -> None:
         """Write the record as one netCDF-3 file, whole or not at all.
