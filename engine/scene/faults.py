@@ -148,13 +148,6 @@ def known_fields(model: type[BaseModel]) -> dict[str, FieldInfo]:
     return fields
 
 
-def scene_fields() -> dict[str, FieldInfo]:
-    """`known_fields` of a scene, whose model cannot be imported above: it reads this module."""
-    from engine.scene.models import Scene
-
-    return known_fields(Scene)
-
-
 def suggestion(key: str, keys: list[str]) -> str:
     """ "; did you mean ...?" for a key that is close to a known one in full or in its last word, else ""."""
     close = difflib.get_close_matches(key, keys, n=1, cutoff=0.75)
@@ -164,18 +157,18 @@ def suggestion(key: str, keys: list[str]) -> str:
     return f"; did you mean {close[0]!r}?" if close else ""
 
 
-def ending_in(word: str) -> list[str]:
+def ending_in(word: str, model: type[BaseModel]) -> list[str]:
     """The keys of which a word is the whole or, where there is none, the last part."""
-    known = {} if word in _INSTEAD else scene_fields()
+    known = {} if word in _INSTEAD else known_fields(model)
     return [word] if word in known else [key for key in known if key.rpartition(".")[2] == word]
 
 
-def unknown_key(key: str, value: object) -> str:
+def unknown_key(key: str, value: object, scene_model: type[BaseModel]) -> str:
     """The fault line of a key that no scene has."""
-    ends = ending_in(key)
+    ends = ending_in(key, scene_model)
     if len(ends) > 1:
         return f"{key}: the end of {len(ends)} keys, given {shown(value)}; allowed: one of {', '.join(ends)}"
-    keys = list(scene_fields())
+    keys = list(known_fields(scene_model))
     hint = f"; did you mean {_INSTEAD[key]}?" if key in _INSTEAD else suggestion(key, keys)
     section = key.rpartition(".")[0]
     names = [known.rpartition(".")[2] for known in keys if known.rpartition(".")[0] == section]
@@ -247,7 +240,7 @@ def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[
     for item in _items_of(error):
         place = _place_of(item["loc"], scene_model)
         locations.add(place.location)
-        lines.append(_line_of(item, place))
+        lines.append(_line_of(item, place, scene_model))
     return list(dict.fromkeys(lines)), locations
 
 
@@ -264,7 +257,7 @@ def _items_of(error: ValidationError) -> Iterator[dict]:
         yield item
 
 
-def _line_of(item: dict, place: _Place) -> str:
+def _line_of(item: dict, place: _Place, scene_model: type[BaseModel]) -> str:
     """The fault line of one of pydantic's faults."""
     kind, value, location = item["type"], item["input"], place.location
     allowed = place.allowed or item["msg"]
@@ -276,7 +269,7 @@ def _line_of(item: dict, place: _Place) -> str:
     if kind == "extra_forbidden" and place.law is not None:
         return f"{key}: given {shown(value)}, which law = {place.law!r} does not have"
     if kind == "extra_forbidden":
-        return unknown_key(key, value)
+        return unknown_key(key, value, scene_model)
     if kind in ("missing", "union_tag_not_found") and not too_few:
         return f"{key}: missing; allowed: {allowed}"
     return fault(key, value, allowed) + (_number_hint(value, key) if "number" in allowed else "")

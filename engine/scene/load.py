@@ -14,7 +14,7 @@ import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 
-from engine.scene.faults import DEEPEST, TOO_DEEP, SceneError, ending_in, scene_fields, shown, too_deep, unknown_key
+from engine.scene.faults import DEEPEST, TOO_DEEP, SceneError, ending_in, known_fields, shown, too_deep, unknown_key
 from engine.scene.models import Scene, build_scene
 from engine.scene.water_rules import HEIGHTS
 
@@ -43,7 +43,7 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     """
     text, changes = _text_of(name_or_path), dict(overrides or {})
     for word, value in keywords.items():
-        ends = ending_in(word)
+        ends = ending_in(word, Scene)
         key = ends[0] if len(ends) == 1 else word
         if key in changes:
             rest = f"beside {key} = {shown(changes[key])}; allowed: one of the two"
@@ -144,8 +144,8 @@ def _overridden(raw: dict[str, object], overrides: Mapping[str, object]) -> tupl
         if too_deep(value):
             faults.append(f"{key}: {TOO_DEEP}")
             continue
-        if key not in scene_fields():
-            faults.append(unknown_key(key, value))
+        if key not in known_fields(Scene):
+            faults.append(unknown_key(key, value, Scene))
             continue
         table = raw
         for part in above:

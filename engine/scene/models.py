@@ -136,7 +136,7 @@ class Scene(Section):
 
     @model_validator(mode="after")
     def _consistent(self) -> "Scene":
-        faults = cross_faults(self.model_dump(), set())
+        faults = cross_faults(self.model_dump(), set(), type(self))
         if faults:
             raise PydanticCustomError("scene_consistency", "{text}", {"text": "\n".join(faults)})
         return self
@@ -188,7 +188,7 @@ def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> S
         scene = Scene.model_validate(raw)
     except ValidationError as error:
         faults, bad = field_faults(error, Scene)
-        raise SceneError((*extra_faults, *faults, *cross_faults(raw, bad))) from None
+        raise SceneError((*extra_faults, *faults, *cross_faults(raw, bad, Scene))) from None
     if extra_faults:
         raise SceneError(extra_faults)
     return scene

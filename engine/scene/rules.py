@@ -6,6 +6,8 @@ The rules of water, waves and what comes out of the water are in `water_rules`.
 import math
 from collections.abc import Iterator
 
+from pydantic import BaseModel
+
 from engine.physics import drag, tension
 from engine.scene.faults import Location, fault
 from engine.scene.sound import FAULTY, Facts, Sound
@@ -25,11 +27,11 @@ _OWNERS = {"position_m": "held", "motion": "held", "release_s": "held", "force_N
 _BENDING = "tether.bending_stiffness_Nm2"
 
 
-def cross_faults(raw: dict[str, object], bad: set[Location]) -> list[str]:
+def cross_faults(raw: dict[str, object], bad: set[Location], model: type[BaseModel]) -> list[str]:
     """Every fault between values, a line each; arguments as of `Sound`. A rule that needs a bad value is left out."""
     if not isinstance(raw, dict):
         return []
-    sound = Sound(raw, bad)
+    sound = Sound(raw, bad, model)
     rules = (water, sea, _ends, _clamps, _solver, cap, _output)
     lines = [sound.fault(key, allowed) for rule in rules for broken, key, allowed in rule(sound) if broken]
     for rule in (_laws, heights, held_under, current, _moved_end, _plane):

@@ -7,9 +7,10 @@ as one field fails, and the user would see the faults one after the other.
 from collections.abc import Iterator
 from itertools import pairwise
 
+from pydantic import BaseModel
 from pydantic_core import PydanticUndefined
 
-from engine.scene.faults import Location, fault, scene_fields, shown
+from engine.scene.faults import Location, fault, known_fields, shown
 
 Facts = Iterator[tuple[object, str, str]]  # whether a rule is broken, the key that breaks it, what it allows there
 
@@ -27,11 +28,12 @@ FAULTY = _Faulty()
 class Sound:
     """The values of a scene by dotted key; an absent one is its default, or None, a faulty one FAULTY.
 
-    raw: the scene as nested dicts (TOML or model_dump). bad: locations of values that are faulty in themselves.
+    raw: the scene as nested dicts (TOML or model_dump). bad: locations of values that are faulty in themselves. model:
+    of a scene, for the defaults.
     """
 
-    def __init__(self, raw: dict[str, object], bad: set[Location]) -> None:
-        self.raw, self.bad, self.fields = raw, bad, scene_fields()
+    def __init__(self, raw: dict[str, object], bad: set[Location], model: type[BaseModel]) -> None:
+        self.raw, self.bad, self.fields = raw, bad, known_fields(model)
 
     def __getitem__(self, key: str) -> object:
         path = tuple(key.split("."))
