@@ -21,6 +21,7 @@ from analysis.evidence import Evidence
 from analysis.sampling import checked_columns
 
 LEFT, AGREES = 0.65, 1.5
+NEARER, ON_IT = "approach", "on an orbit"  # names of the evidence
 
 
 def approached_period(
@@ -61,7 +62,8 @@ def approach_evidence(
     near, arrived                 distance of the last window, in that scale: of an orbit that counts, of a run on it
     left                          what is left of the distance of the first window at most
     agrees                        factor by which the rates may differ from that of the orbit
-    The value of the Evidence is the multiplier that the distances show, the threshold that of the orbit.
+    Returns the Evidence ON_IT of a run that lies on the orbit, else NEARER. Its value is the multiplier that the
+    distances show, the threshold that of the orbit.
     """
     x, points = checked_columns(strobed, "strobed"), checked_columns(orbit, "orbit")
     order, period = np.arange(len(x)), len(points)
@@ -86,7 +88,7 @@ def approach_evidence(
         f"it {attraction} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
         f"and {way}"
     )
-    return Evidence("approach", shown, moduli[0], passed, sentence)
+    return Evidence(ON_IT if on_it else NEARER, shown, moduli[0], passed, sentence)
 
 
 def _in_windows(differences: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -105,7 +105,7 @@ class _Follower:
         maps = self.system.near(orbit.points, orbit.parameter)
         shots = shoot(maps, orbit.points, orbit.parameter)
         slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
-        space = Space(shots.linearised, real_span(orbit.vectors))
+        space = Space(shots.linearised, real_span(orbit.vectors), self.system.abreast)
         across = np.append(np.zeros(orbit.points.shape[1]), 1.0)
         for _ in range(2):  # near a fold the first is not accurate
             change, rate = tangent_of(self.system, space, slopes, across)

@@ -193,7 +193,7 @@ def corrected(
         if taken == newton.iterations:
             raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
         if fresh := space is None:
-            space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]])
+            space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]], maps[0].abreast)
         if row is not None and slopes is None:
             slopes = slopes_of(maps, shots, points, parameter)
         change, delta = space.solve(shots.gaps, slopes, row)
@@ -240,7 +240,7 @@ def solved_near(
 
 def described(solved: Solved, count: int) -> tuple[Orbit, Space]:
     """The Orbit that Newton's method has found, with its multipliers, and the space in which they were found."""
-    space = Space(solved.shots.linearised, solved.directions)
+    space = Space(solved.shots.linearised, solved.directions, solved.maps[0].abreast)
     spectrum = space.multipliers(count)
     return Orbit(solved.points, solved.parameter, *spectrum, solved.shots.residual, solved.iterations), space
 

@@ -33,6 +33,7 @@ class OrbitMap:
                      meshes - 1 chooses among steps of the same accuracy. None: the map is smooth as it is
     parameter_size   the change of the parameter that counts as 1
     meshes           how many there are: the differences between them are the errors of an orbit
+    abreast          directions that `linearised` carries at the cost of one
     seen             (n, m): seen.T @ z is what distances along a branch are measured in; None: all of z
     """
 
@@ -41,6 +42,7 @@ class OrbitMap:
     frozen: Callable[[np.ndarray, float, int], Sequence[Step]] | None = None
     parameter_size: float = 1.0
     meshes: int = 1
+    abreast: int = 1
     seen: np.ndarray | None = None
 
     def near(self, points: np.ndarray, parameter: float, mesh: int = 0) -> Sequence["OrbitMap"]:

@@ -11,7 +11,8 @@ branch the correction is orthogonal to its tangent t (Keller 1977); at a given p
 M has the multipliers of the orbit as eigenvalues; all but a few are near 0 in a damped system. So d_0 is sought in a
 small space Q, with least squares of what is left of (b), and what is left is its next direction (Saad & Schultz 1986).
 Multipliers are those of Q^T M Q (Rayleigh & Ritz), and what M y - mu y leaves of Q gives its next directions. Q begins
-with the directions that mattered at the orbit before, which a computed map carries at once for little more than one.
+with the directions that mattered at the orbit before. A map that carries several directions at the cost of one is given
+as many each time: what images of Q leave of it comes next to what is needed.
 """
 
 from collections.abc import Sequence
@@ -32,8 +33,8 @@ FRESH, SEED = 2, 16  # vectors of no preference, so that nothing is missed
 class Space:
     """M on Q: `ways` are N + 1 arrays (n, k), Q and its images at each point of the orbit."""
 
-    def __init__(self, linearised: Sequence[Linearised], directions: np.ndarray):
-        self.linearised = linearised
+    def __init__(self, linearised: Sequence[Linearised], directions: np.ndarray, abreast: int = 1):
+        self.linearised, self.abreast = linearised, abreast
         self.ways = [np.empty((len(directions), 0))] * (len(linearised) + 1)
         self.grow(directions)
 
@@ -47,12 +48,21 @@ class Space:
         new = axes[:, sizes > NEW_DIRECTION][:, : len(basis) - basis.shape[1]]
         if not new.shape[1]:
             return False
+        new = np.hstack([new, self._images_beside(new)])
         for _ in range(2):
             new = np.linalg.qr(new - basis @ (basis.T @ new))[0]
         for i, linear in enumerate([*self.linearised, None]):
             self.ways[i] = np.hstack([self.ways[i], finite(new)])
             new = linear(new) if linear else new
         return True
+
+    def _images_beside(self, new: np.ndarray) -> np.ndarray:
+        """Directions (n, k) of the images of Q beside Q and `new`, the longest: as many as are carried at no cost."""
+        room = min(-new.shape[1] % self.abreast, len(new) - new.shape[1] - self.ways[0].shape[1])
+        known = np.hstack([self.ways[0], new])
+        beside = self.ways[-1] - known @ (known.T @ self.ways[-1])
+        axes, sizes, _ = np.linalg.svd(beside, full_matrices=False)
+        return axes[:, sizes > NEW_DIRECTION][:, :room]
 
     def solve(
         self, known: np.ndarray, slopes: np.ndarray | None = None, tangent: np.ndarray | None = None, along: float = 0.0

@@ -1,6 +1,6 @@
 """The motions of one scene, and the motion in which each start of a grid ends."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from campaigns.basins.grid import StartGrid
 from campaigns.explore.motions import MOTION, Motion, Motions, Search
@@ -23,7 +23,6 @@ class Exploration:
         self.places = Motions(plan, (STEEPNESS,), lambda place: {}, folder="motions")
         self.starts = self.places.starts
         self.endings: dict[int, Ending] = {}  # of the starts of the grid, by number
-        self.computed = 0  # starts of the grid that were not there before
 
     @property
     def motions(self) -> list[Motion]:
@@ -49,18 +48,33 @@ class Exploration:
 
     def _run(self, title: str, numbers: Sequence[int], points: Sequence, fine: bool = False) -> None:
         """Run starts of the grid. fine: with as many samples as judged runs have."""
-        computed_before, starts = self.starts.computed, []
+        starts, beside = [], None
         for number in numbers:
             start = self.grid.start(*points[number])
             if fine:
                 start = self.places.fine(0, start)
             starts.append((0, start))
-        for motion in self.places.run_starts(title, starts):
+        if not fine:
+            beside = self._beside(numbers)
+        for motion in self.places.run_starts(title, starts, beside):
             if motion is not None:
                 motion.kicks += 1
-        self.computed += self.starts.computed - computed_before
         latest = self.starts.endings[len(self.starts.endings) - len(numbers) :]
         self.endings |= dict(zip(numbers, latest, strict=True))
+
+    def _beside(self, numbers: Sequence[int]) -> Callable[[int], list[int]]:
+        """For each of these starts of the grid, by its place in the list, the places of those beside it."""
+        places = {number: place for place, number in enumerate(numbers)}
+
+        def beside(place: int) -> list[int]:
+            return [places[number] for number in self.grid.beside(numbers[place]) if number in places]
+
+        return beside
+
+    @property
+    def computed(self) -> int:
+        """Starts of the grid that were not there before."""
+        return sum(ending.row.get("run_key") in self.starts.computed for ending in self.endings.values())
 
     def run(self, title: str, starts: Sequence[Start], scene=None, **options) -> list[Ending]:
         """Run starts that are not of the grid, with the known motions in which they end. Else as `Motions.request`."""

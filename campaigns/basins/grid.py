@@ -76,6 +76,18 @@ class StartGrid:
         points = product(self.values(1), self.values(0))
         return [(first, second) for second, first in points]
 
+    def beside(self, number: int) -> Iterator[int]:
+        """The numbers of the points next to a point, along and across; phases go all round."""
+        columns, rows = self.counts
+        row, column = divmod(number, columns)
+        for down, right in product((-1, 0, 1), repeat=2):
+            beside_row, beside_column = row + down, column + right
+            if self.across[1] == PHASE:
+                beside_row %= rows
+            is_on_grid = 0 <= beside_row < rows and 0 <= beside_column < columns
+            if (down or right) and is_on_grid:
+                yield beside_row * columns + beside_column
+
     def spread(self, seed: int) -> Iterator[int]:
         """The numbers of all points, so that any first part of them is spread over the grid (Halton's sequence)."""
         from scipy.stats import qmc

@@ -7,6 +7,7 @@ record, and orbits, whose computations are kept under keys of their own (`campai
 from dataclasses import dataclass, replace
 
 from analysis import Exponent, Verdict, next_look
+from analysis.approaches import NEARER
 from analysis.looks import CLOSE
 from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_under
 from campaigns.explore.rows import sound_part
@@ -93,7 +94,8 @@ def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> 
     if verdict.regime in (*OPEN, "quasi-periodic"):
         verdict, orbit = judged_by_orbit(trajectory, verdict, orbits)
     if orbit is not None or not verdict.period or trajectory.final_state is None:
-        return replace(judgement, verdict=verdict, orbit=orbit, limit=orbit is not None)
+        limit = orbit is not None and verdict.evidence[-1].name == NEARER
+        return replace(judgement, verdict=verdict, orbit=orbit, limit=limit)
     try:
         orbit = orbit_under(trajectory, verdict.period, orbits)
         if orbit.period != verdict.period:
@@ -121,6 +123,10 @@ def judged_by_orbit(trajectory: Trajectory, verdict: Verdict, orbits: Store) -> 
     if not approach.passed:
         return replace(verdict, reason=f"{verdict.reason}; {approach.sentence}", evidence=evidence), None
     points = verdict.points // 3
-    reason = f"repeats after {orbit.period} wave period(s) in the limit: {approach.sentence}; extremes are the orbit's"
+    reason = f"repeats after {orbit.period} wave period(s): {approach.sentence}"
+    if approach.name == NEARER:
+        reason = (
+            f"repeats after {orbit.period} wave period(s) in the limit: {approach.sentence}; extremes are the orbit's"
+        )
     transient = verdict.transient + verdict.points - points
     return Verdict(f"period-{orbit.period}", reason, evidence, orbit.period, points, verdict.seed, transient), orbit

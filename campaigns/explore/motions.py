@@ -5,13 +5,14 @@ a motion there which becomes it in turn, is one branch with that, and has one le
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
 from analysis import share_of
+from campaigns.explore.coarse import coarse_endings
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
@@ -177,15 +178,40 @@ class Motions:
         scene = self.jobs[place].scene
         return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
 
-    def run_starts(self, title: str, starts: Sequence[tuple[int, Start]]) -> list[Motion | None]:
-        """Run starts at places; returns the motion in which each ended, None where it did not settle."""
-        endings = self.starts.run(title, [self.request(place, start) for place, start in starts])
-        for (place, start), ending in zip(starts, endings, strict=True):
-            ending.motion = self.known(place, ending)
-            if ending.motion is None and ending.settled is not None:
-                ending.motion = Motion(place, ending.settled, ending.state, start.found_by)
-                self.at[place].append(ending.motion)
-        return [ending.motion for ending in endings]
+    def run_starts(
+        self,
+        title: str,
+        starts: Sequence[tuple[int, Start]],
+        beside: Callable[[int], Iterable[int]] | None = None,
+    ) -> list[Motion | None]:
+        """Run starts at places; returns the motion in which each ended, None where it did not settle.
+
+        beside: the numbers of the starts beside a start. Where it is given, a coarse line is asked first
+        (`campaigns.explore.coarse`). Starts beside one that ends in another motion then run on the line itself.
+        """
+        coarse: dict[int, Ending] = {}
+        if beside is not None:
+            coarse = coarse_endings(self, title, starts)
+        endings = dict(coarse)
+        waiting = [number for number in range(len(starts)) if number not in coarse]
+        while waiting:
+            requests = [self.request(*starts[number]) for number in waiting]
+            for number, ending in zip(waiting, self.starts.run(title, requests, listed=False), strict=True):
+                place, start = starts[number]
+                ending.motion = self.known(place, ending)
+                if ending.motion is None and ending.settled is not None:
+                    ending.motion = Motion(place, ending.settled, ending.state, start.found_by)
+                    self.at[place].append(ending.motion)
+                endings[number] = ending
+            waiting = []
+            for number in coarse:
+                if any(endings[other].motion is not endings[number].motion for other in beside(number)):
+                    waiting.append(number)
+            for number in waiting:
+                del coarse[number]
+        in_order = [endings[number] for number in range(len(starts))]
+        self.starts.endings += in_order
+        return [ending.motion for ending in in_order]
 
     def request(self, place: int, start: Start, scene=None, **options) -> Request:
         """A start in the scene of a place, or in another one with the same motions. options: fields of `Request`."""

@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING
 import engine
 from campaigns.judge import periods_of
 from campaigns.machinery.folder import made_by
+from campaigns.machinery.long_runs import EARLY
 from campaigns.machinery.store import Store, key_of
-from engine.views import LONGEST_PERIOD, carries_tangents, strobed_states
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carries_tangents, strobed_states
 from tables import REGIMES, SHEET, Column, finite, names
 
 if TYPE_CHECKING:
@@ -57,7 +58,8 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
     from engine.run.period_map import PeriodMap
 
     cable = PeriodMap(scene_of, state, value)
-    return cable, OrbitMap(cable.step, frozen=cable.frozen, parameter_size=size, meshes=cable.meshes, seen=cable.seen)
+    settings = {"parameter_size": size, "meshes": cable.meshes, "abreast": cable.abreast, "seen": cable.seen}
+    return cable, OrbitMap(cable.step, frozen=cable.frozen, **settings)
 
 
 @dataclass(frozen=True)
@@ -156,16 +158,18 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
 def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evidence] | None:
     """The orbit near a run, and whether the run comes nearer to it; None where no orbit is looked for or found.
 
-    It is looked for from the second look on, where steps of the run shrink.
+    It is looked for where the run repeats, or where its steps shrink. That the orbit attracts, and that the run lies on
+    it or comes nearer, proves a period after fewer wave periods than the run alone could.
     """
-    from analysis import approach_evidence, approached_period, next_look
+    from analysis import approach_evidence, approached_period, detect_period
 
     scene = trajectory.scene
     periods = round(periods_of(scene, trajectory.columns))
-    if periods < next_look(next_look()) or not carries_tangents(scene) or trajectory.final_state is None:
+    if periods < EARLY or not carries_tangents(scene) or trajectory.final_state is None:
         return None
     strobed, scale = strobed_states(trajectory, periods // 2)
-    period = approached_period(strobed, scale, LONGEST_PERIOD)
+    period = detect_period(strobed[periods // 2 :], LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+    period = period or approached_period(strobed, scale, LONGEST_PERIOD)
     if period is None:
         return None
     try:

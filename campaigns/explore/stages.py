@@ -109,6 +109,11 @@ def nearest_match(motion: Motion, candidates: Sequence[Motion], match_distance: 
     return nearest
 
 
+def nothing_beside(number: int) -> tuple[int, ...]:
+    """Kicks are drawn at random: none lies beside another."""
+    return ()
+
+
 def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
     """Kicks at each place; the share that ends in a motion is that of `Motions.labels`."""
     motions.kicks = search.kicks
@@ -117,7 +122,7 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
         for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
             starts.append((place, Start(KICKED, velocity)))
     kicked: dict[Motion, tuple[int, Start]] = {}  # the motions that kicks have found, each with its last kick
-    for start, motion in zip(starts, motions.run_starts("kicks", starts), strict=True):
+    for start, motion in zip(starts, motions.run_starts("kicks", starts, nothing_beside), strict=True):
         if motion is not None:
             motion.kicks += 1
             if motion.found_by == KICKED:

@@ -259,7 +259,7 @@ class Starts:
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker)
         self.endings: list[Ending] = []
         self.times: Counter = Counter()
-        self.computed = 0
+        self.computed: set[str] = set()  # keys of the runs that were not there before
 
     def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:
         """Run starts that are not there yet, side by side. title: of the progress. listed: whether in the table.
@@ -271,7 +271,7 @@ class Starts:
             return []
         timing, summary = run_within(self.plan, self.folder, jobs, title=title)
         self.times.update(timing)
-        self.computed += summary.computed
+        self.computed |= summary.made
         rows = summary.by_key
         endings = [self._ending({**rows[job.key], **job.labels}) for job in jobs]
         if listed:

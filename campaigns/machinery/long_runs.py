@@ -24,6 +24,7 @@ OPEN = ("undecided", "transient")  # regimes that decide nothing
 UNSETTLED = "unsettled"  # outcome of a start that has not settled yet
 LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS = "output.tangent_vectors"
+EARLY = 60  # wave periods of the first part of a run that lasts until it is judged
 
 
 class Part(NamedTuple):
@@ -103,10 +104,11 @@ def until_judged(
 ) -> Part | None:
     """Until the regime of the run is known.
 
-    looks: whether the run is judged after 90, 135, 205, ... wave periods, up to `budget`; if not, it is one part of
-    `budget` periods. If a look finds no period, and no period that the motion approaches, the run carries perturbations
-    from then on. A run that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for
-    longer than the run was judged; the first part of this check is as long as chaos needs to show by SURE errors.
+    looks: whether the run is judged after 60, 90, 135, ... wave periods, up to `budget`; if not, it is one part of
+    `budget` periods. After 60 only an orbit can decide on which the run lies (`campaigns.explore.multipliers`). If a
+    later look finds no period, and no period that the motion approaches, the run carries perturbations from then on. A
+    run that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for longer than the
+    run was judged; the first part of this check is as long as chaos needs to show by SURE errors.
     start: the state of another run in which this run begins; None: the start of the scene. most: wave periods after
     which the run has no further look, though `budget` allows it. least: wave periods that chaos has to last, because
     transients of this length are known (`campaigns.explore.stages`).
@@ -115,7 +117,7 @@ def until_judged(
 
     ends = []
     if looks:
-        ends = list(looks_until(budget))
+        ends = [EARLY, *looks_until(budget)]
     if row is None:
         first_end, *_ = *ends, budget
         return Part(scene, first_end, start)
@@ -160,7 +162,7 @@ def _unclear(row) -> bool:
     from analysis.evidence import read_evidence
     from analysis.looks import CLOSE, next_look
 
-    if row["regime"] != "undecided":
+    if row["regime"] != "undecided" or row["periods"] < next_look():
         return False
     failed = {name for name, *_, met in read_evidence(row.get("evidence") or "") if met == "no"}
     return row.get("strobed_period") is None or (CLOSE in failed and row["periods"] > next_look())

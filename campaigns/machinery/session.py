@@ -26,6 +26,7 @@ from pathlib import Path
 
 import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
+from campaigns.machinery.finished import finished, keep_finished, order_key
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import stage
@@ -102,9 +103,19 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     `command`.
     """
     start, how = time.perf_counter(), order.how
-    fault = ""
+    fault = key = ""
     answer: list[str] = []
     with claimed(how.out), stage(study.name):
+        if order.cases and order.simulate is None:
+            lasting = {name: value for name, value in parameters.items() if name not in study.places}
+            key = order_key(order, lasting, versions())
+            summary = finished(how.out, key)
+            if summary is not None:
+                timing = dict.fromkeys(("compile_s", "run_s", "analysis_s", "report_s"), 0.0)
+                timing["total_s"] = time.perf_counter() - start
+                answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
+                code = printed(partial(print_summary, how, summary, answer, timing, fault))
+                return EXIT_FAILED if study.strict and _failures(summary) else code
         record = begun(how.out, study.name, command_line(study.called, argv), parameters)
         timing, summary = study.work(order)
         failures = _failures(summary)
@@ -126,6 +137,8 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
                 raise
             except Exception as error:  # the results stand without a report
                 fault = f"{type(error).__name__}: {error}"
+        if key and not fault:
+            keep_finished(how.out, key, summary)
         now = time.perf_counter()
         timing |= {"report_s": now - start_of_report, "total_s": now - start}
     code = printed(partial(print_summary, how, summary, answer, timing, fault))
@@ -156,9 +169,6 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
     Written, unless the folder holds that of a finished campaign which differs only in when and where it ran. seed is
     null where `parameters` names none: no random numbers are drawn. Raises OSError.
     """
-    versions = {"python": platform.python_version()}
-    for package in _PACKAGES:
-        versions[package] = _version(package)
     record = {
         "campaign": name,
         "command": command,
@@ -168,7 +178,7 @@ def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[st
         "host": socket.gethostname(),
         "cpu_count": os.cpu_count(),
         "platform": platform.platform(),
-        "versions": versions,
+        "versions": versions(),
         "git": git_state(Path(__file__).parents[1]),
         "engine_source_hash": engine.source_hash(),
     } | parameters
@@ -190,6 +200,14 @@ def ended(out: Path) -> bool:
 
 def _now_utc() -> str:
     return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def versions() -> dict[str, str | None]:
+    """Of Python and of the libraries that shape results and reports."""
+    versions = {"python": platform.python_version()}
+    for package in _PACKAGES:
+        versions[package] = _version(package)
+    return versions
 
 
 def _version(package: str) -> str | None:

@@ -25,8 +25,8 @@ from ..time.steps import known_part, plan_stage, stage_rate
 from .ticks import row_of_stage
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
-# Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4): rates of a perturbation
-Turn = namedtuple("Turn", "numbers a w Y K K_new")
+# Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4), known (n, 3): of a perturbation, as in `tangent_stage`
+Turn = namedtuple("Turn", "numbers a w Y K K_new known")
 # Perturbations of every lane, COUNT the last axis: C, K (k, n, 4), conserved variables and rates; Ks (k, s, n, 4) of
 # the stages of a step; C_tilde, C_new (n, 4) of one stage
 Carried = namedtuple("Carried", "C K Ks C_tilde C_new")
@@ -58,7 +58,7 @@ def plan_turn(records, tables, T, rows, trails, step, stage, at, turn):
     T, rows: of the Trails; trails (COUNT,): steps in the trail of a lane; step, stage, at (COUNT,): where it is, and
     the row there.
     """
-    numbers, a, w, _, _, _ = turn
+    numbers, a, w = turn[:3]
     latest = 0
     for b in range(COUNT):
         numbers[BUSY, b] = numbers[BEGUN, b] = numbers[ENDED, b] = 0.0
@@ -138,7 +138,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         for v in range(count):
             keep(begun, perturbed.K[v], perturbed.Ks[v, 0])
             known_part(turn.a, latest, perturbed.C[v], perturbed.Ks[v], perturbed.C_tilde)
-            tangent_stage(p, grid, base, perturbed.C_tilde, perturbed.C_new, K_new, work, water)
+            tangent_stage(p, grid, base, perturbed.C_tilde, perturbed.C_new, K_new, work, water, turn.known)
             end_stage(rows, perturbed.C_new, K_new, perturbed.C[v], perturbed.K[v], perturbed.Ks[v])
         if some(ended):
             orthonormalise(p.per_speed * p.per_speed, ended, perturbed.C, perturbed.K, rows[LENGTH : LENGTH + count])
@@ -167,7 +167,7 @@ class Followers:
         self.sideways = run.trail.sideways
         self.periods = np.ones(COUNT)
         self.nats, self.lateral_nats = np.zeros((COUNT, 1, k)), np.zeros((COUNT, 1))
-        turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4)
+        turn = LENGTH + k + 1, s, 3, (n, 6), (n, 4), (n, 4), (n, 3)
         self.turn = Turn(*(lane_zeros(*np.atleast_1d(size)) for size in turn))
         self.turn.numbers[RATE] = 1.0
         sizes = (k, n, 4), (k, n, 4), (k, s, n, 4), (n, 4), (n, 4)

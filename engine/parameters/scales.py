@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ..physics.strains import strain_at, tension_at
+from ..physics.strains import strain_at, tension_at, tensions_at
 from ..record import RELEASE_STEPS
 from ..scene.models import Scene
 from ..scene.sections import End, Tether
@@ -53,7 +53,7 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
 def fastest_wave(record: np.void, scene: Scene) -> float:
     """Largest axial wave speed sqrt(T'/m), m/s, between no strain and that of the static loads."""
     strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
-    slopes = np.diff([tension_at(strain, scene.tether.tension) for strain in strains]) / strains[1]
+    slopes = np.diff(tensions_at(strains, scene.tether.tension)) / strains[1]
     return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
 
 

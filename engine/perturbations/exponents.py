@@ -29,7 +29,7 @@ def carry(p, tables, period, count, trail, tangent, across):
     tangent: vectors, rates (k, n, 4), dC and dK, orthonormal in C on entry and exit, and growth (periods, k), nats;
     across: weights, vector, rates (n, 2), C = (q_y, V_y) of length one by these weights on entry and exit, and growth
     (periods,), nats; None where there are none. What each step adds to a growth goes to the period (s) in which it ends
-    (the last, beyond the end). Period 0: tangent vectors are carried as they are, of any length, and no growth is kept.
+    (the last, beyond the end).
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
@@ -41,7 +41,7 @@ def carry(p, tables, period, count, trail, tangent, across):
         work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
         water = Water(np.zeros((n, 8)), np.zeros((n, 4)))
         dKs, dC_tilde, dC = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((n, 4))
-        lengths = np.empty(number)
+        lengths, known_of_box = np.empty(number), np.zeros((n, 3))
     if across is not None:
         weights, vector, vector_rates, vector_growth = across
         H, E = np.zeros((n, COEFFICIENTS)), np.zeros((n, WIDTH))
@@ -61,7 +61,7 @@ def carry(p, tables, period, count, trail, tangent, across):
                 linearise(p, tables, base, work, water)
                 for v in range(number):
                     known_part(a, so_far, vectors[v], dKs[v], dC_tilde)
-                    tangent_stage(p, tables, base, dC_tilde, dC, dKs[v, i], work, water)
+                    tangent_stage(p, tables, base, dC_tilde, dC, dKs[v, i], work, water, known_of_box)
                     if i == s - 1:
                         copy_into(vectors[v], dC)
                         copy_into(rates[v], dKs[v, i])
@@ -72,7 +72,7 @@ def carry(p, tables, period, count, trail, tangent, across):
                 known_part(a, so_far, vector, dK, known)
                 lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)
                 stage_rate(rate, dC_y, known, dK[i])
-        if tangent is not None and period > 0.0:
+        if tangent is not None:
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
             for v in range(number):
                 growth[period_of(t + dt, period, growth.shape[0]), v] += np.log(lengths[v])

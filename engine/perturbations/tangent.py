@@ -146,8 +146,8 @@ def _known_load(p, rate, row, drag, dC_tilde, x, z):
 
 
 @kernel
-def _up_the_line(p, tables, base, work, water, dC_tilde):
-    """One pass up: p of every box into work.E. Returns dy = (deps, dS, dphi) and dV of the upper end."""
+def _up_the_line(p, tables, base, work, water, dC_tilde, known_of_box):
+    """One pass up: p of every box into known_of_box (n, 3). Returns dy = (deps, dS, dphi) and dV of the upper end."""
     Q, E, rate = work.Q, work.E, base.rate
     n = Q.shape[0]
     r0 = r1 = r2 = x = z = 0.0  # x, z: c dX~
@@ -175,7 +175,7 @@ def _up_the_line(p, tables, base, work, water, dC_tilde):
         r0 += dot((Rx[0] + ec * Qa[col.COS], Rx[1], Rx[2] - ec * Qa[col.QZ]), known)
         r1 += dot((Rz[0] + ec * Qa[col.SIN], Rz[1], Rz[2] + ec * Qa[col.QX]), known)
         r2 = dot((-Rk[0], -Rk[1], -(Rk[2] + 1.0 / e)), known) - r2
-        put(row, col.P_KNOWN, known)
+        put(known_of_box[k], 0, known)
     last, X, Z = n - 1, x / rate, z / rate
     dV_tilde = dC_tilde[last, col.VX], dC_tilde[last, col.VZ]
     top_x, top_z = _end_change(p, base, work, dV_tilde, (X, Z), _water_change(water.J[last], X, Z))
@@ -189,14 +189,14 @@ def _up_the_line(p, tables, base, work, water, dC_tilde):
 
 
 @kernel
-def tangent_stage(p, tables, base, dC_tilde, dC, dK, work, water):
+def tangent_stage(p, tables, base, dC_tilde, dC, dK, work, water, known_of_box):
     """dC, dK (n, 4) of one perturbation at a stage that `linearise` has eliminated.
 
-    dC_tilde (n, 4): what the perturbation makes of C~. Down the line velocities follow from the box rule of
-    compatibility, V_a = V_b - e (q_t,a + q_t,b). A line without bending carries no perturbations.
+    dC_tilde (n, 4): what the perturbation makes of C~; known_of_box (n, 3): work. Down the line velocities follow from
+    the box rule of compatibility, V_a = V_b - e (q_t,a + q_t,b). A line without bending carries no perturbations.
     """
     Q, rate, n = work.Q, base.rate, base.Y.shape[0]
-    y, U, W = _up_the_line(p, tables, base, work, water, dC_tilde)
+    y, U, W = _up_the_line(p, tables, base, work, water, dC_tilde, known_of_box)
     e = x_above = z_above = 0.0
     for k in range(n - 1, -1, -1):
         row, known, C, K = Q[k], dC_tilde[k], dC[k], dK[k]
@@ -211,7 +211,7 @@ def tangent_stage(p, tables, base, dC_tilde, dC, dK, work, water):
         x_above, z_above = x, z
         if k > 0:
             e = 0.5 * tables[p.grid_at + k - 1]
-            y = affine(rows_of(work.E[k], col.P), y, vector(work.E[k], col.P_KNOWN))
+            y = affine(rows_of(work.E[k], col.P), y, vector(known_of_box[k], 0))
     for m in (col.VX, col.VZ):  # the anchor does not move
         dC[0, m] = dK[0, m] = 0.0
 

@@ -1,5 +1,6 @@
 """A tension law outside the kernels: T at a strain, and the strain under a load."""
 
+from collections.abc import Sequence
 from functools import cache
 from types import SimpleNamespace
 
@@ -16,8 +17,13 @@ def _numbers_of(law):
 
 def tension_at(strain: float, law: TensionLaw) -> float:
     """T (N) at a strain, outside the kernels."""
+    return tensions_at([strain], law)[0]
+
+
+def tensions_at(strains: Sequence[float], law: TensionLaw) -> list[float]:
+    """T (N) at strains."""
     module, p, table = _numbers_of(law)
-    return float(module.value(strain, p, table)[0])
+    return [float(module.value(strain, p, table)[0]) for strain in strains]
 
 
 def strain_at(load: float, law: TensionLaw) -> float:

@@ -22,9 +22,10 @@ import numpy as np
 
 from .. import record as col
 from ..arrays import Motion, Trail
-from ..perturbations.exponents import carry
+from ..perturbations.abreast import carried_through
 from ..planar.columns import CX, CZ, EPS, PHI, VX, VZ
 from ..scene.models import Scene
+from ..simd.vector import COUNT
 from ..time.given_steps import march_over
 from ..time.status import OK
 from ..time.time_loop import march
@@ -78,7 +79,7 @@ class PeriodMap:
     has no image: a loop is released, a turn passes pi, or Newton's method fails.
     """
 
-    meshes = len(FIRST_STEPS)
+    meshes, abreast = len(FIRST_STEPS), COUNT  # `abreast`: perturbations that the derivative carries side by side
 
     def __init__(self, scene_of: Callable[[float], Scene], start: FinalState, value: float) -> None:
         if why := why_no_map(scene_of(value)):
@@ -255,13 +256,9 @@ class PeriodMap:
             def derivative(V: np.ndarray) -> np.ndarray:
                 changes = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
                 changes[:, :, 0, 2:] = 0.0  # the anchor does not move
-                dC, dK = changes
-                carry(run.record, run.tables, 0.0, len(taken), trail, (dC, dK, _NO_GROWTH), None)
-                return (changes.transpose(1, 0, 2, 3).reshape(len(dC), -1) / self.scale).T
+                images = np.stack(carried_through(run.record, run.tables, trail, len(taken), *changes), axis=1)
+                return (images.reshape(len(images), -1) / self.scale).T
 
             return np.concatenate([motion.C.ravel(), motion.K.ravel()]) / self.scale, derivative
 
         return image
-
-
-_NO_GROWTH = np.zeros((0, 0))

@@ -22,6 +22,8 @@ def test_the_error_of_a_largest_tension_is_of_grid_steps_ringing_and_what_stands
     companion = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 99.5}
     assert error_N(row, 101.0, companion) == (7.5, ["the largest tension holds to 7 % only"])
     assert error_N(row | {"tension_top_max_N": 102.0}, 101.0, companion) == (4.5, [])
+    alike = {"status": "ok", "outcome": JOINED, "tension_usual_max_N": 4000.0}
+    assert error_N({"tension_top_max_N": 4000.0}, 4000.0, alike) == (2.0, []), "no less than 5e-4 of it"
     _, (of_another, _) = error_N(row, 101.0, companion | {"outcome": UNSETTLED})
     assert OTHER_MOTION in of_another
     unknown, (ended,) = error_N(row, 101.0, companion | {"status": "newton-failed"})
@@ -35,21 +37,22 @@ def test_the_error_of_a_slack_fraction_covers_its_distance_from_the_limit(bias):
     for _ in range(400):
         shares = limit + bias + 0.03 * generator.standard_normal(6)
         finer = limit + 0.25 * bias + 0.03 * generator.standard_normal(2).mean()
-        error, words = slack_error(shares, {"slack_fraction": finer})
+        error, words = slack_error(shares, {"slack_fraction": finer}, 0.0)
         covered += abs(shares.mean() - limit) < error
         assert error > SLACK_COARSE or not words
     assert covered > 0.9 * 400
-    assert np.isnan(slack_error(shares, {"status": "newton-failed"})[0])
+    assert np.isnan(slack_error(shares, {"status": "newton-failed"}, 0.0)[0])
 
 
 def test_a_slack_fraction_that_the_companion_moves_is_told_and_chance_is_not():
     companion, scattered = np.full(4, 0.65), np.array([0.58, 0.72, 0.66, 0.64])
-    assert slack_error(companion, {"slack_fraction": 0.71}) == (
+    assert slack_error(companion, {"slack_fraction": 0.71}, 0.005) == (
         pytest.approx(0.08),
         ["the slack fraction holds to 0.08 only"],
     )
-    error, words = slack_error(scattered, {"slack_fraction": 0.71})
+    error, words = slack_error(scattered, {"slack_fraction": 0.71}, 0.005)
     assert error > 0.08 and not words
+    assert slack_error(companion, {"slack_fraction": 0.65}, 0.005) == (0.005, []), "no less than half a sample"
 
 
 @pytest.mark.parametrize(("transient", "period"), [(30, None), (30, 1), (0, 4)])
