@@ -194,7 +194,7 @@ class Motions:
             coarse = coarse_endings(self, title, starts)
         endings = dict(coarse)
         waiting = [number for number in range(len(starts)) if number not in coarse]
-        while waiting:
+        while True:
             requests = [self.request(*starts[number]) for number in waiting]
             for number, ending in zip(waiting, self.starts.run(title, requests, listed=False), strict=True):
                 place, start = starts[number]
@@ -207,6 +207,8 @@ class Motions:
             for number in coarse:
                 if any(endings[other].motion is not endings[number].motion for other in beside(number)):
                     waiting.append(number)
+            if not waiting:
+                break
             for number in waiting:
                 del coarse[number]
         in_order = [endings[number] for number in range(len(starts))]
