@@ -313,3 +313,26 @@ def test_of_three_sequences_of_steps_a_false_one_is_not_believed_and_its_distanc
     system = OrbitMap(logistic, frozen=frozen, meshes=3)
     orbit, errors = middle_of(system, find_orbit(system, [0.6], 2.5))
     assert abs(orbit.multipliers[0] - (2.0 - 2.5)) < 3e-3 and 0.04 < errors[0] < 0.06
+
+
+def test_a_map_that_carries_eight_directions_at_once_gives_its_multipliers_in_fewer_turns():
+    """A linear map of 60 coordinates, 20 of them slow: an orbit needs many directions, most of them at no cost."""
+    generator = np.random.default_rng(3)
+    basis, _ = np.linalg.qr(generator.normal(size=(60, 60)))
+    moduli = np.concatenate([np.linspace(0.95, 0.4, 20), np.full(40, 1e-4)])
+    matrix, turns = basis @ np.diag(moduli) @ basis.T, []
+
+    def step(z, shift):
+        def linearised(V):
+            turns.append(-(-V.shape[1] // 8))
+            return matrix @ V
+
+        return matrix @ z + shift, linearised
+
+    counts = []
+    for abreast in (1, 8):
+        turns.clear()
+        orbit = find_orbit(OrbitMap(step, abreast=abreast), np.ones(60), 0.3, count=4)
+        assert orbit.multipliers == pytest.approx(moduli[:4], abs=1e-8)
+        counts.append(sum(turns))
+    assert counts[1] < 0.85 * counts[0]

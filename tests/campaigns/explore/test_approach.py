@@ -75,3 +75,12 @@ def test_a_massless_tether_in_calm_waves_repeats_every_wave(steepness, depth_m):
 def test_tori_and_chaos_of_a_massless_tether_have_no_period(steepness, depth_m):
     """Multipliers 1.008 of the orbit within the tori."""
     assert from_rest(steepness, depth_m)["period"] is None
+
+
+def test_a_run_on_an_orbit_that_attracts_is_judged_after_60_periods_by_extremes_of_its_own():
+    run = simulate(at(0.1), periods=60)
+    row = judged_row(run)
+    assert row["regime"] == "period-2" and row["strobed_period"] == 2 and "lies on it" in row["regime_reason"]
+    assert row["multiplier_modulus"] + row["multiplier_error"] < 1.0
+    assert row["tension_top_max_N"] == largest_N(run, 60 - row["transient_periods"])
+    assert judged_row(simulate(at(0.1), periods=45))["regime"] == "undecided", "too short for an orbit"
