@@ -93,9 +93,11 @@ def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> 
     verdict, orbit = judgement.verdict, None
     if verdict.regime in (*OPEN, "quasi-periodic"):
         verdict, orbit = judged_by_orbit(trajectory, verdict, orbits)
-    if orbit is not None or not verdict.period or trajectory.final_state is None:
-        limit = orbit is not None and verdict.evidence[-1].name == NEARER
-        return replace(judgement, verdict=verdict, orbit=orbit, limit=limit)
+    if orbit is not None:
+        limit = verdict.evidence[-1].name == NEARER
+        return replace(judgement, verdict=verdict, orbit=orbit, limit=limit, note=orbit.words())
+    if not verdict.period or trajectory.final_state is None:
+        return replace(judgement, verdict=verdict)
     try:
         orbit = orbit_under(trajectory, verdict.period, orbits)
         if orbit.period != verdict.period:

@@ -37,7 +37,7 @@ def checked(periods, status="ok"):
     return SimpleNamespace(status=status, scene="tighter", tangent=SimpleNamespace(growth_nats=np.zeros((periods, 1))))
 
 
-@pytest.mark.parametrize(("looks", "periods"), [(True, 90), (False, 300)])
+@pytest.mark.parametrize(("looks", "periods"), [(True, 60), (False, 300)])
 def test_a_run_begins_with_its_first_look_or_its_whole_length(looks, periods):
     assert until_judged(SCENE, None, None, {}, 300, looks) == Part(SCENE, periods)
 
