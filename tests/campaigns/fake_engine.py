@@ -43,8 +43,12 @@ class FakeEngine:
     no_space: tuple[float, ...] = ()
     loops: tuple[float, ...] = ()  # where planar runs release loops
 
-    def __call__(self, scene, periods=None, duration_s=None):
+    def __call__(self, scene, periods=None, duration_s=None, start=None):
         steepness = scene.waves.steepness
+        if start is not None:  # a run goes on
+            later = sines(scene, periods)
+            later.columns["time_s"] += start.columns["time_s"][-1]
+            return later
         if periods is None:
             return sines(scene, duration_s / scene.waves.period_s)
         begun = self.begun().count(steepness)

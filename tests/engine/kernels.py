@@ -120,22 +120,19 @@ def upper_end_of(p, tables, t, rate, in_motion, N, V, V_tilde, F):
     return np.array(e), e_N, np.array(D)[[0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(3, 3)
 
 
-CHUNK = 400  # steps kept at a time
-
-
 class Steps:
     """A run whose accepted steps are kept, chunk by chunk: T (m, 3) = (t, dt, whether it is of one stage), stages Ys
     (m, s, n, unknowns), their rates Ks (m, s, n, conserved)."""
 
-    def __init__(self, scene, duration_s, **changes):
+    def __init__(self, scene, duration_s, chunk=400, **changes):
         self.inner = engine_run.Run(scene, duration_s)
         self.record, self.tables, self.state = self.inner.record, self.inner.tables, self.inner.state
         for name, value in changes.items():
             self.record[name] = value
         s = max(int(self.record["stages"]), 2)
-        self.T = np.zeros((CHUNK, 3))
+        self.T = np.zeros((chunk, 3))
         motion = self.inner.motion
-        self.Ys, self.Ks = np.zeros((CHUNK, s, *motion.Y.shape)), np.zeros((CHUNK, s, *motion.C.shape))
+        self.Ys, self.Ks = np.zeros((chunk, s, *motion.Y.shape)), np.zeros((chunk, s, *motion.C.shape))
 
     def chunks(self):
         """Yield the number of steps kept, until the run is over; fails if it ends early."""

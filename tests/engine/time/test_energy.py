@@ -156,15 +156,20 @@ def test_nothing_rises_but_by_the_error_in_space():
     assert np.log2(np.divide(rises[:-1], rises[1:])) == pytest.approx(2, abs=0.15)
 
 
-@pytest.mark.parametrize("integrator", ["esdirk43", "trbdf2", "generalized-alpha", "backward-euler", "midpoint"])
+@pytest.mark.parametrize("integrator", ["esdirk43", "trbdf2", "generalized-alpha", "backward-euler"])
 @pytest.mark.parametrize("step_s", [0.004, 0.001])
-def test_no_method_gains_energy_and_midpoint_loses_none(integrator, step_s):
-    in_space, found = balance(21, "esdirk43", 0.002), balance(21, integrator, step_s)
-    assert found.max() <= 1.02 * in_space.max()
-    if integrator == "midpoint":
-        assert -found.min() <= 1.02 * np.abs(in_space).max()
+def test_damping_methods_gain_nothing(integrator, step_s):
+    in_space = balance(21, "esdirk43", 0.002).max()
+    found = balance(21, integrator, step_s)
+    assert found.max() <= 1.02 * in_space
     if integrator == "backward-euler":
         assert found.max() <= 1e-12 and np.all(np.diff(found) < 1e-4)
+
+
+@pytest.mark.parametrize("step_s", [0.004, 0.001])
+def test_midpoint_keeps_the_energy(step_s):
+    in_space = balance(21, "esdirk43", 0.0005)
+    assert np.max(np.abs(balance(21, "midpoint", step_s))) <= 1.02 * np.max(np.abs(in_space))
 
 
 SLANTED = {"waves.direction_rad": 0.5, "current": {"law": "uniform", "velocity_mps": [0.2, -0.4, 0.0]}}
