@@ -158,10 +158,10 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
 def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evidence] | None:
     """The orbit near a run, and whether the run comes nearer to it; None where no orbit is looked for or found.
 
-    It is looked for where the run repeats, or where its steps shrink. That the orbit attracts, and that the run lies on
-    it or comes nearer, proves a period after fewer wave periods than the run alone could.
+    It is looked for where the run repeats, and from the second look on where its steps shrink. That the orbit attracts,
+    and that the run lies on it or comes nearer, proves a period after fewer wave periods than the run alone could.
     """
-    from analysis import approach_evidence, approached_period, detect_period
+    from analysis import approach_evidence, approached_period, detect_period, next_look
 
     scene = trajectory.scene
     periods = round(periods_of(scene, trajectory.columns))
@@ -169,7 +169,8 @@ def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evid
         return None
     strobed, scale = strobed_states(trajectory, periods // 2)
     period = detect_period(strobed[periods // 2 :], LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
-    period = period or approached_period(strobed, scale, LONGEST_PERIOD)
+    if period is None and periods >= next_look(next_look()):
+        period = approached_period(strobed, scale, LONGEST_PERIOD)
     if period is None:
         return None
     try:

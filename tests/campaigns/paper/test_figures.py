@@ -165,8 +165,8 @@ def test_all_figures_are_drawn_alike_by_another_process_from_their_files_alone(w
     elsewhere = tmp_path / "elsewhere"
     shutil.copytree(place_of(whole), place_of(elsewhere))
     code = (
-        "import sys\nfrom reports.paper.figures import pictures\n"
-        "for path, content in pictures(sys.argv[1]).items():\n    path.write_bytes(content)\n"
+        "import sys\nfrom pathlib import Path\nfrom reports.paper.figures import pictures\n"
+        "for path, content in pictures(Path(sys.argv[1])).items():\n    path.write_bytes(content)\n"
     )
     environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
     subprocess.run([sys.executable, "-c", code, str(elsewhere)], cwd=ROOT, env=environment, check=True)
