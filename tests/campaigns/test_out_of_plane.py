@@ -17,7 +17,7 @@ from reports.out_of_plane.runs import read_study
 from reports.parts.content import Figure, Notice
 from tables import names
 from tests.campaigns.conftest import chosen, ran, rows_of
-from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine
+from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine, sines
 
 
 def made(place, periods, **engine):
@@ -218,3 +218,11 @@ def test_the_campaign_on_the_engine_itself(tmp_path):
         runs = [study.select(steepness=steepness, seed_direction=word)[0] for word in ("lateral", "mirrored")]
         y, mirrored = (Trajectory.load(trajectory_path(out, run["run_key"])).columns["y_m"] for run in runs)
         assert np.array_equal(y, -mirrored)
+
+
+def test_the_size_in_the_plane_is_half_of_the_larger_swing_after_the_transient():
+    run = sines(load_scene("tethered_buoy"), 20)
+    early = run.columns["time_s"] < 5.0 * run.scene.waves.period_s
+    for name, swing_m in (("x_m", 3.0), ("z_m", 4.0)):
+        run.columns[name][:] = np.where(early, 50.0, swing_m * np.sin(np.arange(len(early)) * np.pi / 50.0))
+    assert offplane_row(run, 6)["inplane_m"] == pytest.approx(4.0, rel=1e-3)

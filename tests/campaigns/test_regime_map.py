@@ -10,6 +10,7 @@ from campaigns.explore.grid import varied
 from campaigns.regime_map import main, maps, read_order
 from campaigns.regime_map.answer import sentences
 from campaigns.regime_map.cells import CellGrid, Quadtree
+from campaigns.regime_map.tables import _cell
 from engine import load_scene
 from tests.campaigns.conftest import finished, ran, rows_of
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
@@ -93,6 +94,16 @@ def test_the_same_command_computes_nothing_again_but_what_is_damaged(tmp_path, u
         if count.startswith("0"):
             path.write_bytes(b"CDF")
     assert len(engine.begun()) == 7
+
+
+def test_a_cell_has_the_largest_exponent_and_tension_of_its_motions():
+    exponents, tensions_N = (0.02, None, 0.31, -0.4), (4.0, 9.0, 2.0, 7.0)
+    motions = [SimpleNamespace(number=number, kicks=number) for number in range(4)]
+    rows = [{"lyapunov_tangent_bits_per_period": exponent, "loop_releases": 0} for exponent in exponents]
+    known = SimpleNamespace(row_of=lambda motion: rows[motion.number], kicks=6)
+    shown = SimpleNamespace(motions=known, tension_N=lambda motion: tensions_N[motion.number])
+    cell = _cell(shown, motions, {"status": "ok", "run_key": "a", "regime": "period-1"})
+    assert (cell["exponent_max_per_period"], cell["tension_top_max_N"], cell["share_of_largest"]) == (0.31, 9.0, 1 / 6)
 
 
 CELL = {"level": 0, "source": "computed", "motions": 2, "regime_rest": "period-1", "tension_over_static": 3.0}

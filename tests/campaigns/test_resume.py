@@ -116,6 +116,7 @@ def test_a_sealed_file_is_read_as_it_was_written_under_its_own_name_or_not_at_al
     for place in range(len(content)):
         path.write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :])
         assert kept_json(path) == {}
+    path.write_bytes(content)
     assert kept_json((tmp_path / "one.json").rename(tmp_path / "other.json")) == kept_json(path) == {}
 
 

@@ -44,6 +44,15 @@ def test_full_evidence_is_told_beside_a_verdict_that_does_not_rest_on_it(scene):
     assert full["evidence"].startswith(f"{dynamics['evidence']}; samples alone, period: 1/")
 
 
+def test_the_rope_and_the_buoy_leave_the_plane_after_the_transient(scene):
+    run = sines(load_scene("tethered_buoy", {"motion.dimensions": 3}), PERIODS)
+    before = run.columns["time_s"] < TRANSIENT * scene.waves.period_s - 1e-9
+    for name, least_m in (("y_m", -0.5), ("offplane_m", 0.75)):
+        run.columns[name][:] = np.where(before, 3.0, least_m)
+    row = judged_row(run, TRANSIENT)
+    assert (row["buoy_lateral_max_m"], row["rope_lateral_max_m"]) == (0.5, 0.75)
+
+
 @pytest.mark.parametrize("mean", [2000.0, 500.0, 250.0, 0.0, -600.0])
 def test_slack_and_compression_of_a_sine(scene, mean):
     """500 sin lies below a level for acos(-level/500)/pi of the time; 100 samples a period, errors of second order."""

@@ -1,6 +1,7 @@
 """The validation campaign: its closed forms have known limits, its measures find what was put in, a verdict is what its
 bar says, and a small campaign works to its report and is not done twice."""
 
+import math
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,6 +18,16 @@ from reports import build
 from reports.parts.folder import FolderError
 from reports.validation.report import read_study
 from tests.campaigns.conftest import rows_of
+
+
+@pytest.mark.parametrize("gravity_mps2", [3.7, 9.81])
+def test_the_ends_of_a_catenary_carry_its_weight_in_any_gravity(gravity_mps2):
+    scene = load_scene("hanging_line", {"gravity_mps2": gravity_mps2, "tether.tension.stiffness_N": 100.0})
+    line, tether = catenary(scene), scene.tether
+    weight_N = tether.density_kgpm3 * tether.area_m2 * tether.length_m * gravity_mps2
+    vertical = [math.sqrt(line.tension(s) ** 2 - line.H**2) for s in (0.0, tether.length_m)]
+    assert vertical[1] + math.copysign(vertical[0], -line.V) == pytest.approx(weight_N, rel=1e-9)
+
 
 TAUT = Catenary(H=400.0, V=0.0, w=1e-7, EA=1e4, m=0.5, length=10.0)
 PERIOD_S = 2.5

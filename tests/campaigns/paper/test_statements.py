@@ -6,14 +6,19 @@ Two synthetic worlds: in `world` everything is as the paper says, in `world(so=F
 import csv
 import io
 import math
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from campaigns.breaking_line.lines import CASES, over_case_4
+from campaigns.paper import measured
 from campaigns.paper.measured import Results
 from campaigns.paper.statements import buoy_claims, claims
 from campaigns.statements import Claim, Measured, Statement, as_csv, judge
+from engine import load_scene
 from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS
+from tests.campaigns.fake_engine import sines
 
 STRAINS = (0.099, 0.178, 0.228, 0.292)
 DEPTHS = (21.0, 22.5)
@@ -301,3 +306,16 @@ def test_the_file_has_every_statement_with_number_and_evidence():
     assert len(rows) == len(claims()) == 81 and tuple(rows[0]) == STATEMENT_COLUMNS
     assert [int(row["number"]) for row in rows] == list(range(1, len(rows) + 1))
     assert all(row["place"] and row["evidence"] and row["threshold"] and row["found"] for row in rows)
+
+
+def test_the_change_on_a_finer_grid_is_of_the_whole_record_and_early_of_its_first_periods(monkeypatch):
+    coarse, fine = (sines(load_scene("tethered_buoy"), 20) for _ in range(2))
+    late = fine.columns["time_s"] > measured.EARLY * fine.scene.waves.period_s + 1e-9
+    fine.columns["radius_m"] += np.where(late, 0.3, 0.1)
+    runs = dict(zip(measured.NODES, (coarse, fine), strict=True))
+    rows = [{"waves.steepness": 0.1, "tether.nodes": nodes} for nodes in runs]
+    monkeypatch.setattr(measured, "run_of", lambda folder, row: runs[row["tether.nodes"]])
+    part = SimpleNamespace(folder=None, rows=rows)
+    (row,) = measured._doubled(SimpleNamespace(part=lambda name: part), {})["doubled"]
+    whole_m = math.sqrt(0.01 + late.mean() * 0.08)
+    assert (row["error_early_m"], row["error_m"]) == pytest.approx((0.1, whole_m), rel=1e-9)
