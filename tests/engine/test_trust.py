@@ -7,7 +7,7 @@ import pytest
 
 from engine.parameters.scales import jumps_of
 from engine.run import Run
-from engine.run.trust import blows, errors_of_ringing
+from engine.run.trust import blows, errors_of_ringing, unresolved
 from tests.engine.lines import DRY, STILL, held, line, linear, ran
 
 RINGING_N, LENGTH_M, EA = 500.0, 20.0, 1e8
@@ -103,3 +103,11 @@ def test_steps_too_long_for_the_largest_tension_are_told():
     assert said in coarse.message and said not in fine.message
     off = float(re.search(r"holds to (\S+) N, because", coarse.message)[1])
     assert off == pytest.approx(largest[1] - largest[0], rel=0.6)  # by the method's own order, 1
+
+
+def test_what_is_lost_in_the_step_to_the_largest_tension_is_its_error_though_it_is_booked_a_sample_later():
+    run = Run(line(STILL, away(RINGING_N, EA), tension=linear(EA)), 4.0)
+    time_s = 0.05 * np.arange(81)
+    high_N, lost_N = np.where(time_s == time_s[20], 100.0, 50.0), np.where(time_s == time_s[21], 30.0, 0.0)
+    columns = {"time_s": time_s, "tension_top_high_N": high_N, "unresolved_N": lost_N}
+    assert "holds to 30 N" in unresolved(run.record, run.tables, run.scene, columns)

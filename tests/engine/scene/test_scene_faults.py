@@ -150,3 +150,9 @@ def test_a_grid_has_no_coincident_nodes_and_stretching_sets_in_without_a_jump(re
         assert grid(20.0, 61, stretching, refined) == pytest.approx(20.0 / 60, rel=1e-9)
     h = grid(20.0, 20000, 5.0, refined)
     assert h.min() > 0 and h.sum() == pytest.approx(20.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["2160 cm", "21600 mm", "0.0216 km", "21,6 m", "21.6"])
+def test_a_number_with_its_unit_is_given_back_in_the_unit_of_its_key(text):
+    (fault,) = faults_of({"water.depth_m": text})
+    assert fault.endswith(": 21.6)")
