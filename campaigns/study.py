@@ -13,6 +13,7 @@ from functools import partial
 
 import engine
 from campaigns.machinery import cli, session
+from campaigns.machinery.finished import finished, order_key
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.progress import stage
@@ -94,6 +95,7 @@ class Order:
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
     simulate: Callable | None = None  # in place of engine.simulate
+    key: str = ""  # of everything that the results depend on; "" without cases
 
     @property
     def scenes(self) -> list:
@@ -213,7 +215,15 @@ class Study:
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
-        return self._with_cases(order)
+        order.key = self._key(values)
+        if faults or finished(how.out, order.key) is None:
+            self._add_cases(order)
+        return order
+
+    def _key(self, values: Namespace, **further: object) -> str:
+        """`Order.key` of the values of options, but for those that say where it is done, and of what is given beside."""
+        asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
+        return order_key(self.called, asked | further, session.versions())
 
     def order(self, how: cli.Running, scene: str, changes: dict[str, object], **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
@@ -226,10 +236,12 @@ class Study:
         order = Order(how, cli.options_of(self.options, values), scene, changes, faults=faults)
         if self.lengths is not None:
             self.lengths.read(values, order)
-        return self._with_cases(order)
+        order.key = self._key(values, of_scene=scene, changes=changes)
+        self._add_cases(order)
+        return order
 
-    def _with_cases(self, order: Order) -> Order:
-        """The order with its cases; none of a scene that the study refuses."""
+    def _add_cases(self, order: Order) -> None:
+        """Make the cases of an order; none of a scene that the study refuses."""
         from campaigns.machinery.plausible import without_waves
 
         base = order.base() if self.in_waves else None
@@ -239,7 +251,6 @@ class Study:
         order.tell(refused)
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
-        return order
 
     def work(self, order: Order) -> tuple[dict[str, float], Summary]:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
@@ -274,6 +285,8 @@ class Study:
     def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""
         order.simulate = simulate
+        if simulate is not None and not order.cases and self.cases is not None:
+            self._add_cases(order)
         parameters = {"scene": order.name, "set": order.changes} if self.scene else {}
         if self.lengths is not None:
             parameters |= {"periods": order.periods, "transient": order.transient}

@@ -1,12 +1,13 @@
 """A campaign that is finished and asked for again: the same order, the same code, and the folder as it was left.
 
-Its answer is then printed as it stands. Runs, rows and report are not looked at, so that whoever only looks does not
-wait for what is there.
+Its answer is then printed as it stands. Runs, rows and report are not looked at, and the scenes of its runs are not
+made again, so that whoever only looks does not wait for what is there.
 """
 
 import hashlib
 import json
-from collections.abc import Mapping
+import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from campaigns.machinery.folder import made_by, of_the_page, read_json, write_json
@@ -15,19 +16,34 @@ from campaigns.machinery.plan import Summary
 FILE = "finished.json"
 _BESIDE = (FILE, ".lock")  # files of the folder that say nothing of its results
 _PACKAGES = "machine_code", "tables", "engine", "analysis", "campaigns", "reports"
+_DATA = "engine/scenes/*.toml", "campaigns/**/*.toml", "campaigns/**/*.csv"
 _COMPUTED_AGAIN = {"error", "worker-died", "analysis-failed", "lost"}  # statuses of rows that another attempt may mend
 
 
-def order_key(order, parameters: Mapping[str, object], versions: Mapping[str, str | None]) -> str:
-    """Hash of everything that a finished folder depends on: the order, all code, and the versions of libraries."""
+def order_key(called: str, asked: Mapping[str, object], versions: Mapping[str, str | None]) -> str:
+    """Hash of everything that a finished folder depends on: an order, all code and data, the versions of libraries.
+
+    called: the command; asked: what its options ask for. Of a word that names a file the content counts.
+    """
+    root = Path(__file__).resolve().parents[2]
+    data = [path.relative_to(root).as_posix() for pattern in _DATA for path in root.glob(pattern)]
+    words = json.dumps(dict(asked), sort_keys=True, default=str)
     content = {
-        "parameters": dict(parameters),
-        "runs": [job.key for job in order.cases],
-        "code": made_by({}, *_PACKAGES, *of_the_page()),
+        "order": [called, words],
+        "files": [hashlib.sha256(path.read_bytes()).hexdigest() for path in _files_in(asked.values())],
+        "code": made_by({}, *_PACKAGES, *of_the_page(), *data),
         "versions": dict(versions),
-        "report": order.how.report,
     }
-    return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _files_in(values) -> Iterator[Path]:
+    """The files that words among these values name, also words of a list."""
+    for value in values:
+        if isinstance(value, str) and os.path.isfile(value):
+            yield Path(value)
+        elif isinstance(value, list | tuple):
+            yield from _files_in(value)
 
 
 def finished(out: Path, key: str) -> Summary | None:
@@ -52,9 +68,14 @@ def keep_finished(out: Path, key: str, summary: Summary) -> None:
 
 def _listing(out: Path) -> str:
     """Hash of names, sizes and times of all files in a folder."""
-    digest = hashlib.sha256()
-    for path in sorted(out.rglob("*")):
-        if path.is_file() and path.name not in _BESIDE:
-            status = path.stat()
-            digest.update(f"{path.relative_to(out)} {status.st_size} {status.st_mtime_ns}\n".encode())
+    digest, folders = hashlib.sha256(), [str(out)]
+    while folders:
+        with os.scandir(folders.pop()) as entries:
+            for entry in sorted(entries, key=lambda entry: entry.name):
+                if entry.is_dir(follow_symlinks=False):
+                    folders.append(entry.path)
+                elif entry.name not in _BESIDE:
+                    status = entry.stat()
+                    name = os.path.relpath(entry.path, out)
+                    digest.update(f"{name} {status.st_size} {status.st_mtime_ns}\n".encode())
     return digest.hexdigest()

@@ -26,7 +26,7 @@ from pathlib import Path
 
 import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
-from campaigns.machinery.finished import finished, keep_finished, order_key
+from campaigns.machinery.finished import finished, keep_finished
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
 from campaigns.machinery.plan import Summary
 from campaigns.machinery.progress import stage
@@ -106,9 +106,8 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     fault = key = ""
     answer: list[str] = []
     with claimed(how.out), stage(study.name):
-        if order.cases and order.simulate is None:
-            lasting = {name: value for name, value in parameters.items() if name not in study.places}
-            key = order_key(order, lasting, versions())
+        if order.key and order.simulate is None:
+            key = order.key
             summary = finished(how.out, key)
             if summary is not None:
                 timing = dict.fromkeys(("compile_s", "run_s", "analysis_s", "report_s"), 0.0)
@@ -116,6 +115,8 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
                 answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
                 code = printed(partial(print_summary, how, summary, answer, timing, fault))
                 return EXIT_FAILED if study.strict and _failures(summary) else code
+            if not order.cases:
+                raise CampaignStopped(f"{how.out} has just been changed; run the same command again")
         record = begun(how.out, study.name, command_line(study.called, argv), parameters)
         timing, summary = study.work(order)
         failures = _failures(summary)

@@ -1,17 +1,12 @@
 """A finished campaign is only read again where nothing of it has changed: order, code, libraries, files."""
 
-from types import SimpleNamespace
-
 import pytest
 
+from campaigns import regime_map
 from campaigns.machinery import finished
 from campaigns.machinery.plan import Summary
 
 VERSIONS = {"numpy": "2.0"}
-
-
-def order(*keys, report=True):
-    return SimpleNamespace(cases=[SimpleNamespace(key=key) for key in keys], how=SimpleNamespace(report=report))
 
 
 def folder_of(out, statuses=("ok", "newton-failed")):
@@ -51,14 +46,39 @@ def test_a_row_that_another_attempt_may_mend_keeps_it_open(tmp_path):
 
 
 def test_the_key_tells_orders_code_and_libraries_apart(monkeypatch):
-    usual = finished.order_key(order("a", "b"), {"kicks": 8}, VERSIONS)
-    assert usual == finished.order_key(order("a", "b"), {"kicks": 8}, VERSIONS)
+    asked = {"kicks": 8, "set": ["water.depth_m=25"]}
+    usual = finished.order_key("campaigns.sweep", asked, VERSIONS)
+    assert usual == finished.order_key("campaigns.sweep", dict(reversed(asked.items())), VERSIONS)
     others = [
-        finished.order_key(order("a", "c"), {"kicks": 8}, VERSIONS),
-        finished.order_key(order("a", "b"), {"kicks": 9}, VERSIONS),
-        finished.order_key(order("a", "b"), {"kicks": 8}, {"numpy": "2.1"}),
-        finished.order_key(order("a", "b", report=False), {"kicks": 8}, VERSIONS),
+        finished.order_key("campaigns.basins", asked, VERSIONS),
+        finished.order_key("campaigns.sweep", asked | {"kicks": 9}, VERSIONS),
+        finished.order_key("campaigns.sweep", asked | {"set": ["water.depth_m=26"]}, VERSIONS),
+        finished.order_key("campaigns.sweep", asked, {"numpy": "2.1"}),
     ]
     monkeypatch.setattr(finished, "made_by", lambda settings, *sources: "other code")
-    others.append(finished.order_key(order("a", "b"), {"kicks": 8}, VERSIONS))
+    others.append(finished.order_key("campaigns.sweep", asked, VERSIONS))
     assert usual not in others
+
+
+@pytest.mark.parametrize("wrapped", [str, lambda path: [path]])
+def test_the_key_tells_the_contents_of_files_apart_that_words_name(wrapped, tmp_path):
+    path = tmp_path / "scene.toml"
+    keys = set()
+    for content in ("depth_m = 21.0", "depth_m = 22.0"):
+        path.write_text(content)
+        keys.add(finished.order_key("campaigns.sweep", {"scene": wrapped(str(path))}, VERSIONS))
+    assert len(keys) == 2
+
+
+def test_a_finished_map_is_printed_again_without_the_scenes_of_its_cells(tmp_path, capsys, monkeypatch):
+    words = ["--vary", *"waves.steepness 0.05 0.1 2 water.depth_m 22 23 2".split(), "--out", str(tmp_path)]
+    order = regime_map.read_order(words, [])
+    assert len(order.cases) == 4
+    (tmp_path / "answer.txt").write_text("the answer\n")
+    finished.keep_finished(tmp_path, order.key, Summary([{"status": "ok"}], 4, 0, 0.0))
+    monkeypatch.setattr(type(order), "scene", None)
+    assert regime_map.main(words) == 0
+    assert "the answer" in capsys.readouterr().out
+    again = [*words, "--starts", "5"]
+    monkeypatch.undo()
+    assert len(regime_map.read_order(again, []).cases) == 4
