@@ -47,7 +47,7 @@ def sweep(rounds, periods):
     for name, extra in (("without perturbations", {}), ("with two perturbations", CARRIED)):
         members = scenes(extra)
         batch = partial(simulate_batch, periods=periods)
-        simulate_batch(members[:2], periods=0.1)
+        simulate_batch(members[:8], periods=0.1)
         simulate(members[0], periods=0.1)
         with ProcessPoolExecutor(2) as pool:
             list(pool.map(partial(half, extra, 0.1), range(2)))
@@ -71,7 +71,7 @@ def main() -> None:
     options.add_argument("--periods", type=float, default=40, help="length of the runs in wave periods (default 40)")
     arguments = options.parse_args()
     print_load()
-    first = seconds(lambda: simulate_batch(scenes({})[:2], periods=0.1))
+    first = seconds(lambda: simulate_batch(scenes({})[:8], periods=0.1))
     print(f"first batch (compilation, or loading what is compiled): {first:.1f} s")
     sweep(arguments.rounds, arguments.periods)
     print_load()

@@ -221,7 +221,7 @@ class Study:
         return order
 
     def _key(self, values: Namespace, **further: object) -> str:
-        """`Order.key` of the values of options, but for those that say where it is done, and of what is given beside."""
+        """`Order.key` of the values of options, but for those that say where it is done, and of `further` ones."""
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
 

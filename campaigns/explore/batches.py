@@ -20,7 +20,7 @@ from campaigns.explore.starts import run_within
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.runner import groups_of
+from campaigns.machinery.runner import shares_worker
 from engine.scene import scene_from_toml
 from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, Row, counted, names
 
@@ -72,7 +72,7 @@ def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
             value = float(f"{low + (high - low) * number / (count + 1):.12g}")
             scene = unfollowed(scenes[values[0]], {key: value})
             jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
-    if not groups_of(plan, jobs):
+    if not all(shares_worker(plan, job) for job in jobs):
         jobs = []
     row = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
     return batch(plan, "between", "values between", BETWEEN, row, jobs)
@@ -93,7 +93,7 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
             jobs.append(job_from(labels, capped, length, start_of(plan, row)))
             if row is peak:
                 largest = jobs[-1:]
-        if not groups_of(plan, jobs):
+        if not all(shares_worker(plan, job) for job in jobs):
             jobs = largest
     row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
     return batch(plan, "companions", "runs with the wetted cap", COMPANIONS, row, jobs)

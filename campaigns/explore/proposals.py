@@ -16,7 +16,7 @@ from campaigns.machinery.tasks import Task, results
 from engine.physics.strains import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
-SCENES = 8  # that a worker is given at once
+SCENES = 2  # that a worker is given at once
 LONGER = 320  # wave periods of the start from rest and of kicks that come nearer to a period, if 80 do not settle them
 DIFFERENCE = 1e-5  # of a state, for the derivative of the map over a wave period
 

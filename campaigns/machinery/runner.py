@@ -29,7 +29,7 @@ ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
-FEWEST = 4  # jobs for each worker below which they are not put together
+FEWEST = 4  # jobs for each worker below which they are not put together: eight lanes cost as much as three runs alone
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
@@ -58,26 +58,29 @@ def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
 def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
     """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
-    An empty list where the plan or the jobs do not allow it, and for threads, because nothing can interrupt a group
-    from within the process.
+    Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
     """
-    if plan.simulate_each is None or plan.how.backend == "threading":
-        return []
     alike: dict[tuple, list[Job]] = {}
     for job in jobs:
-        if engine.goes_in_lanes(job.scene):
+        if shares_worker(plan, job):
             alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
-    groups = []
+    groups, workers = [], plan.how.jobs
     most = MOST
     if plan.sends:
         most = MOST_SENT
     for members in alike.values():
-        workers = min(plan.how.jobs, len(members) // FEWEST)
-        count = workers * math.ceil(len(members) / (max(1, workers) * most))
+        if len(members) < FEWEST * workers:
+            continue
+        count = workers * math.ceil(len(members) / (workers * most))
         for first in range(count):
             # dealt like cards: neighbours cost alike, and so the groups do
             groups.append(tuple(_mixed(members[first::count])))
     return groups
+
+
+def shares_worker(plan: Plan, job: Job) -> bool:
+    """Whether a job can go side by side with others. Not in threads: nothing interrupts a group within the process."""
+    return plan.simulate_each is not None and plan.how.backend != "threading" and engine.goes_in_lanes(job.scene)
 
 
 def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:

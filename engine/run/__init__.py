@@ -5,13 +5,14 @@ A run begins at rest (`rest`), with the velocities of its scene, or where anothe
 
 import math
 import time
+from collections.abc import Callable
 
 import numpy as np
 
 from .. import record as col
 from ..arrays import Motion, Output
 from ..parameters import numbers_of
-from ..parameters.limits import longest_step
+from ..parameters.limits import MOST_SAMPLES, longest_step
 from ..parameters.scales import TRANSIT_STEPS, jumps_of
 from ..perturbations.exponents import Followed
 from ..planar import state as planar
@@ -30,6 +31,7 @@ from .rest import Rest, largest_turn, rest_of
 from .start import taken_over
 from .trust import doubts_of
 
+CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
 COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases")  # since the first run
 
 
@@ -161,8 +163,19 @@ class Run:
 
     def compile(self) -> None:
         """Compile what `advance` needs, or load it compiled, outside `wall_s`: no step is made."""
+        wall_s = self.wall_s
         self.advance(-self.goal)
-        self.wall_s = 0.0
+        self.wall_s = wall_s
+
+    def finish(self, progress: Callable[[float], None]) -> None:
+        """March to the end; progress: callable(seconds simulated), called now and then."""
+        self.compile()
+        chunk, earlier_s = 1, self.wall_s
+        while not self.done():
+            self.advance(chunk)
+            call_s, earlier_s = self.wall_s - earlier_s, self.wall_s
+            chunk = max(1, min(MOST_SAMPLES, int(chunk * min(2.0, CALL_S / max(call_s, 1e-9)))))
+            progress(self.fraction() * self.duration_s)
 
     def advance(self, chunk: int) -> None:
         """March until `chunk` more samples are stored, or the run ends."""

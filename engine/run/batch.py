@@ -17,7 +17,7 @@ from ..record import SAMPLE_WIDTH, STATE
 from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 from . import Run
 
-LEAST = 2  # runs of a kind for which a batch pays: eight lanes cost about as much as one run alone, and less than two
+LEAST = 3  # runs of a kind for which a batch pays: it costs as much as three to four runs alone, whatever is in it
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
@@ -110,6 +110,12 @@ class Machine:
             self.followers.unload(b, run)
         return run
 
+    def release(self, b):
+        """Take the run of a lane out that is under way, to go on alone: the trial that it is in begins again."""
+        if self.arrays.numbers[RESTARTED, b] == 0.0:
+            self.states[b]["attempts"] -= 1
+        return self.unload(b)
+
     def compile(self):
         """Compile what `advance` needs, or load it compiled, outside the time of any run."""
         self.advance(0)
@@ -155,6 +161,7 @@ def run_through(waiting, progress):
     """Run Requests, all of one kind, side by side; yields (Request, Trajectory) as they end, in no order.
 
     waiting: deque, to which runs of the same kind may be added meanwhile. It is left with what too few would share.
+    Runs that are left in the lanes when the others have ended go on alone, with the same bits.
     progress: callable(seconds simulated of the runs that have not ended), called now and then.
     """
     machine, requests = None, [None] * COUNT
@@ -173,7 +180,12 @@ def run_through(waiting, progress):
                 machine.load(b, run)
                 requests[b] = request
                 going += 1
-        if going == 0:
+        if going < LEAST:
+            for b in range(COUNT):
+                if machine is not None and machine.runs[b] is not None:
+                    run = machine.release(b)
+                    run.finish(progress)
+                    yield requests[b], run.trajectory()
             return
         for b in machine.advance():
             run = machine.unload(b)

@@ -4,13 +4,12 @@ import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 
-from ..parameters.limits import MOST_SAMPLES, check_room
+from ..parameters.limits import check_room
 from ..scene.models import Scene
 from ..trajectory import Trajectory
 from . import Run
 from .start import Start, checked_start
 
-CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
 Progress = Callable[[float], None]
 
 
@@ -125,13 +124,7 @@ def _alone(waiting: deque, progress: Progress) -> Iterator[tuple[object, Traject
         yield request, driver.run(scene, duration_s, lambda share: progress(share * duration_s))
         return
     run = Run(scene, duration_s, request.start)
-    run.compile()
-    chunk, earlier_s = 1, 0.0
-    while not run.done():
-        run.advance(chunk)
-        call_s, earlier_s = run.wall_s - earlier_s, run.wall_s
-        chunk = max(1, min(MOST_SAMPLES, int(chunk * min(2.0, CALL_S / max(call_s, 1e-9)))))
-        progress(run.fraction() * duration_s)
+    run.finish(progress)
     yield request, run.trajectory()
 
 

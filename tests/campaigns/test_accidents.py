@@ -245,7 +245,7 @@ def test_groups_are_even_and_hold_every_job_once(tmp_path):
     sizes = [len(group) for group in grouped]
     assert len(grouped) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
     assert sorted(job.key for group in grouped for job in group) == sorted(job.key for job in many)
-    assert groups(tmp_path, many[: FEWEST - 1], **side_by_side) == []
+    assert groups(tmp_path, many[: 2 * FEWEST - 1], **side_by_side) == []  # of two workers
     # the engine runs one by one what keeps profiles, and threads share no worker
     assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **side_by_side) == []
     assert groups(tmp_path, jobs_of(EIGHT), "threading", **side_by_side) == groups(tmp_path, jobs_of(EIGHT)) == []
