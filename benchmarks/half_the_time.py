@@ -3,7 +3,7 @@
     python -m benchmarks.half_the_time BEFORE [AFTER] [--rounds 3] [--works sweep again ...] [--growth]
 
 BEFORE, AFTER   folders of two checkouts; AFTER is this one unless given
-Works           each is a command, or a few lines of Python, in a process of its own on all cores of the machine. "cold":
+Works           each is a command, or a few lines of Python, in a process of its own on all cores. "cold":
                 no kernel is compiled; "again": the command is given a second time. Kernels of the others are compiled
                 before the clock starts. Medians over the rounds, in which the checkouts take turns.
 --growth        how the time of AFTER grows with nodes, values, starts and workers. With 1 and 2 workers it is measured.

@@ -17,7 +17,7 @@ from ..record import SAMPLE_WIDTH, STATE
 from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 from . import Run
 
-LEAST = 3  # runs of a kind for which a batch pays: it costs as much as three to four runs alone, whatever is in it
+LEAST = 3  # runs of a kind for which a batch pays: it costs as much as two to four runs alone, whatever is in it
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
