@@ -29,6 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "poincare": ["PoincareSection", "poincare_section", "section_at_phases"],
         "section_distances": ["SectionDistance", "section_distance"],
         "section_maps": ["PredictionGain", "prediction_gain", "section_lyapunov"],
+        "snaps": ["Snaps", "detect_snaps", "running_mean"],
         "spectra": ["SpectralPeak", "Spectrum", "peaks_near", "spectral_peaks", "spectrum"],
         "stationarity": ["Drift", "record_drift"],
         "surrogates": [

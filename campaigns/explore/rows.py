@@ -13,6 +13,7 @@ import numpy as np
 
 from analysis import detect_period, extremes, slack_fraction, transverse_lyapunov
 from analysis.evidence import evidence_text
+from analysis.snaps import NEAR_ZERO
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of
@@ -67,7 +68,6 @@ ERROR = Column(
 SLACK_ERROR = Column(
     "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
 )
-NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", "", "regime", "period-N, quasi-periodic, chaotic, transient or undecided", None, REGIMES)
 _BITS = "bits/period"
 WOLF = (
