@@ -50,8 +50,8 @@ def damage_equivalent_load(series: ArrayLike, cycles: float, slope: float) -> fl
 def turning_points(low: ArrayLike, high: ArrayLike) -> np.ndarray:
     """Least and largest values in turn, of a record that keeps both for each sampling step: (m,).
 
-    low, high (n,)   least and largest value since the previous sample; where the record rises from step to step its
-                     highs count, where it falls its lows
+    low, high (n,)   least and largest value since the previous sample. A peak of their middle counts with its largest
+                     value, a trough with its least; so do the first and the last sample
     """
     low, high = checked_series(low, "low"), checked_series(high, "high")
     middle = 0.5 * (low + high)
@@ -63,7 +63,10 @@ def turning_points(low: ArrayLike, high: ArrayLike) -> np.ndarray:
 
 
 def utilisation(
-    mean_N: float, maximum_N: float, breaking_load_N: float, factors: tuple[float, float] = (MEAN_FACTOR, DYNAMIC_FACTOR)
+    mean_N: float,
+    maximum_N: float,
+    breaking_load_N: float,
+    factors: tuple[float, float] = (MEAN_FACTOR, DYNAMIC_FACTOR),
 ) -> float:
     """Design tension over design strength by the form of DNV-OS-E301; a line is strong enough up to 1.
 

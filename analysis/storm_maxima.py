@@ -151,9 +151,7 @@ def _fitted(maxima, block_s: float, storm_s: float, confidence: float) -> StormM
         ends.append(brentq(excess, level + way * reach, level, xtol=1e-3))
     low, high = (centre + size * end for end in ends)
     reason = f"{len(maxima)} blocks of {block_s:.0f} s, shape {shape:.2f}, A² = {fit:.2f}"
-    return StormMaximum(
-        centre + size * level, low, high, "extreme value law", shape, len(maxima), block_s, reason
-    )
+    return StormMaximum(centre + size * level, low, high, "extreme value law", shape, len(maxima), block_s, reason)
 
 
 def _reduced(x, blocks: float, level: float, scale: float, shape: float):
