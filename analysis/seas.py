@@ -1,4 +1,4 @@
-"""Motions in an irregular sea: is the start forgotten, how many responses are there, and how long does each motion last?
+"""Motions in an irregular sea: is the start forgotten, how many responses are there, how long does each motion last?
 
 A sea has no period and no section. Its exponent is the mean growth of an infinitesimal perturbation of the motion in
 that sea, per peak period. If it is negative, all starts nearby come together, and the motion is a function of the sea
@@ -31,9 +31,9 @@ def sea_lyapunov(growths_nats: Sequence[ArrayLike], transient_periods: int = 0) 
     growths_nats (k,) of (m,)   of each sea, growth in each peak period [nats]; NaN before the perturbation is carried
     transient_periods           at the start of each that do not count; at least 10 more are left out (`turned`)
     Returns the mean over seas. The error of one sea is that of its slow fluctuations (`tangent_lyapunov`) or that of
-    the scatter of its BLOCKS, whichever is larger, because groups of waves are slow; of three seas or more their scatter
-    counts too. Deviations in such errors have a standard deviation of 1.0 to 1.2 where growth is remembered for ten
-    periods and a sea has 400. NaN with the reason where no sea has 32 periods.
+    the scatter of its BLOCKS, whichever is larger, because groups of waves are slow; of three seas or more their
+    scatter counts too. Deviations in such errors have a standard deviation of 1.0 to 1.2 where growth is remembered for
+    ten periods and a sea has 400. NaN with the reason where no sea has 32 periods.
     """
     values, errors = [], []
     for growth_nats in growths_nats:

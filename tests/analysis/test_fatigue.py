@@ -1,4 +1,4 @@
-"""Cycles by the worked example of ASTM E1049, the equivalent load of a sine, turning points, the form of DNV-OS-E301."""
+"""Cycles by the worked example of ASTM E1049, the equivalent load of a sine, turning points, the use of a line."""
 
 from collections import Counter
 

@@ -1,4 +1,4 @@
-"""Exponent of a sea and its error, groups of responses, residence and the slow forecast, by systems with closed answers."""
+"""Exponent of a sea and its error, groups of responses, residence, slow forecast: systems with closed answers."""
 
 import numpy as np
 import pytest
