@@ -39,7 +39,7 @@ from campaigns.sea.regular import (
     significant_height_m,
     swings,
 )
-from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SNAPS
+from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS
 from campaigns.study import Order
 from engine.physics.sea import elevation_m
 from engine.views import carried, state_of
@@ -92,6 +92,15 @@ COLUMNS = (
     Column("regular_motions", "", "motions", "largest tension of each motion in the regular wave, kN", None, SHEET),
     MESSAGE,
 )  # fmt: skip
+HISTORY = "history"
+HISTORY_COLUMNS = (
+    SEA,
+    Column("period", "periods", "t/T_p", "time in peak periods", 0),
+    Column("responses", "", "responses", "different responses of the starts", 0),
+    Column("apart", "", "apart", "largest distance of two starts, as a share of the motion", 4),
+    Column("large", "", "large", "1 while the run from rest is in the large motion", 0),
+    Column("forecast", "", "forecast", "1 while a slow envelope would have it there", 0),
+)
 
 
 @dataclass(frozen=True)
@@ -128,20 +137,40 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
             cell = dict(zip(names(keys), place, strict=True))
             cells.append(cell | cell_row(order, plan, rows, folds, regular_rows))
     write_table(subfolder(plan, FOLDER) / "table.csv", (*keys, *COLUMNS), cells)
+    if not keys:
+        records = [record for record in _records(order, plan, summary.rows) if not record.row["solver"]]
+        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(records, order.options, folds))
     return time.perf_counter() - began
+
+
+def history(records: Sequence[Record], options, folds: Folds | None) -> Iterator[Row]:
+    """The responses of every sea over time, and the motion of its run from rest: a row a peak period."""
+    for sea in seas_of(records):
+        counts, apart = np.ones(0), np.ones(0)
+        if len(sea) > 1:
+            states, scale = strobed(sea)
+            answer = responses(states, scale, options.distance)
+            counts, apart = answer.counts, answer.apart
+        inside = forecast = np.zeros(0, bool)
+        if folds is not None:
+            inside, forecast = motion_of(sea[0], folds)
+        length = max(len(counts), options.transient + len(inside))
+        for period in range(length):
+            row: Row = {"sea": sea[0].row["sea"], "period": period}
+            if period < len(counts):
+                row |= {"responses": int(counts[period]), "apart": float(apart[period])}
+            piece = period - options.transient
+            if 0 <= piece < len(inside):
+                row |= {"large": int(inside[piece]), "forecast": int(forecast[piece])}
+            yield row
 
 
 def cell_row(order: Order, plan: Plan, rows: Sequence[Row], folds: Folds | None, regular_rows: Sequence[Row]) -> Row:
     """The columns of one sea state from the rows of its runs."""
     options = order.options
     records, finer = [], None
-    for row in rows:
-        run = run_of(plan.how.out, row)
-        if run is None:
-            continue
-        period_s = run.scene.waves.period_s
-        record = Record(row, run, round(options.transient * period_s / run.scene.sample_step_s()))
-        if row["solver"]:
+    for record in _records(order, plan, rows):
+        if record.row["solver"]:
             finer = record
         else:
             records.append(record)
@@ -169,6 +198,15 @@ def cell_row(order: Order, plan: Plan, rows: Sequence[Row], folds: Folds | None,
         if loads and height == 1.0:
             cell["regular_motions"] = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
     return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in cell.items()}
+
+
+def _records(order: Order, plan: Plan, rows: Sequence[Row]) -> Iterator[Record]:
+    """The runs of rows that reached their end."""
+    for row in rows:
+        run = run_of(plan.how.out, row)
+        if run is not None:
+            transient_s = order.options.transient * run.scene.waves.period_s
+            yield Record(row, run, round(transient_s / run.scene.sample_step_s()))
 
 
 def _exponent(rest: Sequence[Record], finer: Record | None, options) -> Row:

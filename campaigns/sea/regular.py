@@ -60,7 +60,7 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     if waves.faults:
         raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")
     (how.out / "trajectories").mkdir(parents=True, exist_ok=True)
-    waves.simulate = None if plan.together is not None else order.simulate
+    waves.simulate = None if plan.simulate_each is not None else order.simulate
     timing, _ = sweep.STUDY.work(waves)
     return timing["analysis_s"]
 
