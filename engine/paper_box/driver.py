@@ -137,6 +137,7 @@ class Record:
             offplane = np.abs(self.across @ at[:3]).max()
             self.rows.append(
                 [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min(), 0.0]
+                + [tension[0], tension.max(), line.s[tension.argmax()]]
             )  # as `engine.record` has them
             state["low"] = state["high"] = top[7]
         for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):
