@@ -33,7 +33,7 @@ UNITS = {
     "onset_s": "s",
     "duration_s": "s",
     "taut_s": "s",
-    "taut_speed_mps": "m/s",
+    "taut_speed_mps": "m s-1",
     "peak_N": "N",
     "peak_s": "s",
     "rise_s": "s",

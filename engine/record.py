@@ -17,11 +17,13 @@ PLACE, STRAIN, TENSION, SPEED = 0, 3, 4, 5  # columns of a profile, one row a no
 PROFILE_WIDTH = 6
 # columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
 # line, least and greatest tension at the upper end since the sample before; largest distance from the plane; loops
-# released since t = 0; height of the lowest node; ringing (N) that the steps since the sample before did not resolve
-(TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES, LOWEST, MISSED) = range(
-    15
-)
-SAMPLE_WIDTH = 15
+# released since t = 0; height of the lowest node; ringing (N) that the steps since the sample before did not resolve;
+# tension at the lower end; largest tension along the line, and the arc length s at which it is
+(
+    TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES, LOWEST, MISSED,
+    FOOT, MOST, MOST_AT,
+) = range(18)  # fmt: skip
+SAMPLE_WIDTH = 18
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
 SMALL_STEPS = 3  # of backward Euler after a sudden start, or where an end is let go
 RELEASE_STEPS = 8  # of backward Euler after a loop release

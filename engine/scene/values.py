@@ -90,3 +90,11 @@ class Section(BaseModel):
     """A part of a scene: immutable, and an unknown key is a fault."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"{name}: a scene does not change; load_scene(name, {{key: value}}) makes another one")
+
+    def __dir__(self) -> list[str]:
+        """The keys, and what a scene can do; without the names of pydantic."""
+        own = {name for kind in type(self).__mro__ if issubclass(kind, Section) for name in vars(kind)}
+        return sorted({*type(self).model_fields, *(name for name in own if not name.startswith(("_", "model_")))})
