@@ -7,7 +7,7 @@ Comput. 12 (2020) 330). If it is positive, starts stay apart for ever.
 
     responses   groups of starts: two are one group while their states are nearer to each other than a distance
     together    from the moment on at which all starts are one group for HOLD times in a row, to the next parting
-    forecast    the motion of a regular wave as high as the envelope of the sea, which jumps only at the folds
+    forecast    the motion of a regular wave as high as the envelope of the sea, which jumps only where it ends
 """
 
 import math
@@ -171,17 +171,25 @@ def envelope(series: ArrayLike) -> np.ndarray:
     return np.abs(np.fft.ifft(np.where(frequency > 0.0, 2.0, 0.0) * spectrum))
 
 
-def slow_forecast(amplitude: ArrayLike, enters: float, leaves: float, inside: bool = False) -> np.ndarray:
-    """In the large motion or not, if the motion followed a slow envelope: it jumps at the folds, and only there.
+def slow_forecast(
+    amplitude: ArrayLike, ranges: ArrayLike, start: int, successors: ArrayLike | None = None
+) -> np.ndarray:
+    """Which motion of regular waves a body would have if it followed a slow envelope: it jumps where its motion ends.
 
-    amplitude (n,)   of the envelope
-    enters, leaves   amplitudes of the folds: the small motion ends at `enters`, the large one at `leaves`
-    inside           whether the body is in the large motion at the start
-    Returns flags (n,). Raises ValueError for folds the other way round.
+    amplitude (n,)      of the envelope
+    ranges (k, 2)       least and largest amplitude at which each motion exists
+    start               number of the first motion
+    successors (k, 2)   number of the motion that follows where a motion ends below, and above; −1: not known. Then it
+                        is the first motion of `ranges` that exists there
+    Returns the numbers (n,). Where no other motion exists, it stays in the one that ends.
     """
-    a = checked_series(amplitude, "amplitude")
-    if not leaves <= enters:
-        raise ValueError(f"leaves: at most enters ({enters:g}) is needed, given {leaves:g}")
-    jumps = np.where(a > enters, 1, np.where(a < leaves, 0, -1))
-    latest = np.maximum.accumulate(np.where(jumps >= 0, np.arange(len(a)), -1))
-    return np.where(latest >= 0, jumps[latest] == 1, inside)
+    a, limits = checked_series(amplitude, "amplitude"), np.asarray(ranges, dtype=float)
+    following = np.full(limits.shape, -1) if successors is None else np.asarray(successors, dtype=int)
+    exists = (limits[:, :1] <= a) & (a <= limits[:, 1:])
+    current, motions = checked_count(start, "start", least=0), np.empty(len(a), dtype=int)
+    for place, value in enumerate(a):
+        if not exists[current, place] and exists[:, place].any():
+            known = following[current, int(value > limits[current, 1])]
+            current = known if known >= 0 and exists[known, place] else int(np.argmax(exists[:, place]))
+        motions[place] = current
+    return motions

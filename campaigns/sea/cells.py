@@ -19,7 +19,6 @@ from analysis import (
     residence,
     responses,
     sea_lyapunov,
-    slow_forecast,
     storm_maximum,
     utilisation,
 )
@@ -76,8 +75,8 @@ COLUMNS = (
     Column("forecast_share", "", "forecast", "share if the motion followed the envelope from fold to fold", 3),
     Column("forecast_share_error", "", "± forecast", "standard error over seas", 3),
     Column("forecast_mean_periods", "periods", "visit, forecast", "mean length of a visit by that forecast", 1),
-    Column("fold_up_m", "m", "A up", "amplitude of the regular wave at which the small motion ends", 3, SHEET),
-    Column("fold_down_m", "m", "A down", "amplitude of the regular wave at which the large motion ends", 3, SHEET),
+    Column("fold_up_m", "m", "A up", "amplitude at which a slowly rising wave brings the large motion", 3, SHEET),
+    Column("fold_down_m", "m", "A down", "amplitude at which a slowly falling wave ends it", 3, SHEET),
     SNAPS,
     Column("snaps_per_hour_error", "1/h", "± snaps", f"standard error over seas{_REST}", 1),
     MEAN,
@@ -300,7 +299,7 @@ def motion_of(record: Record, folds: Folds) -> tuple[np.ndarray, np.ndarray]:
     mean_m = np.array([amplitude_m[begin:end].mean() for begin, end in zip(begins, ends, strict=True)])
     swing = swings(columns, begins, ends)[folds.measure]
     inside = swing > folds.border(mean_m)
-    return inside, slow_forecast(mean_m, folds.enters, folds.leaves, bool(inside[0]))
+    return inside, folds.forecast(mean_m, bool(inside[0]))
 
 
 def _motions(records: Sequence[Record], folds: Folds) -> Row:

@@ -8,9 +8,11 @@ in a sea belongs.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
+from analysis import slow_forecast
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import tables_of
 from campaigns.machinery.folder import CampaignStopped
@@ -22,6 +24,7 @@ FOLDER, KEY = "regular", "waves.amplitude_m"
 DESIGN, SAME_ENERGY = 1.86, 1.0 / math.sqrt(2.0)  # heights of regular waves over the significant height
 HEIGHTS, LOWEST = 13, 0.15  # waves of the sweep; the lowest over the highest
 BUDGET, KICKS = 300, 4  # wave periods of a run, and kicks at each height
+RAMP = 2000  # amplitudes of a slowly rising or falling wave
 APART = 1.2  # two motions of a wave are a small and a large one if a measure of them differs by this factor
 SEA_KEYS = ("waves.jonswap", "waves.components", "waves.significant_steepness", "waves.relative_width")
 
@@ -66,23 +69,73 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
 
 
 @dataclass(frozen=True)
-class Folds:
-    """A small and a large motion of regular waves over their amplitude.
+class Motion:
+    """A motion of regular waves.
 
-    enters, leaves: amplitudes (m) at which the small motion ends, and the large one. measure: what tells them apart, a
-    column of `swings`. amplitude_m, small, large: its values (k,) at the waves that have both.
+    letter, begins, ends: of its range of amplitudes (m). before, after: letters of the motions that follow where it
+    ends at falling and at rising waves; "" where that is not known. amplitude_m, swing (k,): its measure.
     """
 
-    enters: float
-    leaves: float
+    letter: str
+    begins: float
+    ends: float
+    before: str
+    after: str
+    amplitude_m: np.ndarray
+    swing: np.ndarray
+
+
+@dataclass(frozen=True)
+class Folds:
+    """The motions of regular waves over their amplitude, and a border between a small and a large motion.
+
+    measure: what tells them apart best (`swings`). amplitude_m, small, large (k,): its values at the waves that have
+    both. enters, leaves: amplitudes (m) at which a slowly rising wave brings the large motion, and a slowly falling one
+    ends it; NaN: none does.
+    """
+
+    motions: tuple[Motion, ...]
     measure: str
     amplitude_m: np.ndarray
     small: np.ndarray
     large: np.ndarray
 
     def border(self, amplitude_m: np.ndarray) -> np.ndarray:
-        """The measure that lies between both motions, at an amplitude; beyond the folds as at the nearest wave."""
+        """The measure between both motions at an amplitude; beyond the waves that have both as at the nearest."""
         return np.interp(amplitude_m, self.amplitude_m, np.sqrt(self.small * self.large))
+
+    def forecast(self, amplitude_m: np.ndarray, inside: bool) -> np.ndarray:
+        """Whether a motion that follows a slow envelope is large, at each amplitude; inside: at the first."""
+        letters = [motion.letter for motion in self.motions]
+        ranges = [(motion.begins, motion.ends) for motion in self.motions]
+        successors = [
+            [letters.index(letter) if letter in letters else -1 for letter in (m.before, m.after)] for m in self.motions
+        ]
+        border = self.border(amplitude_m)
+        large = np.stack([np.interp(amplitude_m, m.amplitude_m, m.swing) for m in self.motions]) > border
+        start = 0
+        for number, (begins, ends) in enumerate(ranges):
+            if begins <= amplitude_m[0] <= ends and large[number, 0] == inside:
+                start = number
+                break
+        followed = slow_forecast(amplitude_m, ranges, start, successors)
+        return large[followed, np.arange(len(amplitude_m))]
+
+    @cached_property
+    def enters(self) -> float:
+        rising = self._ramp()
+        large = self.forecast(rising, False)
+        return float(rising[np.argmax(large)]) if large.any() else math.nan
+
+    @cached_property
+    def leaves(self) -> float:
+        falling = self._ramp()[::-1]
+        small = ~self.forecast(falling, True)
+        return float(falling[np.argmax(small)]) if small.any() else math.nan
+
+    def _ramp(self) -> np.ndarray:
+        ends = [motion.amplitude_m for motion in self.motions]
+        return np.linspace(min(map(np.min, ends)), max(map(np.max, ends)), RAMP)
 
 
 _SWINGS = {  # measure -> its least and greatest value in a row of the sweep; "" for a value without a least
@@ -129,11 +182,28 @@ def folds_of(rows: Sequence[Row], ends: Sequence[Row]) -> Folds | None:
     if best is None:
         return None
     measure, run, pairs = best
-    amplitudes = sorted(at)
-    leaves = _end(ends, pairs[run[0]][1][1], "lower", amplitudes, run[0], -1)
-    enters = _end(ends, pairs[run[-1]][0][1], "upper", amplitudes, run[-1], 1)
+    motions = tuple(_motion(letter, at, ends, measure) for letter in _letters(at))
     small, large = (np.array([pairs[amplitude][which][0] for amplitude in run]) for which in (0, 1))
-    return Folds(enters, leaves, measure, np.array(run), small, large)
+    return Folds(motions, measure, np.array(run), small, large)
+
+
+def _letters(at: Mapping[float, Sequence[Row]]) -> list[str]:
+    return sorted({str(row["motion"]) for rows in at.values() for row in rows})
+
+
+def _motion(letter: str, at: Mapping[float, Sequence[Row]], ends: Sequence[Row], measure: str) -> Motion:
+    """The motion of a letter, with its range and what follows it."""
+    swing = {}
+    for amplitude, rows in sorted(at.items()):
+        for row in rows:
+            if row["motion"] == letter:
+                swing[amplitude] = _swing(row, measure)
+    own = {row["end"]: row for row in ends if row["motion"] == letter}
+    amplitudes = sorted(at)
+    begins = _end(own.get("lower"), amplitudes, min(swing), -1)
+    last = _end(own.get("upper"), amplitudes, max(swing), 1)
+    before, after = (str(own[end].get("leads_to") or "") if end in own else "" for end in ("lower", "upper"))
+    return Motion(letter, begins, last, before, after, np.array([*swing]), np.array([*swing.values()]))
 
 
 def _longest_run(amplitudes: Sequence[float], pairs: Mapping[float, object]) -> list[float]:
@@ -147,18 +217,17 @@ def _longest_run(amplitudes: Sequence[float], pairs: Mapping[float, object]) -> 
     return longest
 
 
-def _end(ends: Sequence[Row], letter: str, which: str, amplitudes: Sequence[float], last: float, step: int) -> float:
-    """Where a motion ends: as its orbit or its bisection says, else half-way to the next wave of the sweep."""
+def _end(row: Row | None, amplitudes: Sequence[float], last: float, step: int) -> float:
+    """Where a motion ends: as orbit or bisection say, else half-way to the next wave; beyond the sweep never."""
     place = list(amplitudes).index(last) + step
     if not 0 <= place < len(amplitudes):
-        return last
-    beyond = amplitudes[place]
-    for row in ends:
-        exact, bracket = number_of(row, f"{KEY}_end"), (number_of(row, f"{KEY}_with"), number_of(row, f"{KEY}_without"))
-        known = exact if math.isfinite(exact) else 0.5 * sum(bracket)
-        if row["motion"] == letter and row["end"] == which and min(last, beyond) <= known <= max(last, beyond):
-            return known
-    return 0.5 * (last + beyond)
+        return step * math.inf
+    if row is None:
+        return 0.5 * (last + amplitudes[place])
+    exact = number_of(row, f"{KEY}_end")
+    if math.isfinite(exact):
+        return exact
+    return 0.5 * (number_of(row, f"{KEY}_with") + number_of(row, f"{KEY}_without"))
 
 
 def design_loads(rows: Sequence[Row], amplitude_m: float) -> list[tuple[str, float]]:

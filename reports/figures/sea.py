@@ -68,8 +68,8 @@ def sea_history(history: SeaHistory, width_in: float = WIDTH_IN) -> Picture:
         middle.plot(history.time, history.envelope_m, color=INK, linewidth=1.2, label="envelope")
         if history.folds_m is not None:
             up, down = history.folds_m
-            middle.axhline(up, color=VERMILION, linewidth=1.0, label="the small motion ends")
-            middle.axhline(down, color=BLUE, linewidth=1.0, linestyle="--", label="the large motion ends")
+            middle.axhline(up, color=VERMILION, linewidth=1.0, label="slowly rising: the large motion begins")
+            middle.axhline(down, color=BLUE, linewidth=1.0, linestyle="--", label="slowly falling: it ends")
         middle.set_ylabel("surface (m)")
         middle.legend(loc="upper right", ncols=3)
 
