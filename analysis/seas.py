@@ -171,25 +171,20 @@ def envelope(series: ArrayLike) -> np.ndarray:
     return np.abs(np.fft.ifft(np.where(frequency > 0.0, 2.0, 0.0) * spectrum))
 
 
-def slow_forecast(
-    amplitude: ArrayLike, ranges: ArrayLike, start: int, successors: ArrayLike | None = None
-) -> np.ndarray:
+def slow_forecast(amplitude: ArrayLike, ranges: ArrayLike, start: int) -> np.ndarray:
     """Which motion of regular waves a body would have if it followed a slow envelope: it jumps where its motion ends.
 
-    amplitude (n,)      of the envelope
-    ranges (k, 2)       least and largest amplitude at which each motion exists
-    start               number of the first motion
-    successors (k, 2)   number of the motion that follows where a motion ends below, and above; −1: not known. Then it
-                        is the first motion of `ranges` that exists there
-    Returns the numbers (n,). Where no other motion exists, it stays in the one that ends.
+    amplitude (n,)   of the envelope
+    ranges (k, 2)    least and largest amplitude at which each motion exists
+    start            number of the first motion
+    Returns the numbers (n,). Where a motion ends, the first of `ranges` that exists there follows; if none does, the
+    motion stays.
     """
     a, limits = checked_series(amplitude, "amplitude"), np.asarray(ranges, dtype=float)
-    following = np.full(limits.shape, -1) if successors is None else np.asarray(successors, dtype=int)
     exists = (limits[:, :1] <= a) & (a <= limits[:, 1:])
     current, motions = checked_count(start, "start", least=0), np.empty(len(a), dtype=int)
-    for place, value in enumerate(a):
+    for place in range(len(a)):
         if not exists[current, place] and exists[:, place].any():
-            known = following[current, int(value > limits[current, 1])]
-            current = known if known >= 0 and exists[known, place] else int(np.argmax(exists[:, place]))
+            current = int(np.argmax(exists[:, place]))
         motions[place] = current
     return motions

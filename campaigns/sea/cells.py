@@ -36,7 +36,6 @@ from campaigns.sea.regular import (
     one_set,
     regular_tables,
     significant_height_m,
-    swings,
 )
 from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS
 from campaigns.study import Order
@@ -297,8 +296,10 @@ def motion_of(record: Record, folds: Folds) -> tuple[np.ndarray, np.ndarray]:
     if not len(begins):
         return np.zeros(0, bool), np.zeros(0, bool)
     mean_m = np.array([amplitude_m[begin:end].mean() for begin, end in zip(begins, ends, strict=True)])
-    swing = swings(columns, begins, ends)[folds.measure]
-    inside = swing > folds.border(mean_m)
+    largest_N = np.array(
+        [columns["tension_top_high_N"][begin:end].max() for begin, end in zip(begins, ends, strict=True)]
+    )
+    inside = folds.is_large(mean_m, largest_N)
     return inside, folds.forecast(mean_m, bool(inside[0]))
 
 
@@ -311,7 +312,7 @@ def _motions(records: Sequence[Record], folds: Folds) -> Row:
         for name, series in zip(flags, zip(*pairs, strict=True), strict=True):
             flags[name] += series
             shares[name].append(residence(series).share)
-    row: Row = {"fold_up_m": folds.enters, "fold_down_m": folds.leaves}
+    row: Row = {"fold_up_m": folds.jump(True), "fold_down_m": folds.jump(False)}
     for name in flags:
         answer = residence(flags[name])
         row |= {f"{name}_share": answer.share, f"{name}_mean_periods": answer.mean}

@@ -86,8 +86,6 @@ def test_the_forecast_jumps_only_where_a_motion_ends():
     amplitude, ranges = [0.5, 1.5, 2.5, 1.5, 0.5, 1.5], [(0.0, 2.0), (1.0, np.inf)]
     assert slow_forecast(amplitude, ranges, 0).tolist() == [0, 0, 1, 1, 0, 0]
     assert slow_forecast([1.5, 1.5], ranges, 1).tolist() == [1, 1]
-    island = [(0.0, 2.0), (1.0, 3.0), (0.0, 3.0)]
-    assert slow_forecast([1.5, 2.5], island, 0, [(-1, 2), (-1, -1), (-1, -1)]).tolist() == [0, 2]
 
 
 def test_each_wave_has_one_peak():

@@ -90,10 +90,11 @@ FOLDED += [motion(a, "B", 4000.0 * (1 + a)) for a in (0.6, 0.8, 1.0, 1.2)]
 def test_folds_lie_where_the_motions_end():
     folds = folds_of(FOLDED, ())
     ends = pytest.approx(0.5, abs=2e-3), pytest.approx(0.9, abs=2e-3)
-    assert (folds.leaves, folds.enters) == ends and folds.measure == "tension"
-    assert folds.border(np.array([0.6, 0.1])) == pytest.approx([2000.0 * 1.6, 2000.0 * 1.6])
+    assert (folds.jump(False), folds.jump(True)) == ends
+    assert folds.is_large(np.array([0.6, 0.6, 0.1]), np.array([3190.0, 3210.0, 3210.0])).tolist() == [False, True, True]
     end = {"motion": "A", "end": "upper", "waves.amplitude_m_end": 0.83, "leads_to": "B"}
-    assert folds_of(FOLDED, [end]).enters == pytest.approx(0.83, abs=2e-3)
+    folds = folds_of(FOLDED, [end])
+    assert folds.jump(True) == pytest.approx(0.83, abs=2e-3)
     follows = folds.forecast(np.array([0.3, 0.7, 0.95, 0.7, 0.45]), False)
     assert follows.tolist() == [False, False, True, True, False]
 
