@@ -48,17 +48,18 @@ def sea_lyapunov(growths_nats: Sequence[ArrayLike], transient_periods: int = 0) 
     count = len(values)
     error = math.hypot(*errors) / count
     if count > 2:
-        error = max(error, _standard_error(values))
+        error = max(error, standard_error(values))
     reason = f"mean of {count} seas"
     return Exponent(float(np.mean(values)), error, BITS_PER_PERIOD, METHOD, reason, {"seas": values})
 
 
 def _error_of_blocks(values) -> float:
     length = len(values) // BLOCKS
-    return _standard_error(values[: BLOCKS * length].reshape(BLOCKS, length).mean(axis=1))
+    return standard_error(values[: BLOCKS * length].reshape(BLOCKS, length).mean(axis=1))
 
 
-def _standard_error(values) -> float:
+def standard_error(values: ArrayLike) -> float:
+    """Of the mean of independent values (n,), n above 1."""
     return float(np.std(values, ddof=1)) / math.sqrt(len(values))
 
 

@@ -10,6 +10,7 @@ import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from analysis import (
     storm_maximum,
     utilisation,
 )
+from analysis.seas import Responses, standard_error
 from analysis.tangent_growth import turned
 from campaigns.explore.motions import subfolder
 from campaigns.explore.rows import TANGENT, exponents
@@ -61,7 +63,6 @@ COLUMNS = (
     GROWING,
     Column("responses_mean", "", "responses", "mean number of different responses after the transient", 2),
     Column("together_periods", "periods", "together", "median time at which all starts are first one response", 0),
-    Column("together_latest_periods", "periods", "latest", "the latest of these times over the seas", 0, REGIMES),
     Column("apart_seas", "", "apart", "seas in which the starts are never one response", 0),
     Column("together_share", "", "stays", "share of the time, once together, that they are one response", 2),
     Column("together_mean_periods", "periods", "stay", "mean time for which they stay together", 0, REGIMES),
@@ -87,6 +88,7 @@ COLUMNS = (
     Column("utilisation", "", "u", "design tension over design strength, DNV-OS-E301, consequence class 1", 2),
     Column("regular_N", "N", "T_reg", "largest tension in the regular wave of the height H_s, of all its motions", 0),
     Column("regular_high_N", "N", "T_1.86", "largest tension in the regular wave of 1.86 H_s, of all its motions", 0),
+    Column("regular_high_motions", "", "motions high", "the same in the wave of 1.86 H_s", None, SHEET),
     Column("regular_motions", "", "motions", "largest tension of each motion in the regular wave, kN", None, SHEET),
     MESSAGE,
 )  # fmt: skip
@@ -102,24 +104,50 @@ HISTORY_COLUMNS = (
 
 
 @dataclass(frozen=True)
-class Record:
-    """A run of a cell: its row, scene, trajectory and the first sample after the transient."""
+class Digest:
+    """What is needed of a run in a sea.
+
+    row: of table.csv. period_s, step_s: peak period, and step of its samples. states (p, 4), scale (4,): once a peak
+    period, and what counts as 1. growth_nats (p,): of its perturbation; None: it carried none. high_N (n,): largest
+    tensions after the transient. large, forecast (m,): whether each piece is in the large motion, and by the forecast.
+    """
 
     row: Row
-    run: object
-    first: int
+    period_s: float
+    step_s: float
+    states: np.ndarray
+    scale: np.ndarray
+    growth_nats: np.ndarray | None
+    high_N: np.ndarray
+    large: np.ndarray
+    forecast: np.ndarray
 
-    @property
-    def step_s(self) -> float:
-        return self.run.scene.sample_step_s()
 
-    def samples(self, periods: float) -> float:
-        """Samples in so many peak periods."""
-        return periods * self.run.scene.waves.period_s / self.step_s
+def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
+    """The digest of a run that reached its end. transient: peak periods left out."""
+    period_s, step_s, columns = run.scene.waves.period_s, run.scene.sample_step_s(), run.columns
+    samples = period_s / step_s  # of a peak period
+    length = len(columns["time_s"])
+    strobes = np.rint(np.arange(0.0, length - 0.5, samples)).astype(int)
+    coordinates, scale = state_of(columns, step_s, period_s, 0)
+    states = np.column_stack([series[strobes] for series in coordinates.values()])
+    growth_nats = run.tangent.growth_nats[:, 0] if carried(run) else None
+    high_N = columns["tension_top_high_N"]
+    large = forecast = np.zeros(0, bool)
+    ends = strobes[transient + MOTION_PERIODS :]
+    begins = strobes[transient : len(strobes) - MOTION_PERIODS]
+    if folds is not None and len(ends):
+        heights_m = envelope(elevation_m(run.scene, columns["time_s"]))
+        pieces = list(map(slice, begins, ends))
+        amplitude_m = np.array([heights_m[piece].mean() for piece in pieces])
+        large = folds.is_large(amplitude_m, np.array([high_N[piece].max() for piece in pieces]))
+        forecast = folds.forecast(amplitude_m, bool(large[0]))
+    late_N = high_N[round(transient * samples) :]
+    return Digest(row, period_s, step_s, states, np.array(scale), growth_nats, late_N, large, forecast)
 
 
 def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
-    """Write cells/table.csv: a row a sea state. Returns seconds."""
+    """Write cells/table.csv, a row a sea state, and of a single one history/table.csv. Returns seconds."""
     began = time.perf_counter()
     folds, regular_rows = None, ()
     if not order.options.no_regular and one_set(order):
@@ -133,82 +161,57 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
         for place, rows in of_cell.items():
             cell = dict(zip(names(keys), place, strict=True))
-            cells.append(cell | cell_row(order, plan, rows, folds, regular_rows))
+            digests = []
+            for row in rows:
+                run = run_of(plan.how.out, row)
+                if run is not None:
+                    digests.append(digest(run, row, order.options.transient, folds))
+                    cell["significant_height_m"] = significant_height_m(run.scene)
+            cells.append(cell | cell_row(rows, digests, order.options, folds))
+            for name, height in (("regular_N", 1.0), ("regular_high_N", DESIGN)):
+                loads = design_loads(regular_rows, 0.5 * height * cell.get("significant_height_m", 0.0))
+                if loads:
+                    motions = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
+                    cells[-1] |= {name: loads[-1][1], f"{name.removesuffix('_N')}_motions": motions}
     write_table(subfolder(plan, FOLDER) / "table.csv", (*keys, *COLUMNS), cells)
     if not keys:
-        records = [record for record in _records(order, plan, summary.rows) if not record.row["solver"]]
-        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(records, order.options, folds))
+        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(digests, order.options))
     return time.perf_counter() - began
 
 
-def history(records: Sequence[Record], options, folds: Folds | None) -> Iterator[Row]:
-    """The responses of every sea over time, and the motion of its run from rest: a row a peak period."""
-    for sea in seas_of(records):
-        counts, apart = np.ones(0), np.ones(0)
-        if len(sea) > 1:
-            states, scale = strobed(sea)
-            answer = responses(states, scale, options.distance)
-            counts, apart = answer.counts, answer.apart
-        inside = forecast = np.zeros(0, bool)
-        if folds is not None:
-            inside, forecast = motion_of(sea[0], folds)
-        length = max(len(counts), options.transient + len(inside))
-        for period in range(length):
-            row: Row = {"sea": sea[0].row["sea"], "period": period}
-            if period < len(counts):
-                row |= {"responses": int(counts[period]), "apart": float(apart[period])}
-            piece = period - options.transient
-            if 0 <= piece < len(inside):
-                row |= {"large": int(inside[piece]), "forecast": int(forecast[piece])}
-            yield row
-
-
-def cell_row(order: Order, plan: Plan, rows: Sequence[Row], folds: Folds | None, regular_rows: Sequence[Row]) -> Row:
-    """The columns of one sea state from the rows of its runs."""
-    options = order.options
-    records, finer = [], None
-    for record in _records(order, plan, rows):
-        if record.row["solver"]:
-            finer = record
-        else:
-            records.append(record)
-    if not records:
+def cell_row(rows: Sequence[Row], digests: Sequence[Digest], options, folds: Folds | None) -> Row:
+    """The columns of one sea state. rows: of all its runs; digests: of those that reached their end."""
+    if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}
-    height_m = significant_height_m(records[0].run.scene)
-    lost = sum(row["status"] != "ok" for row in rows)
+    lost = len(rows) - len(digests)
     cell: Row = {
         "status": "ok",
-        "significant_height_m": height_m,
-        "seas": len({record.row["sea"] for record in records}),
         "starts": options.starts,
         "message": f"{lost} of {len(rows)} runs failed" if lost else "",
     }
-    rest = [record for record in records if record.row["start"] == 0]
-    cell |= _exponent(rest, finer, options) | _together(records, options)
+    seas = list(seas_of(digests))
+    cell["seas"] = len(seas)
+    rest = [run for run in digests if run.row["start"] == 0 and not run.row["solver"]]
+    finer = [run for run in digests if run.row["solver"]]
+    cell |= _exponent(rest, finer, options) | _together(seas, options)
     if folds is not None:
-        cell |= _motions(records, folds)
+        cell |= {"fold_up_m": folds.jump(True), "fold_down_m": folds.jump(False)}
+        cell |= _visits("large", [[run.large for run in sea] for sea in seas])
+        cell |= _visits("forecast", [[run.forecast for run in sea] for sea in seas])
     if rest:
         cell |= _loads(rest, options)
-    for name, height in (("regular_N", 1.0), ("regular_high_N", DESIGN)):
-        loads = design_loads(regular_rows, 0.5 * height * height_m)
-        if loads:
-            cell[name] = loads[-1][1]
-        if loads and height == 1.0:
-            cell["regular_motions"] = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
     return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in cell.items()}
 
 
-def _records(order: Order, plan: Plan, rows: Sequence[Row]) -> Iterator[Record]:
-    """The runs of rows that reached their end."""
-    for row in rows:
-        run = run_of(plan.how.out, row)
-        if run is not None:
-            transient_s = order.options.transient * run.scene.waves.period_s
-            yield Record(row, run, round(transient_s / run.scene.sample_step_s()))
+def seas_of(digests: Sequence[Digest]) -> Iterator[list[Digest]]:
+    """The runs in each sea, without the finer one."""
+    for seed in sorted({run.row["sea"] for run in digests}):
+        yield [run for run in digests if run.row["sea"] == seed and not run.row["solver"]]
 
 
-def _exponent(rest: Sequence[Record], finer: Record | None, options) -> Row:
-    growths = [record.run.tangent.growth_nats[:, 0] for record in rest if carried(record.run)]
+def _exponent(rest: Sequence[Digest], finer: Sequence[Digest], options) -> Row:
+    """The columns on the exponent."""
+    growths = [run.growth_nats for run in rest if run.growth_nats is not None]
     exponent = sea_lyapunov(growths, options.transient)
     row = exponents(TANGENT, exponent)
     if not exponent.found:
@@ -218,114 +221,65 @@ def _exponent(rest: Sequence[Record], finer: Record | None, options) -> Row:
         row["sign"] = "+" if exponent.value > 0.0 else "−"
     shares = [growing_share(turned(growth, options.transient), options.window) for growth in growths]
     row[GROWING.name] = float(np.mean(shares))
-    if finer is not None and carried(finer.run):
-        check = sea_lyapunov([finer.run.tangent.growth_nats[:, 0]], options.transient)
+    for run in finer:
+        check = sea_lyapunov([run.growth_nats], options.transient)
         row |= {"finer_bits_per_period": check.value, "finer_error": check.error}
     return row
 
 
-def seas_of(records: Sequence[Record]) -> Iterator[list[Record]]:
-    """The records of each sea."""
-    for seed in sorted({record.row["sea"] for record in records}):
-        yield [record for record in records if record.row["sea"] == seed]
+def responses_of(sea: Sequence[Digest], distance: float) -> Responses:
+    """The responses of all starts in one sea."""
+    states = np.stack([run.states for run in sea])
+    return responses(states, np.max([run.scale for run in sea], axis=0), distance)
 
 
-def strobed(sea: Sequence[Record]) -> tuple[np.ndarray, np.ndarray]:
-    """States (starts, periods, 4) of the runs in one sea once a peak period, and what counts as 1 in each (4,)."""
-    states, scales = [], []
-    for record in sea:
-        period_s = record.run.scene.waves.period_s
-        coordinates, scale = state_of(record.run.columns, record.step_s, period_s, 0)
-        count = int((len(record.run.columns["time_s"]) - 1) / record.samples(1.0) + 1e-6)
-        index = np.rint(np.arange(count + 1) * record.samples(1.0)).astype(int)
-        states.append(np.column_stack([series[index] for series in coordinates.values()]))
-        scales.append(scale)
-    shortest = min(map(len, states))
-    return np.stack([state[:shortest] for state in states]), np.max(scales, axis=0)
-
-
-def _together(records: Sequence[Record], options) -> Row:
+def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
     """The columns on the responses of all starts."""
-    if options.starts < 2:
+    answers = [responses_of(sea, options.distance) for sea in seas if len(sea) > 1]
+    if not answers:
         return {}
-    counts, times, shares, stays, noises, partings, hours, apart = [], [], [], [], [], 0, 0.0, 0
-    for sea in seas_of(records):
-        if len(sea) < 2:
-            continue
-        states, scale = strobed(sea)
-        answer = responses(states, scale, options.distance)
-        counts.append(answer.counts[options.transient :].mean())
-        if math.isnan(answer.together_at):
-            apart += 1
-            continue
-        times.append(answer.together_at)
-        shares.append(answer.together_share)
-        stays.append(answer.together_mean)
-        noises.append(answer.noise)
-        partings += answer.partings
-        hours += (len(answer.counts) - answer.together_at) * sea[0].run.scene.waves.period_s / 3600.0
-    if not counts:
-        return {}
-    row: Row = {"responses_mean": float(np.mean(counts)), "apart_seas": apart, "distance": options.distance}
-    if times:
-        noise = float(np.median(noises))
+    met = [answer for answer in answers if math.isfinite(answer.together_at)]
+    mean_count = np.mean([answer.counts[options.transient :].mean() for answer in answers])
+    row: Row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
+    if met:
+        periods = sum(len(answer.counts) - answer.together_at for answer in met)
         row |= {
-            "together_periods": float(np.median(times)),
-            "together_latest_periods": float(max(times)),
-            "together_share": float(np.mean(shares)),
-            "together_mean_periods": float(np.mean(stays)),
-            "partings_per_hour": partings / hours,
-            "noise": noise,
+            "together_periods": float(np.median([answer.together_at for answer in met])),
+            "together_share": np.mean([answer.together_share for answer in met]),
+            "together_mean_periods": np.mean([answer.together_mean for answer in met]),
+            "partings_per_hour": 3600.0 * sum(answer.partings for answer in met) / (periods * seas[0][0].period_s),
+            "noise": float(np.median([answer.noise for answer in met])),
         }
     return row
 
 
-def pieces_of(record: Record) -> tuple[np.ndarray, np.ndarray]:
-    """First sample and end of each piece of a record, one about each peak period after the transient."""
-    last = len(record.run.columns["time_s"]) - record.samples(MOTION_PERIODS)
-    begins = np.rint(np.arange(record.first, last, record.samples(1.0))).astype(int)
-    return begins, begins + round(record.samples(MOTION_PERIODS))
-
-
-def motion_of(record: Record, folds: Folds) -> tuple[np.ndarray, np.ndarray]:
-    """Whether each piece of a record is in the large motion, and whether the forecast says so."""
-    columns = record.run.columns
-    begins, ends = pieces_of(record)
-    surface_m = elevation_m(record.run.scene, columns["time_s"])
-    amplitude_m = envelope(surface_m)
-    if not len(begins):
-        return np.zeros(0, bool), np.zeros(0, bool)
-    mean_m = np.array([amplitude_m[begin:end].mean() for begin, end in zip(begins, ends, strict=True)])
-    largest_N = np.array(
-        [columns["tension_top_high_N"][begin:end].max() for begin, end in zip(begins, ends, strict=True)]
-    )
-    inside = folds.is_large(mean_m, largest_N)
-    return inside, folds.forecast(mean_m, bool(inside[0]))
-
-
-def _motions(records: Sequence[Record], folds: Folds) -> Row:
-    """The columns on the small and the large motion."""
-    flags: dict[str, list] = {"large": [], "forecast": []}
-    shares: dict[str, list[float]] = {"large": [], "forecast": []}
-    for sea in seas_of(records):
-        pairs = [motion_of(record, folds) for record in sea]
-        for name, series in zip(flags, zip(*pairs, strict=True), strict=True):
-            flags[name] += series
-            shares[name].append(residence(series).share)
-    row: Row = {"fold_up_m": folds.jump(True), "fold_down_m": folds.jump(False)}
-    for name in flags:
-        answer = residence(flags[name])
-        row |= {f"{name}_share": answer.share, f"{name}_mean_periods": answer.mean}
-        if len(shares[name]) > 1:
-            row[f"{name}_share_error"] = float(np.std(shares[name], ddof=1)) / math.sqrt(len(shares[name]))
+def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
+    """The columns on the large motion, or on its forecast, from the flags of the runs in each sea."""
+    answer = residence(list(chain.from_iterable(flags)))
+    shares = [residence(of_sea).share for of_sea in flags]
+    row = {f"{name}_share": answer.share, f"{name}_mean_periods": answer.mean}
+    if len(shares) > 1:
+        row[f"{name}_share_error"] = standard_error(shares)
     return row
 
 
-def _loads(rest: Sequence[Record], options) -> Row:
+def history(digests: Sequence[Digest], options) -> Iterator[Row]:
+    """The responses in every sea over time, and the motion of its first run: a row a peak period."""
+    for sea in seas_of(digests):
+        answer = responses_of(sea, options.distance)
+        for period, (count, apart) in enumerate(zip(answer.counts, answer.apart, strict=True)):
+            row: Row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
+            piece = period - options.transient
+            if 0 <= piece < len(sea[0].large):
+                row |= {"large": int(sea[0].large[piece]), "forecast": int(sea[0].forecast[piece])}
+            yield row
+
+
+def _loads(rest: Sequence[Digest], options) -> Row:
     """The columns on snaps and loads."""
-    rates = [number_of(record.row, SNAPS.name) for record in rest]
-    means = [number_of(record.row, MEAN.name) for record in rest]
-    ranges = np.array([number_of(record.row, EQUIVALENT.name) for record in rest])
+    rates, means, ranges = (
+        np.array([number_of(run.row, column.name) for run in rest]) for column in (SNAPS, MEAN, EQUIVALENT)
+    )
     mean_N = float(np.mean(means))
     row: Row = {
         SNAPS.name: float(np.mean(rates)),
@@ -333,10 +287,9 @@ def _loads(rest: Sequence[Record], options) -> Row:
         EQUIVALENT.name: float(np.mean(ranges**options.slope) ** (1.0 / options.slope)),
     }
     if len(rates) > 1:
-        row["snaps_per_hour_error"] = float(np.std(rates, ddof=1)) / math.sqrt(len(rates))
-    highs = [record.run.columns["tension_top_high_N"][record.first :] for record in rest]
-    block_s = BLOCK_PERIODS * rest[0].run.scene.waves.period_s
-    storm = storm_maximum(highs, rest[0].step_s, least_block_s=block_s)
+        row["snaps_per_hour_error"] = standard_error(rates)
+    highs = [run.high_N for run in rest]
+    storm = storm_maximum(highs, rest[0].step_s, least_block_s=BLOCK_PERIODS * rest[0].period_s)
     row["storm_reason"] = storm.reason
     if storm.found:
         row |= {"storm_maximum_N": storm.value, "storm_low_N": storm.low, "storm_high_N": storm.high}
