@@ -135,17 +135,19 @@ def _fitted(maxima, block_s: float, storm_s: float, confidence: float) -> StormM
     if fit > WORST_FIT:
         return f"maxima of blocks of {block_s:.0f} s do not follow one law (A² = {fit:.2g}), as those of two motions"
     allowed = best.fun + 0.5 * chi2.ppf(confidence, 1)
-    start = best.x[1:]
 
     def excess(candidate: float) -> float:
-        nonlocal start
-        inner = minimize(lambda p: misfit(candidate, *p), start, method="Nelder-Mead", options={"xatol": 1e-4})
-        start = inner.x
-        return inner.fun - allowed
+        """Of the profile likelihood over what the interval allows."""
+        wider = log_scale + math.log1p(abs(candidate - level))  # the likely scale may have no place for the maxima
+        fits = []
+        for start in ((log_scale, shape), (wider, 0.0)):
+            inner = minimize(lambda p: misfit(candidate, *p), start, method="Nelder-Mead", options={"xatol": 1e-4})
+            fits.append(inner.fun)
+        return min(fits) - allowed
 
     ends = []
     for way in (-1.0, 1.0):
-        start, reach = best.x[1:], 0.2
+        reach = 0.2
         while excess(level + way * reach) < 0.0 and reach < 100.0:
             reach *= 1.6
         ends.append(brentq(excess, level + way * reach, level, xtol=1e-3))

@@ -18,8 +18,6 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import kick_speed
 from campaigns.finer import finer
@@ -77,6 +75,8 @@ class Options(cli.Options):
 
 def kicks(options: Options) -> list[tuple[float, float]]:
     """Velocities (x, z) of the starts in m/s: rest, then even in a disc."""
+    import numpy as np
+
     rng = np.random.default_rng(options.seed)
     velocities = [(0.0, 0.0)]
     for _ in range(options.starts - 1):
