@@ -41,10 +41,9 @@ def exceedance(motions: Sequence[SnappingMotion]) -> Picture:
         across = np.append(across[1:], 0.0)
         lines.append(Curve(across, up, motion.name, colour=motion.colour, width=1.2))
     largest = max(float(motion.peaks_kN.max(initial=0.0)) for motion in motions)
-    settings = {"xlim": (0.0, 1.05 * largest)}
-    return curves(
-        [[Panel(lines, "peak of a snap (kN)", "larger ones a wave", log="y", settings=settings)]], 2.6, "best"
-    )
+    limits = {"xlim": (0.0, 1.05 * largest)}
+    panel = Panel(lines, "peak of a snap (kN)", "snaps a wave that are larger", log="y", settings=limits)
+    return curves([[panel]], 2.6, "below")
 
 
 def tension_histories(motions: Sequence[SnappingMotion], static_kN: float) -> Picture:

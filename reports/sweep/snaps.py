@@ -38,8 +38,8 @@ def snap_items(folder: Folder, key: Column) -> Items:
         return []
     place = f"{key.head} = {number(value)} {key.unit}".strip()
     definition = (
-        f"A snap: the tension, without axial ringing, falls to 5 % of its static value ({number(1e-3 * static_N, 3)} kN) "
-        "or less, and then rises to the static value or above it."
+        "A snap: the tension, without axial ringing, falls to 5 % of its static value "
+        f"({number(1e-3 * static_N, 3)} kN) or less, and then rises to the static value or above it."
     )
     often = (
         f"How many snaps a wave have a larger peak, for each motion at {place}, after the transient. {definition} "
