@@ -10,11 +10,18 @@ long enough, and over one key how far each largest tension holds; any other line
 counts. Of an irregular sea only the ramp is left out, and of a run without waves nothing. Nothing is random.
 """
 
+from __future__ import annotations
+
+import contextlib
+import io
+import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
+from numbers import Real
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
@@ -22,8 +29,15 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
+from engine import Scene
+from engine.atomic import write_atomic
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names
+from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
+
+if TYPE_CHECKING:
+    import pandas
+
+    from engine.run.simulation import SceneOrName
 
 MOST_KEYS = 2
 
@@ -167,6 +181,74 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         lines.append(f"Largest tension {largest(peak)} at {place}.")
         lines.append(use_of(peak, scene, searched=False))
     return lines
+
+
+def sweep(
+    scene: SceneOrName,
+    key: str,
+    values: Iterable[float],
+    *,
+    periods: int | None = None,
+    transient: int | None = None,
+    duration: float | None = None,
+    starts: str | int | None = None,
+    seed: int | None = None,
+    jobs: int | None = None,
+    out: str | Path = Path("results", "sweep"),
+    report: bool = True,
+) -> pandas.DataFrame:
+    """The campaign as a function: a row for each motion at each value of a key, and its folder.
+
+    scene     a Scene, the name of a shipped one, or the path of a scene file
+    key       of the scene, as "waves.steepness" or "buoy.mass_kg"
+    values    numbers
+    out       folder of the results, with table.csv, trajectories and the report; what is there is not done again
+    report    whether report.html and report.pdf are made
+    others    as the options of `python -m campaigns.sweep`; None: as without the option
+    Returns the table; its attrs have `units` (column -> unit), `meanings`, `folder` and the lines of the `answer`.
+    Raises ValueError with every fault; then nothing is run or written. A run that ends early is a row with its status.
+    """
+    import pandas
+
+    values, faults, words = list(values), [], ["--out", str(out)]
+    given = {"periods": periods, "transient": transient, "duration": duration, "starts": starts, "seed": seed}
+    for name, value in {**given, "jobs": jobs}.items():
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    if not report:
+        words.append("--no-report")
+    numbers = [float(value) for value in values if isinstance(value, Real) and math.isfinite(value)]
+    if not values or len(numbers) < len(values):
+        faults.append(f"values: given {values}; allowed: finite numbers, one or more")
+    options = cli.split(STUDY.parser(), words, faults)
+    how = cli.running(options, STUDY.places, STUDY.name, faults)
+    varied_key = varied([key], faults, "key", numbers=numbers or [0.0])
+    if faults:
+        raise ValueError("; ".join(faults))
+    name = str(scene)
+    if isinstance(scene, Scene):
+        name, content = str(how.out / "given.toml"), scene.to_toml().encode()
+        how.out.mkdir(parents=True, exist_ok=True)
+        if not Path(name).exists() or Path(name).read_bytes() != content:
+            write_atomic(name, content)
+    for name_of_scene in ("scene", "set"):
+        delattr(options, name_of_scene)
+    order = STUDY.order(how, name, {}, **vars(options) | {"grid": Grid((varied_key,))})
+    if order.faults:
+        if isinstance(scene, Scene):
+            Path(name).unlink()
+            with contextlib.suppress(OSError):  # a folder that holds more stays
+                how.out.rmdir()
+        raise ValueError("; ".join(order.faults))
+    called = ["--scene", name, *words, "--vary", key, *map(str, numbers)]
+    with contextlib.redirect_stdout(io.StringIO()):
+        STUDY.conduct(order, called)
+    columns = read_columns(how.out / "columns.csv")
+    table = pandas.DataFrame(read_table(how.out / "table.csv"))
+    table.attrs["units"] = {name: columns[name].unit for name in table}
+    table.attrs["meanings"] = {name: columns[name].meaning for name in table}
+    table.attrs |= {"folder": str(how.out), "answer": (how.out / ANSWER).read_text(encoding="utf-8").splitlines()}
+    return table
 
 
 STUDY = Study(

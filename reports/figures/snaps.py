@@ -1,0 +1,60 @@
+"""The snaps of motions: how often a peak is exceeded, and the tension histories beside each other."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from ..parts import Picture
+from .curves import Curve, Panel, curves
+
+
+class SnappingMotion(NamedTuple):
+    """The tension of one motion and its snaps.
+
+    name, colour   in legends
+    times          (n,) wave periods from the first that is shown
+    low_kN, high_kN (n,) extremes of the tension at the top since the sample before
+    peaks_kN       (k,) of its snaps
+    waves          wave periods in which these were counted
+    """
+
+    name: str
+    colour: str
+    times: np.ndarray
+    low_kN: np.ndarray
+    high_kN: np.ndarray
+    peaks_kN: np.ndarray
+    waves: float
+
+
+def exceedance(motions: Sequence[SnappingMotion]) -> Picture:
+    """Snaps a wave whose peak is larger than a tension, over this tension; one curve a motion."""
+    lines = []
+    for motion in motions:
+        if not len(motion.peaks_kN):
+            continue
+        peaks = np.sort(motion.peaks_kN)[::-1]
+        often = np.arange(1, len(peaks) + 1) / motion.waves
+        # a step for each snap: the smallest peak is exceeded by all others, the largest by none
+        across, up = np.repeat(peaks, 2), np.repeat(often, 2)
+        across = np.append(across[1:], 0.0)
+        lines.append(Curve(across, up, motion.name, colour=motion.colour, width=1.2))
+    largest = max(float(motion.peaks_kN.max(initial=0.0)) for motion in motions)
+    limits = {"xlim": (0.0, 1.05 * largest)}
+    panel = Panel(lines, "peak of a snap (kN)", "snaps a wave that are larger", log="y", settings=limits)
+    return curves([[panel]], 2.6, "below")
+
+
+def tension_histories(motions: Sequence[SnappingMotion], static_kN: float) -> Picture:
+    """Tension at the top over time, a panel a motion, on one scale; the line is the static tension."""
+    lowest = min(float(motion.low_kN.min()) for motion in motions)
+    highest = max(float(motion.high_kN.max()) for motion in motions)
+    limits, rows = (min(1.05 * lowest, 0.0), 1.05 * highest), []
+    for place, motion in enumerate(motions, 1):
+        times = np.repeat(motion.times, 2)
+        ends = np.column_stack([motion.low_kN, motion.high_kN]).ravel()
+        label = "$t/T_i$ (wave periods)" if place == len(motions) else ""
+        line = Curve(times, ends, colour=motion.colour, width=0.8)
+        rows.append([Panel([line], label, "$T$ (kN)", motion.name, level=static_kN, settings={"ylim": limits})])
+    return curves(rows, 0.5 + 1.15 * len(rows), share="x")
