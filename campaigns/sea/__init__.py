@@ -33,6 +33,7 @@ HEIGHTS = (HEIGHT, "waves.components", "waves.significant_steepness")
 SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
 TANGENTS = "output.tangent_vectors"
 AS_GIVEN, FINER = "", "finer"
+SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
 
 
@@ -56,10 +57,15 @@ class Options(cli.Options):
         "N", "minimum breaking load of the line, for its utilisation", cli.POSITIVE
     )
     no_regular: bool = cli.flag("leave out the regular waves beside the sea")
+    screen: bool = cli.flag(
+        "a look at a map in a sixth of the time: a line of nine nodes, one run from rest in each sea"
+    )
     grid: Grid = field(default_factory=Grid)
 
     def read(self, out: Path, faults: list[str]) -> None:
         """The keys with their values in the words of --vary; thresholds that contradict each other."""
+        if self.screen:
+            self.starts = 1
         words = self.vary or []
         if len(words) % 4 or len(words) > 4 * MOST_KEYS:
             faults.append(f"--vary: given {' '.join(words)}; allowed: once or twice KEY LO HI COUNT")
@@ -107,6 +113,8 @@ def cases(order: Order) -> Iterator[Job]:
     options: Options = order.options
     options.grid.refuse_set(order)
     order.changes = {**usual_sea(order), **order.changes}
+    if options.screen:
+        order.changes["tether.nodes"] = SCREEN_NODES
     for place in options.grid.places():
         base = order.base()
         if base is None and not options.grid.keys:
@@ -173,7 +181,7 @@ def beside(order: Order) -> Iterator[Callable]:
 def parameters(order: Order) -> dict:
     options: Options = order.options
     names = ("seeds", "starts", "hours", "transient", "kick_speed", "seed", "distance", "window", "slack_share")
-    names += ("snap_share", "slope", "breaking_load", "no_regular")
+    names += ("snap_share", "slope", "breaking_load", "no_regular", "screen")
     return {"sea_keys": list(options.grid.columns and [key.key for key in options.grid.keys])} | {
         name: getattr(options, name) for name in names
     }

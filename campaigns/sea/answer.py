@@ -41,6 +41,13 @@ def _memory(cell: Row, options) -> str:
         if math.isfinite(periods):
             words += f", but for spells of {number_of(cell, 'together_mean_periods'):.0f} periods on average"
         return f"{words}."
+    if not sign:
+        words = "This scene carries no perturbation, so there is no exponent"
+        if math.isfinite(periods):
+            return (
+                f"{words}; the starts come together after about {_rounded(periods)} periods in {seas - apart:.0f} seas."
+            )
+        return f"{words}; the starts were not seen to come together."
     if sign != "−":
         return "It is not decided whether this sea makes the buoy forget how it began: use more --seeds or --hours."
     if options.starts < 2:
@@ -86,10 +93,10 @@ def _visits(cell: Row, options) -> str:
 
 
 def _loads(cell: Row) -> str:
-    words = f"{number_of(cell, 'snaps_per_hour'):.2g} snaps an hour"
+    words = f"{number_of(cell, 'snaps_per_hour'):.0f} snaps an hour"
     error = number_of(cell, "snaps_per_hour_error")
     if math.isfinite(error):
-        words += f" (± {error:.1g})"
+        words += f" (± {error:.0f})"
     storm_N = number_of(cell, "storm_maximum_N")
     if not math.isfinite(storm_N):
         return f"{words}; no three-hour maximum: {cell.get('storm_reason')}."
@@ -97,9 +104,9 @@ def _loads(cell: Row) -> str:
     words += f"; three-hour maximum {kilonewton(storm_N)} ({low_N / 1e3:.3g} to {high_N / 1e3:.3g})"
     regular_N, high_wave_N = number_of(cell, "regular_N"), number_of(cell, "regular_high_N")
     if math.isfinite(regular_N):
-        words += f", {storm_N / regular_N:.2g} times that of the regular design wave of H_s"
+        words += f", {storm_N / regular_N:.1f} times that of the regular design wave of H_s"
     if math.isfinite(high_wave_N):
-        words += f" and {storm_N / high_wave_N:.2g} times that of 1.86 H_s"
+        words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
     return f"{words}."
 
 

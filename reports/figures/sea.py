@@ -71,7 +71,7 @@ def sea_history(history: SeaHistory, width_in: float = WIDTH_IN) -> Picture:
             middle.axhline(up, color=VERMILION, linewidth=1.0, label="slowly rising: the large motion begins")
             middle.axhline(down, color=BLUE, linewidth=1.0, linestyle="--", label="slowly falling: it ends")
         middle.set_ylabel("surface (m)")
-        middle.legend(loc="upper right", ncols=3)
+        middle.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
 
         for begin, end in history.slack:
             bottom.axvspan(begin, end, color=SHADES[1], linewidth=0)
@@ -85,7 +85,7 @@ def sea_history(history: SeaHistory, width_in: float = WIDTH_IN) -> Picture:
                 history.regular_N / 1e3, color=BLUE, linewidth=1.0, linestyle="--", label="regular wave of $H_s$"
             )
         bottom.set(xlabel="time (peak periods)", ylabel="tension (kN)", xlim=(history.time[0], history.time[-1]))
-        bottom.legend(loc="upper right", ncols=3)
+        bottom.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
         return picture_of(figure, kind_for(len(history.time)))
 
 

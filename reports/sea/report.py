@@ -50,6 +50,7 @@ _MAPS = {
     TANGENT_EXPONENT: "exponent",
     "large_share": "share of the large motion",
     "storm_maximum_N": "three-hour maximum",
+    "snaps_per_hour": "snaps an hour",
 }
 
 
@@ -165,6 +166,8 @@ def _maps(cells: Folder, keys: Sequence[str]) -> Items:
     columns = [cells.columns[key] for key in keys]
     if len(keys) == 1:
         shown = [pairs for pairs in measured(cells.columns, cells.table, keys) if pairs[0][0].name in _MAPS]
+        if not shown:
+            return
         yield Figure(over_key(cells.table, columns[0], shown, {}), "Bars: one standard error.", "Panels over the key.")
         return
     x, y = (np.array([row[key] for row in cells.table]) for key in keys)

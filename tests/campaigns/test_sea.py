@@ -8,10 +8,11 @@ import pytest
 from campaigns import sea
 from campaigns.sea.answer import sentences
 from campaigns.sea.regular import design_loads, folds_of
-from tests.campaigns.conftest import finished, ran, rows_of
+from tests.campaigns.conftest import built_twice, finished, ran, rows_of
 
-SMALL = "water.depth_m=23 buoy.submergence=full waves.jonswap.significant_height_m=1 waves.jonswap.components=4"
-WORDS = ["--set", *SMALL.split(), "tether.nodes=5", "--no-regular", "--hours", "0.03", "--transient", "5"]
+SMALL = "water.depth_m=23 buoy.submergence=full waves.jonswap.components=4 tether.nodes=5"
+SHORT = ["--set", *SMALL.split(), "--no-regular", "--hours", "0.03", "--transient", "5"]
+WORDS = [*SHORT, "--set", f"{sea.HEIGHT}=1"]
 
 
 @pytest.fixture(scope="module")
@@ -56,6 +57,21 @@ def test_the_same_command_computes_nothing_again(small):
     before = finished(out)
     assert ran(sea, out, *WORDS, "--seeds", 2, "--starts", 3) == rows and finished(out) == before
     assert len(ran(sea, out, *WORDS, "--seeds", 1, "--starts", 2)) == 3 and finished(out) == before
+
+
+def test_the_report_of_a_sea_is_the_same_when_it_is_drawn_again(small):
+    page, _ = built_twice(small[0])
+    assert b"Top: distance of the buoy from its anchor" in page
+
+
+@pytest.mark.parametrize("other", [[], ["waves.jonswap.peak_enhancement", 1, 5, 2]], ids=["a row", "a map"])
+def test_every_state_of_a_map_has_a_row(tmp_path, other):
+    ran(sea, tmp_path, *SHORT, "--seeds", 1, "--starts", 1, "--vary", sea.HEIGHT, 0.5, 1.5, 2, *other)
+    cells = rows_of(tmp_path, "cells/table.csv")
+    assert [float(cell["significant_height_m"]) for cell in cells] == pytest.approx(
+        sorted([0.5, 1.5] * (len(cells) // 2))
+    )
+    built_twice(tmp_path)
 
 
 @pytest.mark.parametrize(
