@@ -12,16 +12,19 @@ import numpy as np
 
 from analysis import slow_forecast
 from campaigns.explore.grid import Grid, varied
-from campaigns.explore.sweep import tables_of
+from campaigns.explore.sweep import REST, tables_of
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan, Summary
+from campaigns.machinery.plausible import breaking_steepness
 from campaigns.study import Order
+from engine.views import carries_tangents
 from tables import PEAK, Row, number_of
 
 FOLDER, KEY = "regular", "waves.amplitude_m"
 DESIGN, SAME_ENERGY = 1.86, 1.0 / math.sqrt(2.0)  # heights of regular waves over the significant height
 HEIGHTS, LOWEST = 13, 0.15  # waves of the sweep; the lowest over the highest
 BUDGET, KICKS = 300, 4  # wave periods of a run, and kicks at each height
+BELOW_BREAKING, NEAR = 0.98, 0.06  # of the amplitude of a wave: the highest of the sweep; how near a wave counts as it
 RAMP = 2000  # amplitudes of a slowly rising or falling wave
 APART = 1.2  # two motions of a wave are a small and a large one if their tensions differ by this factor
 SEA_KEYS = ("waves.jonswap", "waves.components", "waves.significant_steepness", "waves.relative_width")
@@ -33,6 +36,14 @@ def significant_height_m(scene) -> float:
 
     _, amplitudes_m, *_ = components_of(scene)
     return float(4.0 * math.sqrt(np.sum(amplitudes_m**2) / 2.0))
+
+
+def _breaking_m(scene) -> float:
+    """Amplitude of the highest regular wave of the peak period."""
+    from engine.physics.waves import wave_number
+
+    k = wave_number(scene.waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+    return breaking_steepness(scene) / k
 
 
 def one_set(order: Order) -> bool:
@@ -47,14 +58,15 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     if not one_set(order):
         return 0.0
     heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
-    top_m = 0.5 * DESIGN * heights_m[-1]
+    scene = order.scenes[0]
+    top_m = min(0.5 * DESIGN * heights_m[-1], BELOW_BREAKING * _breaking_m(scene))
     amplitudes = {float(f"{top_m * share:.6g}") for share in np.linspace(LOWEST, 1.0, HEIGHTS)}
     if len(heights_m) == 1:
         amplitudes |= {float(f"{0.5 * heights_m[0] * share:.6g}") for share in (1.0, SAME_ENERGY)}
     changes = {name: value for name, value in order.changes.items() if not name.startswith(SEA_KEYS)}
-    changes["waves.above_still_water"] = order.scenes[0].waves.above_still_water
+    changes["waves.above_still_water"] = scene.waves.above_still_water
     key = replace(varied([KEY, "0", "1", "2"], []), values=tuple(sorted(amplitudes)))
-    options = {"grid": Grid((key,)), "starts": KICKS, "budget": BUDGET}
+    options = {"grid": Grid((key,)), "starts": KICKS if carries_tangents(scene) else REST, "budget": BUDGET}
     options |= {"kick_speed": order.options.kick_speed, "seed": order.options.seed}
     how = replace(order.how, out=order.how.out / FOLDER, report=False)
     waves = sweep.STUDY.order(how, order.name, changes, **options)
@@ -144,12 +156,17 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Sequence[R
 
 
 def design_loads(rows: Sequence[Row], amplitude_m: float) -> list[tuple[str, float]]:
-    """Letter and largest tension (N) of each motion of the regular wave nearest to an amplitude, the smallest first."""
+    """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
+
+    Of the sweep, the nearest wave within NEAR counts; an empty list where there is none.
+    """
     known = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
     if not known:
         return []
     nearest = min((number_of(row, KEY) for row in known), key=lambda value: abs(value - amplitude_m))
     loads = [(str(row["motion"]), number_of(row, PEAK)) for row in known if number_of(row, KEY) == nearest]
+    if abs(nearest - amplitude_m) > NEAR * amplitude_m:
+        return []
     return sorted(loads, key=lambda load: load[1])
 
 
