@@ -180,11 +180,9 @@ def beside(order: Order) -> Iterator[Callable]:
 
 def parameters(order: Order) -> dict:
     options: Options = order.options
-    names = ("seeds", "starts", "hours", "transient", "kick_speed", "seed", "distance", "window", "slack_share")
-    names += ("snap_share", "slope", "breaking_load", "no_regular", "screen")
-    return {"sea_keys": list(options.grid.columns and [key.key for key in options.grid.keys])} | {
-        name: getattr(options, name) for name in names
-    }
+    values = {entry.name: getattr(options, entry.name) for entry in Options.offered() if entry.metadata}
+    del values["vary"]
+    return {"sea_keys": [key.key for key in options.grid.keys], **values}
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
