@@ -118,6 +118,8 @@ def _fatigue(cell: Row, options) -> str:
     used = number_of(cell, "utilisation")
     if math.isfinite(used):
         return f"{words}; the line is used to {used:.0%} by DNV-OS-E301, consequence class 1."
+    if options.breaking_load is not None:
+        return f"{words}; without a three-hour maximum there is no utilisation of the line."
     return f"{words}; --breaking-load gives the utilisation."
 
 
