@@ -39,9 +39,9 @@ def sea(sound: Sound) -> Facts:
     because = "each component has its own" if listed else "waves.jonswap draws those of its components"
     yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
     yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {because}"
-    for key in ("buoy.submergence", "tether.submergence"):
-        cut = sound[key] in ("spherical-cap", "free-surface")
-        yield (listed or drawn) and cut, key, "'full' in irregular waves"
+    key = "tether.submergence"
+    rule = "'full' in irregular waves: only the buoy is cut by the surface of a sea (buoy.submergence)"
+    yield (listed or drawn) and sound[key] == "free-surface", key, rule
 
 
 def heights(sound: Sound) -> Iterator[str]:
