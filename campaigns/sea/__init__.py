@@ -100,8 +100,9 @@ def usual_sea(order: Order) -> dict:
     base = order.base()
     if base is None or order.name != STUDY.scene:
         return usual
-    if "buoy.submergence" not in given:
-        usual["buoy.submergence"] = "spherical-cap"
+    for key, value in (("buoy.submergence", "spherical-cap"), ("waves.above_still_water", "wheeler")):
+        if key not in given:
+            usual[key] = value
     if not any(key.startswith(HEIGHTS) for key in given):
         k = wave_number(base.waves.period_s, base.water.depth_m, base.gravity_mps2)
         usual[HEIGHT] = round(2.0 * LARGE / k, 4)
