@@ -51,7 +51,7 @@ def linearise(p, tables, base, work, water):
     """The matrix of a stage (Base), eliminated, into work.E (n, 33), with the Q, X, F it belongs to, and Water."""
     Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
     shape(p, tables, Y, Q, work.X)
-    flow(p, tables, base.t, 1.0, work.X, work.F)
+    flow(p, tables, base.t, 1.0, work.X, work.F, work.sea)
     over = 1.0 / rate
     for k in range(Y.shape[0]):
         for m in range(2):
