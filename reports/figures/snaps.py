@@ -36,16 +36,22 @@ def exceedance(motions: Sequence[SnappingMotion]) -> Picture:
     for motion in motions:
         if not len(motion.peaks_kN):
             continue
-        peaks = np.sort(motion.peaks_kN)[::-1]
-        often = np.arange(1, len(peaks) + 1) / motion.waves
-        # a step for each snap: the smallest peak is exceeded by all others, the largest by none
-        across, up = np.repeat(peaks, 2), np.repeat(often, 2)
-        across = np.append(across[1:], 0.0)
+        across, up = larger_a_wave(motion.peaks_kN, motion.waves)
         lines.append(Curve(across, up, motion.letter, colour=motion.colour, width=1.2))
     largest = max(float(motion.peaks_kN.max(initial=0.0)) for motion in motions)
     limits = {"xlim": (0.0, 1.05 * largest)}
     panel = Panel(lines, "peak of a snap (kN)", "snaps a wave that are larger", log="y", settings=limits)
     return curves([[panel]], 2.6, "lower left")
+
+
+def larger_a_wave(peaks_kN: np.ndarray, waves: float) -> tuple[np.ndarray, np.ndarray]:
+    """The corners of a stair (2 k,) from the largest of k peaks down to 0: tension, and how many a wave are larger.
+
+    To the left of a peak it counts, to the right of it not.
+    """
+    peaks = np.sort(peaks_kN)[::-1]
+    often = np.arange(1, len(peaks) + 1) / waves
+    return np.append(np.repeat(peaks, 2)[1:], 0.0), np.repeat(often, 2)
 
 
 def tension_histories(motions: Sequence[SnappingMotion], static_kN: float) -> Picture:
