@@ -49,6 +49,8 @@ class Snaps:
     onset_s           when the slack interval began; NaN if it began before the record [s]
     duration_s        length of the slack interval; NaN as onset_s [s]
     taut_s            when the line became taut: the snap begins [s]
+    counted_s         when the mean tension reaches the static one (or the share of it that makes a snap): from then on
+                      the snap is one, so that counts of neighbouring stretches of time add up [s]
     taut_speed_mps    rate of the distance between the ends of the line at that moment; NaN if not given [m/s]
     peak_N            largest tension of the pull, ringing included [N]
     peak_s            its time [s]
@@ -63,6 +65,7 @@ class Snaps:
     onset_s: np.ndarray
     duration_s: np.ndarray
     taut_s: np.ndarray
+    counted_s: np.ndarray
     taut_speed_mps: np.ndarray
     peak_N: np.ndarray
     peak_s: np.ndarray
@@ -122,7 +125,7 @@ def detect_snaps(
     slack_share      share of the static tension, 0 <= share < snap_share
     snap_share       share of the static tension that a snap reaches. Less than 1: a pull is then a mean tension above
                      this share, so that every retensioning counts if it is just above slack_share
-    transient_s      snaps that become taut before it are left out [s]
+    transient_s      snaps that count before it are left out [s]
     Returns Snaps; a slack interval that the record does not see end is none.
     Raises ValueError for values that are not finite, arrays of other lengths, and thresholds without meaning.
     """
@@ -143,21 +146,23 @@ def detect_snaps(
 
     mean = running_mean(tension, step_s, ringing_s)
     rows = []
-    for first, last, left in _pulls(mean, slack_N, pull_N):
+    for first, last, pulled, left in _pulls(mean, slack_N, pull_N):
         taut_s = step_s * _crossing(mean, last, slack_N)
         peak = last + 1 + int(np.argmax(high[last + 1 : left + 1]))
-        if high[peak] < snap_N or taut_s < transient_s:
+        counted_s = step_s * _crossing(mean, pulled - 1, pull_N)
+        if high[peak] < snap_N or counted_s < transient_s:
             continue
         onset_s = step_s * _crossing(mean, first - 1, slack_N) if first > 0 else np.nan
         speed_mps = np.interp(taut_s / step_s, np.arange(len(rate)), rate)
         peak_s = max(step_s * peak, taut_s)
-        rows.append((onset_s, taut_s, speed_mps, high[peak], peak_s))
-    onset_s, taut_s, speed_mps, peak_N, peak_s = np.array(rows, dtype=float).reshape(-1, 5).T
+        rows.append((onset_s, taut_s, counted_s, speed_mps, high[peak], peak_s))
+    onset_s, taut_s, counted_s, speed_mps, peak_N, peak_s = np.array(rows, dtype=float).reshape(-1, 6).T
     impact_N = np.where(speed_mps > 0.0, speed_mps, np.nan) * impact_Nspm
     return Snaps(
         onset_s=onset_s,
         duration_s=taut_s - onset_s,
         taut_s=taut_s,
+        counted_s=counted_s,
         taut_speed_mps=speed_mps,
         peak_N=peak_N,
         peak_s=peak_s,
@@ -193,8 +198,8 @@ def running_mean(series: ArrayLike, step_s: float, length_s: float) -> np.ndarra
 
 
 def _pulls(mean, slack_N, pull_N):
-    """Of each pull that ends a slack interval three samples: the first and the last at or below the slack threshold,
-    and the first that is below the pull's threshold again, or the last of the record.
+    """Of each pull that ends a slack interval four samples: the first and the last at or below the slack threshold,
+    the first at the pull's, and the first that is below this again, or the last of the record.
     """
     pulls = mean >= pull_N
     decided = np.flatnonzero((mean <= slack_N) | pulls)
@@ -204,7 +209,7 @@ def _pulls(mean, slack_N, pull_N):
         if not pulls[decided[pull_run]]:
             continue
         first, last, pulled = decided[slack_run], decided[pull_run - 1], decided[pull_run]
-        yield int(first), int(last), int(below[np.searchsorted(below, pulled)])
+        yield int(first), int(last), int(pulled), int(below[np.searchsorted(below, pulled)])
 
 
 def _crossing(series, sample, level):

@@ -230,7 +230,7 @@ def snaps(
     static_N     static tension (N); None: that of the scene at rest
     ringing_s    longest period of axial ringing (s); None: 2 l/c of the line, and two samples at least
     slack_share, snap_share   thresholds of slack and of a snap, as shares of the static tension; None: 0.05
-    transient_s  snaps that become taut before it are left out (s)
+    transient_s  snaps that count before it are left out (s)
     A run that is not finite is looked at up to there. Raises ValueError for a line that bears no tension at rest.
     """
     options = {} if slack_share is None else {"slack_share": slack_share}

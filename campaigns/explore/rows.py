@@ -273,23 +273,25 @@ def settled(scene, columns, transient_s: float) -> Row:
 def snap_columns(scene, columns, transient_s: float, period: int | None = None) -> Row:
     """The columns SNAPS; none for a line that bears no tension at rest.
 
-    Snaps a wave are those of the last whole periods of the motion after the transient. period: of the motion, in waves;
-    None: not known.
+    Those a wave, their median and 95 % are of the last whole periods of the motion after the transient. period: of the
+    motion, in waves; None: not known.
     """
     try:
         snaps = snaps_of(scene, columns, transient_s=transient_s)
     except ValueError:
         return {}
-    row = {}
+    row, counted_from_s = {}, transient_s
     if scene.waves is not None and snaps.watched_s > 0.0:
         waves, whole = snaps.watched_s / scene.waves.period_s, period or WHOLE_WAVES
         if waves >= whole:
             waves = (waves + 1e-6) // whole * whole
         counted_from_s = columns["time_s"][-1] - columns["time_s"][0] - waves * scene.waves.period_s
-        row["snaps_per_wave"] = float((snaps.taut_s >= counted_from_s).sum() / waves)
-    if len(snaps):
-        row["snap_peak_median_N"] = float(np.median(snaps.peak_N))
-        row["snap_peak_95_N"] = float(np.quantile(snaps.peak_N, 0.95))
+        row["snaps_per_wave"] = float((snaps.counted_s >= counted_from_s).sum() / waves)
+    peaks_N = snaps.peak_N[snaps.counted_s >= counted_from_s]
+    if len(peaks_N):
+        # a peak that occurs: the mean of the two in the middle would jump where large and small ones take turns
+        median_N, high_N = np.quantile(peaks_N, [0.5, 0.95], method="inverted_cdf")
+        row["snap_peak_median_N"], row["snap_peak_95_N"] = float(median_N), float(high_N)
         row["snap_peak_max_N"] = float(snaps.peak_N.max())
         row["snap_speed_max_mps"] = float(snaps.taut_speed_mps.max())
     return row

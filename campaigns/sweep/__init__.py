@@ -29,7 +29,6 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
-from engine import Scene
 from engine.atomic import write_atomic
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
@@ -209,6 +208,8 @@ def sweep(
     Raises ValueError with every fault; then nothing is run or written. A run that ends early is a row with its status.
     """
     import pandas
+
+    from engine import Scene
 
     values, faults, words = list(values), [], ["--out", str(out)]
     given = {"periods": periods, "transient": transient, "duration": duration, "starts": starts, "seed": seed}

@@ -30,8 +30,9 @@ CAMPAIGN, MODULE = "time_series", "analysis"
 # What `answer` and the report write, the first one first, told here because importing either takes a second.
 WRITTEN = (
     *("answer.txt", "answer.json", "series.csv", "spectrum.csv", "section.csv", "divergence.csv", "dimension.csv"),
-    *("columns.csv", "report.html", "report.pdf", "snaps.csv", "snaps_columns.csv"),
+    *("columns.csv", "report.html", "report.pdf"),
 )
+OF_SNAPS_ALONE = ("snaps.csv", "snaps_columns.csv")  # what --snaps writes beside answer.txt
 EXITS = "exit codes: 0 done, 1 the folder could not be written, 2 bad input, 130 Ctrl-C"
 OF_SNAPS = {  # option: argument of `analysis.detect_snaps`
     "--static": ("static_N", POSITIVE),
@@ -141,7 +142,7 @@ def _written_over(out: Path, file: str | None) -> str:
     # A folder with answer.txt alone is that of a command which a full disk stopped: provenance.json comes last.
     mine = (out / "provenance.json").exists() or (out / WRITTEN[0]).exists()
     lost = ""
-    for name in WRITTEN:
+    for name in (*WRITTEN, *OF_SNAPS_ALONE):
         path = out / name
         if not mine and path.exists():
             lost = f"which holds a {name} that is not known to be of this command"

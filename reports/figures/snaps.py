@@ -12,14 +12,16 @@ from .curves import Curve, Panel, curves
 class SnappingMotion(NamedTuple):
     """The tension of one motion and its snaps.
 
-    name, colour   in legends
+    letter, colour of the motion; letter "" where there is one
+    title          of its history
     times          (n,) wave periods from the first that is shown
     low_kN, high_kN (n,) extremes of the tension at the top since the sample before
     peaks_kN       (k,) of its snaps
-    waves          wave periods in which these were counted
+    waves          wave periods in which there were so many
     """
 
-    name: str
+    letter: str
+    title: str
     colour: str
     times: np.ndarray
     low_kN: np.ndarray
@@ -34,16 +36,22 @@ def exceedance(motions: Sequence[SnappingMotion]) -> Picture:
     for motion in motions:
         if not len(motion.peaks_kN):
             continue
-        peaks = np.sort(motion.peaks_kN)[::-1]
-        often = np.arange(1, len(peaks) + 1) / motion.waves
-        # a step for each snap: the smallest peak is exceeded by all others, the largest by none
-        across, up = np.repeat(peaks, 2), np.repeat(often, 2)
-        across = np.append(across[1:], 0.0)
-        lines.append(Curve(across, up, motion.name, colour=motion.colour, width=1.2))
+        across, up = larger_a_wave(motion.peaks_kN, motion.waves)
+        lines.append(Curve(across, up, motion.letter, colour=motion.colour, width=1.2))
     largest = max(float(motion.peaks_kN.max(initial=0.0)) for motion in motions)
     limits = {"xlim": (0.0, 1.05 * largest)}
     panel = Panel(lines, "peak of a snap (kN)", "snaps a wave that are larger", log="y", settings=limits)
-    return curves([[panel]], 2.6, "below")
+    return curves([[panel]], 2.6, "lower left")
+
+
+def larger_a_wave(peaks_kN: np.ndarray, waves: float) -> tuple[np.ndarray, np.ndarray]:
+    """The corners of a stair (2 k,) from the largest of k peaks down to 0: tension, and how many a wave are larger.
+
+    To the left of a peak it counts, to the right of it not.
+    """
+    peaks = np.sort(peaks_kN)[::-1]
+    often = np.arange(1, len(peaks) + 1) / waves
+    return np.append(np.repeat(peaks, 2)[1:], 0.0), np.repeat(often, 2)
 
 
 def tension_histories(motions: Sequence[SnappingMotion], static_kN: float) -> Picture:
@@ -56,5 +64,5 @@ def tension_histories(motions: Sequence[SnappingMotion], static_kN: float) -> Pi
         ends = np.column_stack([motion.low_kN, motion.high_kN]).ravel()
         label = "$t/T_i$ (wave periods)" if place == len(motions) else ""
         line = Curve(times, ends, colour=motion.colour, width=0.8)
-        rows.append([Panel([line], label, "$T$ (kN)", motion.name, level=static_kN, settings={"ylim": limits})])
+        rows.append([Panel([line], label, "$T$ (kN)", motion.title, level=static_kN, settings={"ylim": limits})])
     return curves(rows, 0.5 + 1.15 * len(rows), share="x")

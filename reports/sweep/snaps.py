@@ -73,15 +73,17 @@ def _motion_of(folder: Folder, row: dict) -> tuple[SnappingMotion, float] | None
     times = columns["time_s"] / period_s
     last = times >= times[-1] - SHOWN_PERIODS
     words = [f"motion {letter}" if letter else "", row.get("regime") or ""]
-    words.append(f"{number(number_of(row, 'snaps_per_wave'), 3)} snaps a wave")
+    per_wave = number_of(row, "snaps_per_wave")
+    words.append(f"{number(per_wave, 3)} snaps a wave")
     low, high = (1e-3 * columns[f"tension_top_{end}_N"][last] for end in ("low", "high"))
     motion = SnappingMotion(
-        name=", ".join(filter(None, words)),
+        letter=letter,
+        title=", ".join(filter(None, words)),
         colour=colour,
         times=times[last] - times[-1],
         low_kN=low,
         high_kN=high,
         peaks_kN=1e-3 * snaps.peak_N,
-        waves=snaps.watched_s / period_s,
+        waves=len(snaps) / per_wave if per_wave > 0.0 else snaps.watched_s / period_s,
     )
     return motion, snaps.static_N
