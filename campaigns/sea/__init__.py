@@ -29,7 +29,8 @@ from tables import LARGE
 
 MOST_KEYS = 2
 HEIGHT = "waves.jonswap.significant_height_m"
-HEIGHTS = (HEIGHT, "waves.components", "waves.significant_steepness")
+HEIGHTS = ("waves.jonswap.significant", "waves.components", "waves.significant", "waves.record", "waves.steepness")
+HEIGHTS += ("waves.amplitude_m",)
 SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
 TANGENTS = "output.tangent_vectors"
 AS_GIVEN, FINER = "", "finer"

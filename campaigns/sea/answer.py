@@ -93,7 +93,9 @@ def _visits(cell: Row, options) -> str:
 
 
 def _loads(cell: Row) -> str:
-    words = f"{number_of(cell, 'snaps_per_hour'):.0f} snaps an hour"
+    words = "Snaps are not counted, because the line bears no tension at rest"
+    if math.isfinite(number_of(cell, "snaps_per_hour")):
+        words = f"{number_of(cell, 'snaps_per_hour'):.0f} snaps an hour"
     error = number_of(cell, "snaps_per_hour_error")
     if math.isfinite(error):
         words += f" (± {error:.0f})"

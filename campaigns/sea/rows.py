@@ -15,6 +15,7 @@ from analysis import (
 )
 from analysis.tangent_growth import turned
 from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, exponents, height_m, sound_part
+from campaigns.explore.rows import SNAPS as SNAPS_OF_RUNS
 from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
 from engine.views import carried, snaps_of
@@ -32,6 +33,7 @@ EQUIVALENT = Column(
     "equivalent_load_N", "N", "R_eq", "range that does the damage of the record in one cycle a peak period", 0
 )
 LARGEST = Column(PEAK, "N", "T_max", "largest tension at the top after the transient", 0)
+_OF_SNAPS = [column for column in SNAPS_OF_RUNS if column.name in ("snap_peak_median_N", "snap_speed_max_mps")]
 _MEASURED = (
     SEA,
     START,
@@ -43,10 +45,7 @@ _MEASURED = (
     *TANGENT,
     GROWING,
     SNAPS,
-    Column("snap_peak_median_N", "N", "T_snap", "median of the largest tensions of the snaps", 0),
-    Column(
-        "snap_speed_max_mps", "m/s", "v_snap", "largest speed at which the line became taut before a snap", 2, SHEET
-    ),
+    *_OF_SNAPS,
     SLACK,
     MEAN,
     LARGEST,
@@ -84,23 +83,24 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
     tension, low, high = (columns[f"tension_top{kind}_N"] for kind in ("", "_low", "_high"))
     if len(tension) - first < 2:
         return row
-    static_N = static_tension_N(scene, columns)
-    snaps = snaps_of(scene, columns, transient_s=transient_s, slack_share=slack_share, snap_share=snap_share)
     crests = high[first:][peaks(high[first:])]
     waves = (len(tension) - 1 - first) * step_s / period_s
     row |= {
-        SNAPS.name: len(snaps) / snaps.watched_s * 3600.0,
-        SLACK.name: slack_fraction(tension, step_s, slack_share * static_N, transient_s).fraction,
         MEAN.name: float(np.mean(tension[first:])),
         LARGEST.name: extremes(high, step_s, transient_s).maximum,
         "peaks": len(crests),
         EQUIVALENT.name: damage_equivalent_load(turning_points(low[first:], high[first:]), waves, slope),
     }
-    if len(snaps):
-        row["snap_peak_median_N"] = float(np.median(snaps.peak_N))
-        row["snap_speed_max_mps"] = float(np.max(snaps.taut_speed_mps))
     if len(crests) > 100:
         row["peak_p99_N"] = float(np.quantile(crests, 0.99))
+    static_N = static_tension_N(scene, columns)
+    if static_N > 0.0:  # by which slack and snaps are measured
+        snaps = snaps_of(scene, columns, transient_s=transient_s, slack_share=slack_share, snap_share=snap_share)
+        row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
+        row[SLACK.name] = slack_fraction(tension, step_s, slack_share * static_N, transient_s).fraction
+        if len(snaps):
+            row["snap_peak_median_N"] = float(np.median(snaps.peak_N))
+            row["snap_speed_max_mps"] = float(np.max(snaps.taut_speed_mps))
     return {
         name: None if isinstance(entry, float) and not math.isfinite(entry) else entry for name, entry in row.items()
     }
