@@ -8,6 +8,7 @@ import numpy as np
 from ..arrays import Trail, Work
 from ..compiled import kernel
 from ..dimensions import shape
+from ..physics.sea import SEA_WIDTH
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar.extras import node_width
