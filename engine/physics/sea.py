@@ -32,6 +32,9 @@ which holds 98.5 % of the energy at gamma = 1 and more above, is cut into parts 
 component, at a random place (even frequencies would repeat the sea after 1/df) and with a random phase. Its amplitude
 carries the energy of its part: it is not random, so that every seed has the same H_s.
 
+A sea of given significant steepness k H_s/2 and relative width w has a Gaussian spectrum about f_p, standard deviation
+w f_p: with w it goes from a regular wave of the same energy, A = H_s/8^(1/2), to a broad sea.
+
 Source: K. Hasselmann et al., Deutsche Hydrographische Zeitschrift A8, no. 12 (1973); W. J. Pierson & L. Moskowitz,
 J. Geophys. Res. 69 (1964) 5181.
 """
@@ -58,6 +61,7 @@ LN2_A = float.fromhex("0x1.62e42fefa0000p-1")  # ln 2 in two parts; products of 
 LN2_B = 1.6465949582897082e-12
 STILL = 3.0  # change of the water's velocity, over the tolerance of Newton's method, that is left out
 LOWEST, HIGHEST = 0.5, 3.0  # of the peak frequency
+REACH = 4.0  # of a Gaussian spectrum, in its widths
 _POINTS = 200  # over which the energy of one part is summed
 
 
@@ -75,6 +79,25 @@ def components(
     energy = np.trapezoid(_shape(inner, gamma), inner, axis=1)
     amplitude = np.sqrt(2.0 * energy / energy.sum() * significant_height_m**2 / 16.0)
     return peak_period_s / ratio, amplitude, 2.0 * np.pi * rng.random(count)
+
+
+def gaussian(
+    significant_height_m: float, peak_period_s: float, width: float, count: int, seed: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """As `components`, of the spectrum exp(-(f/f_p - 1)^2/(2 width^2)) within four widths; width 0: one regular wave.
+
+    Each wave carries the energy of its part of the band, exactly. The regular wave has the phase 0.
+    """
+    if width == 0.0:
+        amplitude = significant_height_m / math.sqrt(8.0)
+        return np.array([peak_period_s]), np.array([amplitude]), np.zeros(1)
+    rng = np.random.default_rng(seed)
+    edges = np.linspace(-REACH, REACH, count + 1)
+    place = edges[:-1] + np.diff(edges) * rng.random(count)
+    below = np.array([math.erf(edge / math.sqrt(2.0)) for edge in edges])
+    energy = np.diff(below) / (below[-1] - below[0])
+    amplitude = np.sqrt(2.0 * energy * significant_height_m**2 / 16.0)
+    return peak_period_s / (1.0 + width * place), amplitude, 2.0 * np.pi * rng.random(count)
 
 
 def _shape(ratio, gamma):
@@ -97,6 +120,11 @@ def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
         sea = waves.jonswap
         drawn = components(sea.significant_height_m, waves.period_s, sea.peak_enhancement, sea.components, sea.seed)
         return (*drawn, np.full(sea.components, waves.direction_rad))
+    if waves.significant_steepness is not None:
+        k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+        height_m = 2.0 * waves.significant_steepness / k
+        drawn = gaussian(height_m, waves.period_s, waves.relative_width, waves.component_count, waves.seed)
+        return (*drawn, np.full(len(drawn[0]), waves.direction_rad))
     listed = [(wave.period_s, wave.amplitude_m, wave.phase_rad, wave.direction_rad) for wave in waves.components]
     return tuple(np.array(listed).T)
 

@@ -16,6 +16,7 @@ from pydantic import ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from engine.scene.faults import TOO_DEEP, SceneError, field_faults, too_deep
+from engine.scene.measured_sea import with_measured_sea
 from engine.scene.rules import cross_faults
 from engine.scene.sections import Anchor, Buoy, Current, End, Floor, Tether, Water, Waves, above_by_default
 from engine.scene.values import (
@@ -184,6 +185,8 @@ def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> S
     """
     if too_deep(raw):
         raise SceneError((*extra_faults, f"scene: {TOO_DEEP}"))
+    raw, unfit = with_measured_sea(raw)
+    extra_faults = (*extra_faults, *unfit)
     try:
         scene = Scene.model_validate(raw)
     except ValidationError as error:

@@ -40,6 +40,7 @@ Components = Annotated[
     int, Field(strict=True, ge=1, le=MOST_COMPONENTS), Allowed(f"a whole number from 1 to {MOST_COMPONENTS}")
 ]
 PeakEnhancement = Annotated[_Float, Field(ge=1, le=10), Allowed("a number from 1 to 10")]
+RelativeWidth = Annotated[_Float, Field(ge=0, le=0.2), Allowed("a number from 0 to 0.2")]
 Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
 Text = Annotated[str, Field(strict=True), Allowed("text")]
 Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
