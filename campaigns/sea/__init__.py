@@ -3,7 +3,7 @@
     python -m campaigns.sea                                        the paper's buoy in a sea as steep as its large wave
     python -m campaigns.sea --seeds 20 --hours 3 --starts 1        loads only
     python -m campaigns.sea --scene FILE --set waves.jonswap.significant_height_m=4
-    python -m campaigns.sea --vary waves.jonswap.significant_height_m 0.5 2 6 --seeds 3 --hours 0.3     several seas
+    python -m campaigns.sea --vary waves.significant_steepness 0.02 0.14 6 --vary waves.relative_width 0 0.1 5 --seeds 3
 
 Protocol: every sea is drawn anew for each of --seeds, and runs from rest and from kicks of the buoy, with the same
 waves for all starts. The run from rest carries a perturbation, whose mean growth is the exponent of the sea, and gives
@@ -45,7 +45,7 @@ class Options(cli.Options):
     vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
     seeds: int = cli.option("N", "seas of each state, with seeds 1 to N", cli.whole(1, 1000), 8)
     starts: int = cli.option("N", "starts in each sea: from rest, and N - 1 kicks", cli.whole(1, 100), 4)
-    hours: float = cli.option("H", "length of every run after the transient, hours", cli.POSITIVE, 0.5)
+    hours: float = cli.option("H", "length of every run after the transient, hours", cli.POSITIVE, 0.25)
     transient: int = cli.option("N", "peak periods left out of exponent, events and loads", cli.whole(0), 40)
     kick_speed: float = kick_speed()
     seed: int = cli.seed("of the kicks")
@@ -131,10 +131,17 @@ def cases(order: Order) -> Iterator[Job]:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
             order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
             return
-        if scene.waves.jonswap is None and options.seeds > 1:
-            order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves.jonswap"])
+        if _seed_key(scene) is None and options.seeds > 1:
+            order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
             return
         yield from _runs(order, place, changes, scene)
+
+
+def _seed_key(scene) -> str | None:
+    """The key by which the waves of a scene are drawn anew; None where they are listed or measured."""
+    if scene.waves.jonswap is not None:
+        return "waves.jonswap.seed"
+    return None if scene.waves.significant_steepness is None else "waves.seed"
 
 
 def _runs(order: Order, place: dict, changes: dict, base) -> Iterator[Job]:
@@ -145,8 +152,8 @@ def _runs(order: Order, place: dict, changes: dict, base) -> Iterator[Job]:
     for seed in range(1, options.seeds + 1):
         for start, (x_mps, z_mps) in enumerate(kicks(options)):
             further = {}
-            if base.waves.jonswap is not None:
-                further["waves.jonswap.seed"] = seed
+            if _seed_key(base) is not None:
+                further[_seed_key(base)] = seed
             if start > 0:
                 further["start.buoy_velocity_mps"] = [x_mps, 0.0, z_mps]
             elif carries_tangents(base):
@@ -199,7 +206,11 @@ STUDY = Study(
     name="sea",
     protocol=__doc__,
     scene="tethered_buoy",
-    taken={"waves.jonswap.seed": "use --seeds", "start.buoy_velocity_mps": "use --starts and --kick-speed"},
+    taken={
+        "waves.jonswap.seed": "use --seeds",
+        "waves.seed": "use --seeds",
+        "start.buoy_velocity_mps": "use --starts and --kick-speed",
+    },
     options=Options,
     cases=cases,
     measures=measures,

@@ -22,12 +22,16 @@ from tables import PEAK, Row, number_of
 
 FOLDER, KEY = "regular", "waves.amplitude_m"
 DESIGN, SAME_ENERGY = 1.86, 1.0 / math.sqrt(2.0)  # heights of regular waves over the significant height
-HEIGHTS, LOWEST = 13, 0.15  # waves of the sweep; the lowest over the highest
-BUDGET, KICKS = 300, 4  # wave periods of a run, and kicks at each height
-BELOW_BREAKING, NEAR = 0.98, 0.06  # of the amplitude of a wave: the highest of the sweep; how near a wave counts as it
+HEIGHTS, LOWEST = 9, 0.15  # waves of the sweep; the lowest over the highest
+BUDGET, KICKS = 300, 3  # wave periods of a run, and kicks at each height
+BELOW_BREAKING, NEAR = (
+    0.98,
+    0.06,
+)  # of the amplitude of a wave: the highest of the sweep; nearness at which a wave counts as it
 RAMP = 2000  # amplitudes of a slowly rising or falling wave
 APART = 1.2  # two motions of a wave are a small and a large one if their tensions differ by this factor
-SEA_KEYS = ("waves.jonswap", "waves.components", "waves.significant_steepness", "waves.relative_width")
+SEA_KEYS = ("waves.jonswap", "waves.component", "waves.significant_steepness", "waves.relative_width", "waves.seed")
+SEA_KEYS += ("waves.record",)
 
 
 def significant_height_m(scene) -> float:

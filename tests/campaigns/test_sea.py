@@ -83,6 +83,7 @@ def test_every_state_of_a_map_has_a_row(tmp_path, other):
         (["--snap-share", "0.01"], "--snap-share"),
         (["--hours", "0"], "--hours"),
         (["--set", "waves.jonswap.seed=3"], "use --seeds"),
+        (["--set", "waves.components=[{period_s=5, amplitude_m=0.3}]"], "--seeds"),
         (
             ["--set", "waves.jonswap.significant_height_m=2", "--vary", *f"{sea.HEIGHT} 1 2 2".split()],
             "this campaign sets",
@@ -143,3 +144,15 @@ def test_the_first_sentence_answers_the_question(entries, words):
     first, *_ = sentences([cell(**entries)], options)
     assert words in first
     assert not math.isnan(len(first))
+
+
+def test_a_map_over_steepness_and_width_draws_every_state_anew_by_its_seed():
+    faults = []
+    words = "--vary waves.significant_steepness 0.05 0.1 2 --vary waves.relative_width 0 0.05 2 --seeds 2 --starts 1"
+    order = sea.read_order(words.split(), faults)
+    assert not faults
+    drawn = {
+        (case.scene.waves.significant_steepness, case.scene.waves.relative_width, case.scene.waves.seed)
+        for case in order.cases
+    }
+    assert drawn == {(s, w, seed) for s in (0.05, 0.1) for w in (0.0, 0.05) for seed in (1, 2)}
