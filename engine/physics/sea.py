@@ -219,8 +219,8 @@ def phase_at(omega, phase, t):
 
 @kernel
 def surface_sums(tables, at, groups, t, x, y):
-    """The full-grown surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t, and
-    the slopes of it by x, y."""
+    """The full-grown surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t,
+    and the slopes of it by x, y."""
     eta = eta_x = eta_y = eta_xx = eta_xy = eta_yy = rate = rate_x = rate_y = 0.0 * eight_of(tables, at)
     for group in range(groups):
         row = at + ROW * COUNT * group

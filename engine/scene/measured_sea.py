@@ -1,7 +1,7 @@
 """A sea from a measured elevation: the file of `waves.record` becomes `waves.components`, which the scene then keeps.
 
-The record eta(t) at the gauge x_g is periodic in its own length T: eta = sum A_n cos(omega_n t + a_n), omega_n = 2 pi n/T,
-by the discrete Fourier transform. Linear waves along +x that are this at the gauge have the phase
+The record eta(t) at the gauge x_g is periodic in its own length T: with omega_n = 2 pi n/T it is
+eta = sum A_n cos(omega_n t + a_n), by the discrete Fourier transform. Linear waves along +x that are this at the gauge have the phase
 
     k_n x - omega_n t + phase_n,   phase_n = -a_n - k_n x_g
 
@@ -86,13 +86,16 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
     step = float(np.median(steps))
     if np.abs(steps - step).max() > EVEN * step:
         gap = int(np.argmax(np.abs(steps - step)))
-        yield fault(KEY, path, f"even steps of {step:.6g} s: from {time_s[gap]:.6g} to {time_s[gap + 1]:.6g} s is a gap")
+        between = f"from {time_s[gap]:.6g} to {time_s[gap + 1]:.6g} s is a gap"
+        yield fault(KEY, path, f"even steps of {step:.6g} s: {between}")
         return
     length_s = step * len(time_s)
     if length_s < SHORTEST * period_s:
-        yield fault(KEY, path, f"at least {SHORTEST} periods of waves.period_s = {period_s:g} s: it has {length_s:.4g} s")
+        rule = f"at least {SHORTEST} periods of waves.period_s = {period_s:g} s: it has {length_s:.4g} s"
+        yield fault(KEY, path, rule)
     if step > period_s / COARSEST:
-        yield fault(KEY, path, f"steps of at most {period_s / COARSEST:.4g} s, an eighth of waves.period_s (ms, not s?)")
+        longest_s = period_s / COARSEST
+        yield fault(KEY, path, f"steps of at most {longest_s:.4g} s, an eighth of waves.period_s (ms, not s?)")
     spread = float(elevation_m.std())
     if spread == 0.0:
         yield fault(KEY, path, "an elevation that is not constant")
@@ -109,13 +112,11 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
     kept = _kept(frequencies, period_s)
     outside = 1.0 - np.sum(amplitudes[kept] ** 2) / np.sum(amplitudes**2)
     if outside > OUTSIDE:
-        yield fault(
-            "waves.period_s", period_s, f"a peak period of waves.record: {100 * outside:.0f} % of its energy lies outside "
-            f"{BAND[0]:g} to {BAND[1]:g} times this frequency"
-        )  # fmt: skip
+        share = f"{100 * outside:.0f} % of its energy lies outside {BAND[0]:g} to {BAND[1]:g} times this frequency"
+        yield fault("waves.period_s", period_s, f"the peak period of waves.record: {share}")
     if kept.sum() > MOST_COMPONENTS:
         longest_s = length_s * MOST_COMPONENTS / kept.sum()
-        yield fault(KEY, path, f"a record of at most {longest_s:.4g} s: it would make more than {MOST_COMPONENTS} waves")
+        yield fault(KEY, path, f"at most {longest_s:.4g} s, of which {MOST_COMPONENTS} waves can be made")
 
 
 def _lines(time_s, elevation_m):

@@ -9,7 +9,8 @@ from engine.scene.faults import fault, shown
 from engine.scene.sound import Facts, Sound
 
 _DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
-HEIGHTS = ("steepness", "amplitude_m", "significant_steepness", "record", "components", "jonswap")  # of the waves: a scene has one of these
+# heights of the waves: a scene has one of these
+HEIGHTS = ("steepness", "amplitude_m", "significant_steepness", "record", "components", "jonswap")
 STEEPEST = 1.0  # k H_s/2 beyond which no sea can be meant
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"
