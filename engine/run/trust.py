@@ -111,8 +111,8 @@ def _sea(run: "Run") -> str:
         short = float(energy[rows[:, K] * scene.buoy.diameter_m > 1.0].sum() / energy.sum())
         if short > MUCH:
             sentences.append(
-                f"{100 * short:.0f} % of the energy of the sea is in waves with k D > 1, shorter than six diameters of the "
-                "sphere: eq. (30) has no diffraction, and overstates their force"
+                f"{100 * short:.0f} % of the energy of the sea is in waves with k D > 1, shorter than six diameters of "
+                "the sphere: eq. (30) has no diffraction, and overstates their force"
             )
     spacing = (omega[-1] - omega[0]) / (len(omega) - 1) if len(omega) > 1 else 0.0
     recurs_s = 2 * math.pi / spacing if spacing else math.inf

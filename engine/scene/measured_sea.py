@@ -1,9 +1,9 @@
 """A sea from a measured elevation: the file of `waves.record` becomes `waves.components`, which the scene then keeps.
 
-The record eta(t) at the gauge x_g is periodic in its own length T: with omega_n = 2 pi n/T it is
-eta = sum A_n cos(omega_n t + a_n), by the discrete Fourier transform. Linear waves along +x that are this at the gauge have the phase
+The record eta(t) at the gauge x_g is periodic in its own length T. Its discrete Fourier transform gives
+eta = sum A_n cos(omega_n t + a_n), omega_n = 2 pi n/T. Linear waves along +x that are this at the gauge have the phase
 
-    k_n x - omega_n t + phase_n,   phase_n = -a_n - k_n x_g
+    k_n (x - x_g) - omega_n t + phase_n,   phase_n = -a_n
 
 (the sign of a_n turns, because the waves go with -omega t). Kept are frequencies from BAND[0] to BAND[1] times that of
 waves.period_s: what is slower is tide and drift of the gauge, what is faster is noise, which the laws of linear waves
@@ -17,7 +17,6 @@ from pathlib import Path
 
 import numpy as np
 
-from engine.physics.waves import wave_number
 from engine.scene.faults import fault
 from engine.scene.values import MOST_COMPONENTS
 
@@ -35,21 +34,18 @@ def with_measured_sea(raw: dict[str, object]) -> tuple[dict[str, object], list[s
 
     A scene that has both was loaded before; its components are kept.
     """
-    waves, water = raw.get("waves"), raw.get("water")
+    waves = raw.get("waves")
     if not isinstance(waves, dict) or not isinstance(waves.get("record"), str) or waves.get("components"):
         return raw, []
-    numbers = waves.get("period_s"), (water or {}).get("depth_m"), raw.get("gravity_mps2", 9.81)
-    gauge_m = waves.get("record_x_m", 0.0)
-    if not all(isinstance(number, (int, float)) and number > 0 for number in numbers):
-        return raw, []  # faults of these keys are told by themselves
-    if not isinstance(gauge_m, (int, float)) or not math.isfinite(gauge_m):
-        return raw, []
+    period_s = waves.get("period_s")
+    if not isinstance(period_s, (int, float)) or not 0 < period_s < math.inf:
+        return raw, []  # this fault is told by itself
     faults, values = _read(waves["record"])
     if not faults:
-        faults = list(_unfit(waves["record"], *values, numbers[0]))
+        faults = list(_unfit(waves["record"], *values, period_s))
     if faults:
         return raw, faults
-    return raw | {"waves": waves | {"components": _components(*values, *numbers, gauge_m)}}, []
+    return raw | {"waves": waves | {"components": _components(*values, period_s)}}, []
 
 
 def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
@@ -131,12 +127,11 @@ def _kept(frequencies, period_s):
     return (frequencies * period_s >= BAND[0]) & (frequencies * period_s <= BAND[1])
 
 
-def _components(time_s, elevation_m, period_s, depth_m, gravity_mps2, gauge_m):
+def _components(time_s, elevation_m, period_s):
     frequencies, amplitudes, angles = _lines(time_s, elevation_m)
     kept = _kept(frequencies, period_s)
     components = []
     for frequency, amplitude, angle in zip(frequencies[kept], amplitudes[kept], angles[kept], strict=True):
-        k = wave_number(1.0 / frequency, depth_m, gravity_mps2)
-        phase = math.remainder(-angle - k * gauge_m, 2.0 * math.pi)
+        phase = math.remainder(-angle, 2.0 * math.pi)
         components.append({"period_s": 1.0 / frequency, "amplitude_m": float(amplitude), "phase_rad": phase})
     return components

@@ -202,8 +202,8 @@ class Buoy(Section):
     added_mass_kg: NonNegative = described("added mass", symbol="M_a", paper="Table 1, (30)")
     drag: NonNegative = described("drag coefficient; the area is pi D^2/4", symbol="C_d", paper="(30)")
     submergence: Literal["full", "spherical-cap"] = described(
-        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave; in an irregular sea the "
-        "cap is the default",
+        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave, the default in an "
+        "irregular sea",
         "full",
         paper="(30)",
     )
