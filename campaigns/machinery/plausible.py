@@ -65,7 +65,7 @@ def without_waves(name: str, scene) -> Iterator[str]:
         key = next(f"waves.{name}" for name in seas if getattr(waves, name) is not None)
         yield (
             f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
-            "period; engine.simulate runs irregular waves (docs/scenes.md#waves)"
+            "period; campaigns.sea answers for a sea, and engine.simulate runs irregular waves (docs/scenes.md#waves)"
         )
 
 

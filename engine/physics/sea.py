@@ -125,6 +125,10 @@ def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
         height_m = 2.0 * waves.significant_steepness / k
         drawn = gaussian(height_m, waves.period_s, waves.relative_width, waves.component_count, waves.seed)
         return (*drawn, np.full(len(drawn[0]), waves.direction_rad))
+    if waves.record is not None:
+        periods, amplitudes, phases = np.array([(w.period_s, w.amplitude_m, w.phase_rad) for w in waves.components]).T
+        k = np.array([wave_number(period, scene.water.depth_m, scene.gravity_mps2) for period in periods])
+        return periods, amplitudes, phases - k * waves.record_x_m, np.zeros(len(periods))
     listed = [(wave.period_s, wave.amplitude_m, wave.phase_rad, wave.direction_rad) for wave in waves.components]
     return tuple(np.array(listed).T)
 
@@ -219,8 +223,8 @@ def phase_at(omega, phase, t):
 
 @kernel
 def surface_sums(tables, at, groups, t, x, y):
-    """The full-grown surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t, and
-    the slopes of it by x, y."""
+    """The full-grown surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t,
+    and the slopes of it by x, y."""
     eta = eta_x = eta_y = eta_xx = eta_xy = eta_yy = rate = rate_x = rate_y = 0.0 * eight_of(tables, at)
     for group in range(groups):
         row = at + ROW * COUNT * group

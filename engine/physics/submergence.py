@@ -1,7 +1,8 @@
 """The sphere of eq. (30) partly out of the water: what its wetted cap has less, or more, than the whole sphere.
 
 The cap reaches h below the surface, 0 <= h <= D; h follows from the height of the centre and the surface above it, that
-of one linear wave or of a whole sea, h = H + eta(x, t) - z + D/2. With x = h/D, of the whole sphere there are in the water
+of one linear wave or of a whole sea, h = H + eta(x, t) - z + D/2. With x = h/D, of the whole sphere there are in the
+water
 
     volume   s = pi h^2 (3R - h)/3 / (4 pi R^3/3) = x^2 (3 - 2x)      buoyancy, wave load, added mass
     section  a = (acos(1 - 2x) - 2 (1 - 2x) sqrt(x (1 - x)))/pi       drag: the part of the circle below the surface
@@ -94,8 +95,9 @@ def surface_in_space(p, tables, t, in_motion, x, y):
     if p.sea_n == 0:
         ax, ay = p.dir_x, p.dir_y
         eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, ax * x + ay * y)
-        by_x = curve * ax
-        return eta, slope * ax, slope * ay, by_x * ax, by_x * ay, curve * ay * ay, rate, rate_slope * ax, rate_slope * ay
+        along, across = curve * ax, curve * ay
+        rate_x, rate_y = rate_slope * ax, rate_slope * ay
+        return eta, slope * ax, slope * ay, along * ax, along * ay, across * ay, rate, rate_x, rate_y
     if in_motion == 0.0 or not p.waves:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     eta, gx, gy, xx, xy, yy, rate, rate_x, rate_y = surface_sums(tables, p.sea_at, p.sea_n, t, x, y)

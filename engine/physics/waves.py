@@ -35,7 +35,7 @@ def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> 
 
 @kernel
 def wave_field(p, tables, t, X, F):
-    """Water velocity and local acceleration at the nodes of a line in a plane, added into F (several waves: `physics.sea`).
+    """Water velocity and local acceleration at the nodes of a line in a plane, added into F (a sea: `physics.sea`).
 
     X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
     """

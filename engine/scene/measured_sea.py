@@ -1,9 +1,9 @@
 """A sea from a measured elevation: the file of `waves.record` becomes `waves.components`, which the scene then keeps.
 
-The record eta(t) at the gauge x_g is periodic in its own length T: eta = sum A_n cos(omega_n t + a_n), omega_n = 2 pi n/T,
-by the discrete Fourier transform. Linear waves along +x that are this at the gauge have the phase
+The record eta(t) at the gauge x_g is periodic in its own length T. Its discrete Fourier transform gives
+eta = sum A_n cos(omega_n t + a_n), omega_n = 2 pi n/T. Linear waves along +x that are this at the gauge have the phase
 
-    k_n x - omega_n t + phase_n,   phase_n = -a_n - k_n x_g
+    k_n (x - x_g) - omega_n t + phase_n,   phase_n = -a_n
 
 (the sign of a_n turns, because the waves go with -omega t). Kept are frequencies from BAND[0] to BAND[1] times that of
 waves.period_s: what is slower is tide and drift of the gauge, what is faster is noise, which the laws of linear waves
@@ -17,7 +17,6 @@ from pathlib import Path
 
 import numpy as np
 
-from engine.physics.waves import wave_number
 from engine.scene.faults import fault
 from engine.scene.values import MOST_COMPONENTS
 
@@ -35,21 +34,18 @@ def with_measured_sea(raw: dict[str, object]) -> tuple[dict[str, object], list[s
 
     A scene that has both was loaded before; its components are kept.
     """
-    waves, water = raw.get("waves"), raw.get("water")
+    waves = raw.get("waves")
     if not isinstance(waves, dict) or not isinstance(waves.get("record"), str) or waves.get("components"):
         return raw, []
-    numbers = waves.get("period_s"), (water or {}).get("depth_m"), raw.get("gravity_mps2", 9.81)
-    gauge_m = waves.get("record_x_m", 0.0)
-    if not all(isinstance(number, (int, float)) and number > 0 for number in numbers):
-        return raw, []  # faults of these keys are told by themselves
-    if not isinstance(gauge_m, (int, float)) or not math.isfinite(gauge_m):
-        return raw, []
+    period_s = waves.get("period_s")
+    if not isinstance(period_s, (int, float)) or not 0 < period_s < math.inf:
+        return raw, []  # this fault is told by itself
     faults, values = _read(waves["record"])
     if not faults:
-        faults = list(_unfit(waves["record"], *values, numbers[0]))
+        faults = list(_unfit(waves["record"], *values, period_s))
     if faults:
         return raw, faults
-    return raw | {"waves": waves | {"components": _components(*values, *numbers, gauge_m)}}, []
+    return raw | {"waves": waves | {"components": _components(*values, period_s)}}, []
 
 
 def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
@@ -86,13 +82,16 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
     step = float(np.median(steps))
     if np.abs(steps - step).max() > EVEN * step:
         gap = int(np.argmax(np.abs(steps - step)))
-        yield fault(KEY, path, f"even steps of {step:.6g} s: from {time_s[gap]:.6g} to {time_s[gap + 1]:.6g} s is a gap")
+        between = f"from {time_s[gap]:.6g} to {time_s[gap + 1]:.6g} s is a gap"
+        yield fault(KEY, path, f"even steps of {step:.6g} s: {between}")
         return
     length_s = step * len(time_s)
     if length_s < SHORTEST * period_s:
-        yield fault(KEY, path, f"at least {SHORTEST} periods of waves.period_s = {period_s:g} s: it has {length_s:.4g} s")
+        rule = f"at least {SHORTEST} periods of waves.period_s = {period_s:g} s: it has {length_s:.4g} s"
+        yield fault(KEY, path, rule)
     if step > period_s / COARSEST:
-        yield fault(KEY, path, f"steps of at most {period_s / COARSEST:.4g} s, an eighth of waves.period_s (ms, not s?)")
+        longest_s = period_s / COARSEST
+        yield fault(KEY, path, f"steps of at most {longest_s:.4g} s, an eighth of waves.period_s (ms, not s?)")
     spread = float(elevation_m.std())
     if spread == 0.0:
         yield fault(KEY, path, "an elevation that is not constant")
@@ -109,13 +108,11 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
     kept = _kept(frequencies, period_s)
     outside = 1.0 - np.sum(amplitudes[kept] ** 2) / np.sum(amplitudes**2)
     if outside > OUTSIDE:
-        yield fault(
-            "waves.period_s", period_s, f"a peak period of waves.record: {100 * outside:.0f} % of its energy lies outside "
-            f"{BAND[0]:g} to {BAND[1]:g} times this frequency"
-        )  # fmt: skip
+        share = f"{100 * outside:.0f} % of its energy lies outside {BAND[0]:g} to {BAND[1]:g} times this frequency"
+        yield fault("waves.period_s", period_s, f"the peak period of waves.record: {share}")
     if kept.sum() > MOST_COMPONENTS:
         longest_s = length_s * MOST_COMPONENTS / kept.sum()
-        yield fault(KEY, path, f"a record of at most {longest_s:.4g} s: it would make more than {MOST_COMPONENTS} waves")
+        yield fault(KEY, path, f"at most {longest_s:.4g} s, of which {MOST_COMPONENTS} waves can be made")
 
 
 def _lines(time_s, elevation_m):
@@ -130,12 +127,11 @@ def _kept(frequencies, period_s):
     return (frequencies * period_s >= BAND[0]) & (frequencies * period_s <= BAND[1])
 
 
-def _components(time_s, elevation_m, period_s, depth_m, gravity_mps2, gauge_m):
+def _components(time_s, elevation_m, period_s):
     frequencies, amplitudes, angles = _lines(time_s, elevation_m)
     kept = _kept(frequencies, period_s)
     components = []
     for frequency, amplitude, angle in zip(frequencies[kept], amplitudes[kept], angles[kept], strict=True):
-        k = wave_number(1.0 / frequency, depth_m, gravity_mps2)
-        phase = math.remainder(-angle - k * gauge_m, 2.0 * math.pi)
+        phase = math.remainder(-angle, 2.0 * math.pi)
         components.append({"period_s": 1.0 / frequency, "amplitude_m": float(amplitude), "phase_rad": phase})
     return components

@@ -202,7 +202,10 @@ class Buoy(Section):
     added_mass_kg: NonNegative = described("added mass", symbol="M_a", paper="Table 1, (30)")
     drag: NonNegative = described("drag coefficient; the area is pi D^2/4", symbol="C_d", paper="(30)")
     submergence: Literal["full", "spherical-cap"] = described(
-        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave", "full", paper="(30)"
+        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave, the default in an "
+        "irregular sea",
+        "full",
+        paper="(30)",
     )
     impact_loss: UnitInterval = described(
         "spherical-cap: share of the energy of an impact on the water that is lost in spray", 0.0, paper="(30)"
@@ -267,7 +270,8 @@ class Waves(Section):
         "period; of an irregular sea the peak period, in which runs are counted", symbol="T_i", paper="section 4.2"
     )
     steepness: NonNegative | None = described(
-        "steepness kA of a regular wave; give one of steepness, amplitude_m, significant_steepness, record, components and jonswap",
+        "steepness kA of a regular wave; give one of steepness, amplitude_m, significant_steepness, record, components "
+        "and jonswap",
         None,
         symbol="kA",
         paper="section 4.2",

@@ -9,7 +9,8 @@ from engine.scene.faults import fault, shown
 from engine.scene.sound import Facts, Sound
 
 _DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
-HEIGHTS = ("steepness", "amplitude_m", "significant_steepness", "record", "components", "jonswap")  # of the waves: a scene has one of these
+# heights of the waves: a scene has one of these
+HEIGHTS = ("steepness", "amplitude_m", "significant_steepness", "record", "components", "jonswap")
 STEEPEST = 1.0  # k H_s/2 beyond which no sea can be meant
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"
@@ -38,10 +39,13 @@ def sea(sound: Sound) -> Facts:
     """What an irregular sea takes the place of."""
     listed, *spectra = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap", "significant_steepness"))
     drawn, gaussian = any(spectra), spectra[1]
-    because = "each component has its own" if listed else "a spectrum draws those of its waves"
+    source = "waves.significant_steepness" if gaussian else "waves.jonswap"
+    because = "each component has its own" if listed else f"{source} draws those of its components"
     key, width = "waves.relative_width", sound["waves.relative_width"]
     if gaussian and width is None and "waves" in sound.raw:
         yield True, key, "a number from 0 to 0.2, because waves.significant_steepness is given"
+    gauge_m, measured = sound["waves.record_x_m"], sound["waves.record"] is not None
+    yield bool(gauge_m) and not measured, "waves.record_x_m", "0, because waves.record is not given"
     yield width is not None and not gaussian, key, "none, because waves.significant_steepness is not given"
     k_depth = _deep_water_number(sound)
     highest = min(0.5 * k_depth, STEEPEST) if k_depth else STEEPEST

@@ -1,6 +1,6 @@
 """From vectors to the numbers in them: one lane by itself, and eight numbers of one run as one vector.
 
-A sum over many terms of one run, the waves of a sea for one, is taken with its terms side by side (`engine.physics.sea`).
+A sum over many terms of one run, such as the waves of a sea (`engine.physics.sea`), has its terms side by side.
 Runs that share a batch take such a sum one after another, each from its own lane. So both have the same bits.
 """
 
@@ -130,7 +130,7 @@ def total(context, vector):
 
 @intrinsic
 def power_of_two(context, exponent):
-    """2^exponent in every lane, for whole numbers from -1022 to 1023: the exponent is shifted to its place in the bits."""
+    """2^exponent in every lane, for whole numbers from -1022 to 1023, put where a number has its exponent."""
 
     def generate(context, builder, signature, values):
         kind = values[0].type

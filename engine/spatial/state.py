@@ -30,7 +30,8 @@ def size_of(p):
 def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node_width(p)))
-    return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6)), np.zeros((n + 1, SEA_WIDTH)))
+    E, D, C_tilde = np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6))
+    return Work(X, F, Q, E, D, C_tilde, np.zeros((n + 1, SEA_WIDTH)))
 
 
 @kernel

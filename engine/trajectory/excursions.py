@@ -37,9 +37,9 @@ def with_excursions(own_message: str, scene: Scene, columns: Mapping[str, np.nda
 
 
 def named_end(status: str, scene: Scene, columns: Mapping[str, np.ndarray]) -> str:
-    """The status of a run; `left-the-water` in place of a failure of the numerics in a sea, with the sphere in the air.
+    """The status of a run; `left-the-water` where the numerics failed in a sea with the sphere in the air.
 
-    Up there all its buoyancy and the motion of water act on it, and the first pull of the line after that means nothing.
+    Up there it keeps all its buoyancy, and the first pull of the line after that means nothing.
     """
     irregular = scene.waves is not None and scene.waves.irregular
     if status == "ok" or not irregular or not len(columns["time_s"]):

@@ -18,10 +18,10 @@ import pytest
 from scipy.integrate import quad
 
 from engine import goes_in_lanes
-from engine.run.batch import kind_of
 from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
 from engine.physics.submergence import surface
 from engine.physics.waves import wave_number
+from engine.run.batch import kind_of
 from engine.scene.values import LARGEST, SMALLEST
 from tests.engine.kernels import parameters_of, waves_at
 from tests.engine.lines import SPACE, line
