@@ -68,7 +68,10 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     if len(heights_m) == 1:
         amplitudes |= {float(f"{0.5 * heights_m[0] * share:.6g}") for share in (1.0, SAME_ENERGY)}
     changes = {name: value for name, value in order.changes.items() if not name.startswith(SEA_KEYS)}
-    changes["waves.above_still_water"] = scene.waves.above_still_water
+    changes |= {
+        "waves.above_still_water": scene.waves.above_still_water,
+        "buoy.submergence": scene.buoy.submergence,  # whose default is another one in a sea
+    }
     key = replace(varied([KEY, "0", "1", "2"], []), values=tuple(sorted(amplitudes)))
     options = {"grid": Grid((key,)), "starts": KICKS if carries_tangents(scene) else REST, "budget": BUDGET}
     options |= {"kick_speed": order.options.kick_speed, "seed": order.options.seed}
