@@ -1,5 +1,7 @@
 """Least and greatest value of a series, of each block of it, and the share of time below a threshold (slack)."""
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -100,6 +102,19 @@ def block_maxima(series: ArrayLike, samples: int) -> np.ndarray:
     if samples < 1:
         raise ValueError(f"samples: 1 or more are needed in a block, given {samples}")
     return x[: len(x) // samples * samples].reshape(-1, samples).max(axis=1)
+
+
+def peaks(series: ArrayLike, level: float | None = None) -> np.ndarray:
+    """Indices of the greatest sample between two up-crossings of a level: the peaks of a record, one a wave.
+
+    series (n,)    samples, any unit; what comes before the first up-crossing and after the last one has no peak
+    level          by default the mean
+    Returns (p,) indices. Raises ValueError for values that are not finite.
+    """
+    x = checked_series(series)
+    above = x > (np.mean(x) if level is None else level)
+    crossings = np.flatnonzero(~above[:-1] & above[1:]) + 1
+    return np.array([begin + int(np.argmax(x[begin:end])) for begin, end in pairwise(crossings)], dtype=int)
 
 
 def _after(x, step_s, transient_s):

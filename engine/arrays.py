@@ -10,8 +10,10 @@ from collections import namedtuple
 # q_t = cq (q - q~) and V_t = cv (V - V~), with C~ = (q~, V~) in Work
 Stage = namedtuple("Stage", "t in_motion cq cv")
 # Arrays of one Newton solve, n rows each. X: places (m); F: velocity and acceleration of the water; Q: nodal
-# quantities; E: eliminated boxes; D: Newton's update of the unknowns; C_tilde: known part of the conserved variables
-Work = namedtuple("Work", "X F Q E D C_tilde")
+# quantities; E: eliminated boxes; D: Newton's update of the unknowns; C_tilde: known part of the conserved variables;
+# sea (n + 1, 9): what a sea of several waves was at the nodes (`engine.physics.sea`); in the last row at which time,
+# and 1.0 where there is anything
+Work = namedtuple("Work", "X F Q E D C_tilde sea")
 # An accepted state: unknowns Y (n, unknowns), those of the step before, conserved C (n, conserved), their rates K
 Motion = namedtuple("Motion", "Y Y_before C K")
 # A step to try: from t (s) by dt (s), dt_before (s) after the state before (0: there is none); small: whether it is one

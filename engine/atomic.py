@@ -13,6 +13,8 @@ def write_atomic(path: str | Path, content: bytes) -> None:
     anything fails (a full disk, an interrupt); then path is untouched. Raises OSError.
     """
     path = Path(path)
+    if not path.parent.is_dir():
+        raise FileNotFoundError(f"{path}: there is no folder {path.parent}")
     temporary = path.with_name(f".{path.name}.{os.getpid()}-{secrets.token_hex(4)}.tmp")
     try:
         with open(temporary, "xb") as file:

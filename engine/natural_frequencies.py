@@ -36,16 +36,49 @@ def natural_frequencies(scene) -> Modes | None:
     pull = (scene.water.density_kgpm3 * volume - buoy.mass_kg) * scene.gravity_mps2
     if pull <= 0.0:
         return None
-    from engine.physics.strains import strain_at, tension_at
+    from engine.physics.strains import strain_at
 
-    law = scene.tether.tension
-    strain = strain_at(pull, law)
+    strain = strain_at(pull, scene.tether.tension)
     top_m = scene.anchor.position_m[2] + length * (1.0 + strain) + 0.5 * buoy.diameter_m
     if buoy.submergence == "spherical-cap" and top_m > scene.water.depth_m:
         return None
-    # A central difference: outside its kernels the engine gives f, not f'; the error is of order h^2 f''' (1e-10).
-    slope = (tension_at(strain + _STEP, law) - tension_at(strain - _STEP, law)) / (2.0 * _STEP)
+    slope = stiffness_N(scene, strain)
     if slope <= 0.0:
         return None
     moved = length * (buoy.mass_kg + buoy.added_mass_kg)
     return Modes(pull, strain, math.sqrt(slope / moved), math.sqrt(pull / moved), 2.0 * math.pi / scene.waves.period_s)
+
+
+def stiffness_N(scene, strain: float) -> float:
+    """Slope f' (N) of the tension law of a scene at a strain."""
+    from engine.physics.strains import tension_at
+
+    law = scene.tether.tension
+    # A central difference: outside its kernels the engine gives f, not f'; the error is of order h^2 f''' (1e-10).
+    return (tension_at(strain + _STEP, law) - tension_at(strain - _STEP, law)) / (2.0 * _STEP)
+
+
+def axial_period_s(scene, static_N: float) -> float:
+    """Longest period (s) of axial ringing of the line at a tension: 2 l/c, c = sqrt(f'/m) in unstretched length.
+
+    m is the mass per length. 0 where the law has no stiffness there.
+    """
+    from engine.physics.strains import strain_at
+
+    slope, tether = stiffness_N(scene, strain_at(static_N, scene.tether.tension)), scene.tether
+    if slope <= 0.0:
+        return 0.0
+    return 2.0 * tether.length_m * math.sqrt(tether.density_kgpm3 * tether.area_m2 / slope)
+
+
+def impact_Nspm(scene, static_N: float) -> float | None:
+    """sqrt(k (M + M_a)) (N s/m): force per speed of a buoy that its line stops, k = f'/l0 at the static tension.
+
+    None without a buoy, and where the law has no stiffness there.
+    """
+    from engine.physics.strains import strain_at
+
+    slope = stiffness_N(scene, strain_at(static_N, scene.tether.tension))
+    if scene.buoy is None or slope <= 0.0:
+        return None
+    return math.sqrt(slope / scene.tether.length_m * (scene.buoy.mass_kg + scene.buoy.added_mass_kg))

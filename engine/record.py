@@ -17,11 +17,13 @@ PLACE, STRAIN, TENSION, SPEED = 0, 3, 4, 5  # columns of a profile, one row a no
 PROFILE_WIDTH = 6
 # columns of the samples of the upper end: time; place x, y, z; velocity x, y, z; tension there, least tension along the
 # line, least and greatest tension at the upper end since the sample before; largest distance from the plane; loops
-# released since t = 0; height of the lowest node; ringing (N) that the steps since the sample before did not resolve
-(TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES, LOWEST, MISSED) = range(
-    15
-)
-SAMPLE_WIDTH = 15
+# released since t = 0; height of the lowest node; ringing (N) that the steps since the sample before did not resolve;
+# tension at the lower end; largest tension along the line, and the arc length s at which it is
+(
+    TIME, AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_W, TOP, LEAST, TOP_LOW, TOP_HIGH, OFFPLANE, RELEASES, LOWEST, MISSED,
+    FOOT, MOST, MOST_AT,
+) = range(18)  # fmt: skip
+SAMPLE_WIDTH = 18
 BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), one of the next
 SMALL_STEPS = 3  # of backward Euler after a sudden start, or where an end is let go
 RELEASE_STEPS = 8  # of backward Euler after a loop release
@@ -43,7 +45,7 @@ RECORD = np.dtype(
         "max_newton loop_release max_releases at_rest all_waves",
         "m w0 EI p1 p2 p3 p4 p5 diameter ct cn drag1 drag2 drag3 drag4 ma Rw depth k omega amplitude phase "
         "direction ramp M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release "
-        "end_fx end_fz end_decay barrier c_quadratic c_linear per_strain per_force per_speed per_curvature order "
+        "end_fx end_fz end_decay barrier c_quadratic c_linear still per_strain per_force per_speed per_curvature order "
         "rtol newton_tolerance fixed_step max_step min_step start_x start_z inertia per_ringing phase_per_step "
         "shortest output_step release_step turn_step growth_per_step shortest_wave profile_step window alpha_m "
         "alpha_f gamma pace",

@@ -1,4 +1,4 @@
-"""A run as one asks for it in Python: its figure, spectrum, section, exponent, verdict, and what it did in a few lines.
+"""A run as one asks for it in Python: figure, animation, snaps, extremes, spectrum, section, exponent and verdict.
 
 The methods of `engine.Trajectory` stand here, because this is the only module of the engine that uses `analysis` and
 matplotlib, and it imports both when a method is called. How the motion of a buoy is strobed and measured is declared
@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING
 from engine.atomic import write_atomic
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
     from pathlib import Path
 
     import numpy
+    import pandas
     import xarray
     from matplotlib.axes import Axes
 
-    from analysis import Exponent, PoincareSection, Spectrum, Verdict
+    from analysis import Exponent, PoincareSection, Snaps, Spectrum, Verdict
     from engine.scene.models import Scene
     from engine.trajectory import Trajectory
 
@@ -29,6 +30,7 @@ LONGEST_PERIOD = 16
 STROBE_TOLERANCE = 0.01
 LAST_PERIODS = 12  # drawn larger
 NEEDED = 50  # periods that leave 32 after the transient, which `analysis.tangent_lyapunov` needs
+LEAST_SHOWN = 0.01  # of the range of a run: a section of a periodic motion is a dot, and not its rounding enlarged
 WHOLE_WINDOW = 12  # periods of a spectrum are a multiple of it: motions of period 2, 3, 4 and 6 then do not leak
 
 
@@ -117,7 +119,7 @@ def spectrum(run: "Trajectory", column: str = "radius_m", transient_periods: int
     step_s, period_s = _forcing(run)
     periods, first = _periods(run), _transient(run, transient_periods)
     length = (periods - first) // WHOLE_WINDOW * WHOLE_WINDOW or periods - first
-    return spectrum_of(_samples(run, column), step_s, period_s, periods - length, length)
+    return spectrum_of(samples(run, column), step_s, period_s, periods - length, length)
 
 
 def section(
@@ -129,7 +131,7 @@ def section(
     """Columns of the table once per period after the transient, its first third (`analysis.poincare_section`)."""
     from analysis import poincare_section
 
-    shown = {name: _samples(run, name) for name in ([columns] if isinstance(columns, str) else columns)}
+    shown = {name: samples(run, name) for name in ([columns] if isinstance(columns, str) else columns)}
     return poincare_section(shown, *_forcing(run), phase, _transient(run, transient_periods))
 
 
@@ -138,7 +140,8 @@ def exponent(run: "Trajectory", transient_periods: int | None = None) -> "Expone
     period.
 
     From the tangent dynamics where the run carried them (`output.tangent_vectors`), else by Wolf's method from r, which
-    is far less certain and takes seconds; its `method` says which.
+    is far less certain and takes seconds; its `method` says which, and over which periods: `verdict` may rest on an
+    earlier look, and then on fewer of them.
     """
     from analysis import tangent_lyapunov, wolf_lyapunov
     from analysis.tangent_growth import turned
@@ -146,11 +149,17 @@ def exponent(run: "Trajectory", transient_periods: int | None = None) -> "Expone
     (step_s, period_s), first = _forcing(run), _transient(run, transient_periods)
     if transient_periods is None and run.status == "ok" and in_regular_waves(run.scene):
         first = verdict(run).transient or first
+    last = _periods(run)
     if carried(run):
-        return tangent_lyapunov(turned(run.tangent.growth_nats[:, 0], first))[0]
-    radius_m = run.columns["radius_m"][round(first * period_s / step_s) :]
-    result = wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
-    if not result.found and carries_tangents(run.scene):
+        growth_nats = turned(run.tangent.growth_nats[:, 0], first)
+        last = len(run.tangent.growth_nats)
+        first = last - len(growth_nats)
+        result = tangent_lyapunov(growth_nats)[0]
+    else:
+        radius_m = run.columns["radius_m"][round(first * period_s / step_s) :]
+        result = wolf_lyapunov(radius_m, step_s).in_bits_per_period(period_s)
+    result = replace(result, method=f"{result.method}, over periods {first} to {last}")
+    if not carried(run) and not result.found and carries_tangents(run.scene):
         return replace(result, reason=f"{result.reason}; output.tangent_vectors = 1 measures it in {NEEDED} periods")
     return result
 
@@ -196,32 +205,144 @@ def facts(run: "Trajectory") -> dict[str, str]:
     if run.began:
         texts["began"] = run.began
     if len(run.columns["time_s"]) > 3:
-        texts["radius"] = _extremes(run, "radius_m", "radius_m", "m")
-        texts["tension"] = _extremes(run, "tension_top_low_N", "tension_top_high_N", "N at the top")
+        texts["radius"] = _in_words(run, "radius_m", "m")
+        texts["tension"] = _in_words(run, "tension_top_N", "N at the top")
     loops = run.statistics.get("loop_releases")
     if loops:
         texts["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
     if run.status == "ok" and in_regular_waves(run.scene):
         if carried(run):
-            texts["exponent"] = f"{exponent(run)}, after wave period {_transient(run, None)}"
+            texts["exponent"] = str(exponent(run))
         texts["verdict"] = str(verdict(run))
     return texts
 
 
-def _extremes(run: "Trajectory", low: str, high: str, unit: str) -> str:
-    """Least and largest value of two columns with their times: of the whole run, and without its beginning.
+def snaps(
+    run: "Trajectory",
+    static_N: float | None = None,
+    ringing_s: float | None = None,
+    slack_share: float | None = None,
+    snap_share: float = 1.0,
+    transient_s: float = 0.0,
+) -> "pandas.DataFrame":
+    """A table of the snaps of a run, one a row, as `analysis.detect_snaps` defines them; `attrs` has its thresholds.
 
+    static_N     static tension (N); None: that of the scene at rest
+    ringing_s    longest period of axial ringing (s); None: 2 l/c of the line, and two samples at least
+    slack_share, snap_share   thresholds of slack and of a snap, as shares of the static tension; None: 0.05
+    transient_s  snaps that count before it are left out (s)
+    A run that is not finite is looked at up to there. Raises ValueError for a line that bears no tension at rest.
+    """
+    options = {} if slack_share is None else {"slack_share": slack_share}
+    return snaps_of(
+        run.scene, run.columns, static_N, ringing_s, snap_share=snap_share, transient_s=transient_s, **options
+    ).table()
+
+
+def snaps_of(
+    scene: "Scene",
+    columns: "Mapping[str, numpy.ndarray]",
+    static_N: float | None = None,
+    ringing_s: float | None = None,
+    **options: float,
+) -> "Snaps":
+    """`analysis.Snaps` of the columns of a run of the scene. options: of `analysis.detect_snaps`; others as of `snaps`.
+
+    The line's ends move apart at `radius_rate_mps`, also where one is held; the buoy meets a spring f'/l0 (N/m).
+    """
+    import numpy as np
+
+    from analysis import detect_snaps
+    from engine.natural_frequencies import axial_period_s, impact_Nspm
+    from engine.run.rest import static_tension_N
+
+    step_s = scene.sample_step_s()
+    tension, high, rate = (columns[name] for name in ("tension_top_N", "tension_top_high_N", "radius_rate_mps"))
+    sound = np.logical_and.accumulate(np.isfinite(tension + high + rate))
+    if static_N is None:
+        static_N = static_tension_N(scene, columns) if sound.any() else np.nan
+        if not static_N > 0.0:
+            raise ValueError(
+                f"snaps: the line bears {static_N:.4g} N at rest; give static_N, which they are measured by"
+            )
+    if ringing_s is None:
+        ringing_s = max(axial_period_s(scene, static_N), 2.0 * step_s)
+    return detect_snaps(
+        tension[sound],
+        step_s,
+        static_N,
+        ringing_s,
+        high_N=high[sound],
+        rate_mps=rate[sound],
+        impact_Nspm=impact_Nspm(scene, static_N),
+        **options,
+    )
+
+
+# what `extremes` tells: column of the least values, of the largest values
+_WATCHED = {
+    "radius_m": ("radius_m", "radius_m"),
+    "angle_rad": ("angle_rad", "angle_rad"),
+    "tension_top_N": ("tension_top_low_N", "tension_top_high_N"),
+    "tension_anchor_N": ("tension_anchor_N", "tension_anchor_N"),
+    "tension_line_N": ("tension_min_N", "tension_max_N"),
+}
+
+
+def extremes(run: "Trajectory") -> "pandas.DataFrame":
+    """Least and largest values with their times: of the whole run, and after its beginning.
+
+    The index has the part ("whole run", "after t = 166.65 s") and the quantity: radius and angle of the upper end,
+    tension there, at the anchor and anywhere along the line. The top is watched at every step, the line at samples.
     The beginning is the first third under what drives a run with one period, and a ramp of the waves.
     """
-    time_s, waves, texts = run.columns["time_s"], run.scene.waves, []
+    import pandas
+
+    rows = {}
+    for quantity in _WATCHED:
+        for part, *values in _extremes(run, quantity):
+            rows[part, quantity] = values
+    index = pandas.MultiIndex.from_tuples(rows, names=["part", "quantity"])
+    return pandas.DataFrame(rows.values(), index, ["least", "least_s", "largest", "largest_s"]).sort_index(
+        ascending=False, level="part", sort_remaining=False
+    )
+
+
+def _extremes(run: "Trajectory", quantity: str) -> "Iterator[tuple[str, float, float, float, float]]":
+    """Of each part of a run: its name, the least value of a quantity and its time, the largest and its time."""
+    time_s, waves = run.columns["time_s"], run.scene.waves
+    low, high = (run.columns[name] for name in _WATCHED[quantity])
     ramped = 0 if waves is None else int((time_s < waves.ramp_s).sum())
     begun = ramped if _forced(run.scene) is None else max(ramped, len(time_s) // 3)
     for first in sorted({0, min(begun, len(time_s) - 1)}):
-        least, largest = first + run.columns[low][first:].argmin(), first + run.columns[high][first:].argmax()
-        ends = f"{run.columns[low][least]:.2f} (t = {time_s[least]:.5g} s)", f"{run.columns[high][largest]:.2f} {unit}"
+        least, largest = first + low[first:].argmin(), first + high[first:].argmax()
         part = f"after t = {time_s[first]:.5g} s" if first else "whole run"
-        texts.append(f"{part}: {' to '.join(ends)} (t = {time_s[largest]:.5g} s)")
+        yield part, low[least], time_s[least], high[largest], time_s[largest]
+
+
+def _in_words(run: "Trajectory", quantity: str, unit: str) -> str:
+    """`_extremes` in a line."""
+    texts = []
+    for part, least, least_s, largest, largest_s in _extremes(run, quantity):
+        ends = f"{least:.2f} (t = {least_s:.5g} s) to {largest:.2f} {unit} (t = {largest_s:.5g} s)"
+        texts.append(f"{part}: {ends}")
     return "; ".join(texts)
+
+
+def animate(
+    run: "Trajectory", path: "str | Path", begin_s: float | None = None, duration_s: float | None = None
+) -> None:
+    """Write a GIF: line and buoy in true proportion, beside them the tension at the upper end.
+
+    begin_s, duration_s: the part of the run (s); by default three wave periods about the largest tension after the
+    first two, without waves all. The scene needs `output.profiles` = true. Raises ValueError without shapes, OSError.
+    """
+    from matplotlib.figure import Figure
+
+    from engine.animation import animated, shapes_of
+
+    shapes = shapes_of(run, begin_s, duration_s)
+    write_atomic(path, animated(Figure(figsize=(6.8, 3.4), layout="constrained"), shapes))
 
 
 def html(run: "Trajectory") -> str:
@@ -241,7 +362,7 @@ def to_xarray(run: "Trajectory") -> "xarray.Dataset":
 
 
 def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes]":
-    """A figure: tension and radius over the whole run and its end; section and spectrum, or the path without waves.
+    """A figure: tension, radius and angle over the whole run and its end; section and spectrum, or else the path.
 
     path: a .png, .svg or .pdf file to write; without one the figure belongs to `matplotlib.pyplot`: a notebook shows
     it, a script with `pyplot.show()`. Returns matplotlib's Axes by the name of the panel.
@@ -252,14 +373,14 @@ def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes
 
     look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
     time, unit, parts = run.columns["time_s"], "t (s)", {"": slice(None)}
-    rows = [["tension", "path"], ["radius", "path"]]
-    sound = all(np.isfinite(values).all() for values in run.columns.values())
+    rows = [["tension", "path"], ["radius", "path"], ["angle", "path"]]
+    sound = all(np.isfinite(run.columns[name]).all() for name in ("radius_m", "angle_rad", "tension_top_N"))
     forced = sound and _forced(run.scene) is not None and _periods(run) > 1
     if forced:
         period_s = _forcing(run)[1]
         time, unit = time / period_s, "t/T (forcing periods)"
         parts["last "] = time >= time[-1] - LAST_PERIODS
-        rows = [["tension", "last tension"], ["radius", "last radius"], ["section", "spectrum"]]
+        rows = [[name, f"last {name}"] for name in ("tension", "radius", "angle")] + [["section", "spectrum"]]
     figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 2.5 * len(rows)), layout="constrained")
     axes = figure.subplot_mosaic(rows)
     for prefix, part in parts.items():
@@ -269,12 +390,15 @@ def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes
         axes[f"{prefix}tension"].plot(time[part], top, **look)
         axes[f"{prefix}tension"].set(title=f"tension at the upper end (N){span}")
         axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
-        axes[f"{prefix}radius"].set(xlabel=unit, title=f"distance r from the anchor (m){span}")
+        axes[f"{prefix}radius"].set(title=f"distance r from the anchor (m){span}")
+        axes[f"{prefix}angle"].plot(time[part], run.columns["angle_rad"][part], **look)
+        axes[f"{prefix}angle"].set(xlabel=unit, title=f"angle θ from the vertical (rad){span}")
     if forced:
         points, lines = run.section().points, run.spectrum()
         axes["section"].plot(*points.T, ".", markersize=3)
         title = f"once per period, after period {_transient(run, None)}"
         axes["section"].set(xlabel="r (m)", ylabel="dr/dt (m/s)", title=title)
+        _widened(axes["section"], run.columns["radius_m"], run.columns["radius_rate_mps"])
         ratio = lines.angular_frequency_radps * period_s / (2.0 * np.pi)
         shown = (ratio > 0.0) & (ratio <= 2.5)
         axes["spectrum"].semilogy(ratio[shown], lines.amplitude[shown], linewidth=0.8)
@@ -282,6 +406,9 @@ def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes
     else:
         axes["path"].plot(run.columns["x_m"], run.columns["z_m"], **look)
         axes["path"].set(xlabel="x (m)", ylabel="z (m)", title="path of the upper end", aspect="equal")
+    for panel in axes.values():
+        if panel.get_yscale() == "linear":
+            panel.ticklabel_format(useOffset=False)
     judged = run.status == "ok" and in_regular_waves(run.scene)
     outcome = verdict(run).regime if judged else run.status
     figure.suptitle(f"{run.scene.title or run.scene.name}: {outcome}")
@@ -292,7 +419,20 @@ def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes
     return axes
 
 
-def _samples(run: "Trajectory", column: str) -> "numpy.ndarray":
+def _widened(axes: "Axes", across: "numpy.ndarray", upward: "numpy.ndarray") -> None:
+    """Let the axes show LEAST_SHOWN of the range of two series at least."""
+    import numpy as np
+
+    for series, limits, set_limits in (
+        (across, axes.get_xlim(), axes.set_xlim),
+        (upward, axes.get_ylim(), axes.set_ylim),
+    ):
+        middle, half = 0.5 * sum(limits), 0.5 * LEAST_SHOWN * float(np.ptp(series))
+        set_limits(min(limits[0], middle - half), max(limits[1], middle + half))
+
+
+def samples(run: "Trajectory", column: str) -> "numpy.ndarray":
+    """The samples of a column of the table; ValueError where there is none of that name."""
     if column not in run.columns:
         raise ValueError(f"no column {column!r}; allowed: {', '.join(run.columns)}")
     return run.columns[column]

@@ -13,7 +13,7 @@ from pathlib import Path
 # gets the report of a sweep.
 CONTENTS = (
     "accuracy", "basins", "breaking_line", "buoy_sweep", "orbits", "oscillator", "out_of_plane", "paper", "regime_map",
-    "stability", "sweep", "time_series", "validation",
+    "sea", "stability", "sweep", "time_series", "validation",
 )  # fmt: skip
 
 __all__ = ["CONTENTS", "build"]

@@ -46,6 +46,7 @@ FLOORS = (  # rooms and modules of the engine, from the ground up; of two that h
     {"perturbations", "paper_box", "massless"},
     {"lanes"},
     {"run"},
+    {"animation"},
     {"views"},
     {"__main__"},
 )

@@ -33,10 +33,11 @@ import numpy as np
 
 from analysis import block_maxima, joins
 from analysis.approaches import NEARER
+from analysis.snaps import NEAR_ZERO
 from campaigns.answers import kilonewton
 from campaigns.explore.batches import UNFOLLOWED, batch
 from campaigns.explore.multipliers import orbit_ahead
-from campaigns.explore.rows import ERROR, NEAR_ZERO, SLACK, SLACK_ERROR
+from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
 from campaigns.judge import job_from, periods_of

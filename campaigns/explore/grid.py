@@ -5,7 +5,7 @@ the sweep of waves.steepness with the column `steepness`.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from itertools import product
@@ -63,8 +63,17 @@ class Varied:
         return None
 
 
-def varied(words: list[str], faults: list[str], option: str = "--vary", of_words: bool = False) -> Varied | None:
-    """The key and values of KEY LO HI COUNT; None where one is at fault. of_words: or of KEY WORD WORD ..."""
+def varied(
+    words: list[str],
+    faults: list[str],
+    option: str = "--vary",
+    of_words: bool = False,
+    numbers: Sequence[float] | None = None,
+) -> Varied | None:
+    """The key and values of KEY LO HI COUNT; None where one is at fault. of_words: or of KEY WORD WORD ...
+
+    numbers: of a program, in place of LO HI COUNT; the only word is then the key.
+    """
     from engine.scene.faults import suggestion
     from engine.scene.reference import keys
 
@@ -79,7 +88,7 @@ def varied(words: list[str], faults: list[str], option: str = "--vary", of_words
         if not values:
             faults.append(f"{option} {key}: given nothing; allowed: its words")
     else:
-        values = cli.evenly(words[1:], f"{option} {key}", faults)
+        values = numbers or cli.evenly(words[1:], f"{option} {key}", faults)
         digits = max((len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values), default=0)
     if declared is None:
         faults.append(f"{option} {key}: no such key{suggestion(name, list(keys()))}")

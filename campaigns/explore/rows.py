@@ -13,11 +13,12 @@ import numpy as np
 
 from analysis import detect_period, extremes, slack_fraction, transverse_lyapunov
 from analysis.evidence import evidence_text
+from analysis.snaps import NEAR_ZERO
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
-from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, strobed_states
+from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
     LINE_COUNTS,
     MESSAGE,
@@ -59,6 +60,25 @@ EXTREMES = (
     SLACK,
     Column("compression_fraction", "", "χ_c", "share of the time after the transient with T < 0 at the top", 3, SHEET),
 )  # fmt: skip
+SNAPS = (
+    Column("snaps_per_wave", "", "snaps/T_i", "snaps a wave period after the transient (`analysis/snaps.py`)", 2),
+    Column("snap_peak_median_N", "N", "snap_med", "median of the peak tensions of snaps after the transient", 0, SHEET),
+    Column("snap_peak_95_N", "N", "snap_95", "peak tension that 5 % of the snaps after the transient exceed", 0, SHEET),
+    Column("snap_peak_max_N", "N", "snap_max", "largest peak tension of a snap after the transient", 0, SHEET),
+    Column(
+        "snap_speed_max_mps", "m/s", "v_snap",
+        "largest speed at which the ends of the line move apart when a snap begins, after the transient", 2, SHEET,
+    ),
+)  # fmt: skip
+ALONG_LINE = (
+    Column("tension_anchor_max_N", "N", "T_anchor", "largest tension at the anchor after the transient", 0, SHEET),
+    Column("tension_line_max_N", "N", "T_line", "largest tension along the line after the transient", 0, SHEET),
+    Column(
+        "tension_line_max_s_m", "m", "s_max",
+        "unstretched length from the anchor to where the tension along the line is largest", 1, SHEET,
+    ),
+)  # fmt: skip
+WHOLE_WAVES = 12  # snaps are counted over a multiple of it if no period is known: periods 2, 3, 4 and 6 fit into it
 ERROR = Column(
     "tension_top_max_error_N", "N", "± T_max",
     "how far the largest tension holds, by a companion on twice the elements at a quarter of the tolerance, and by how "
@@ -67,7 +87,6 @@ ERROR = Column(
 SLACK_ERROR = Column(
     "slack_fraction_error", "", "± χ", "how far the slack fraction holds, by the same companion and by chance", 3
 )
-NEAR_ZERO = 0.05  # of the static tension: what the paper calls near zero; below it the line is slack
 REGIME = Column("regime", "", "regime", "period-N, quasi-periodic, chaotic, transient or undecided", None, REGIMES)
 _BITS = "bits/period"
 WOLF = (
@@ -107,6 +126,8 @@ COLUMNS = (
     TRANSIENT,
     STROBED,
     *EXTREMES,
+    *SNAPS,
+    *ALONG_LINE,
     ERROR,
     SLACK_ERROR,
     *WOLF,
@@ -154,7 +175,9 @@ def buoy_row(trajectory, judgement: Judgement) -> Row:
     measured = after_transient(trajectory, columns, transient_periods)
     if measured:
         if judgement.limit:
-            measured |= settled(scene, judgement.orbit.run.columns, 0.0) | {STROBED.name: judgement.verdict.period}
+            orbit = judgement.orbit.run.columns
+            measured |= settled(scene, orbit, 0.0) | snap_columns(scene, orbit, 0.0, judgement.verdict.period)
+            measured[STROBED.name] = judgement.verdict.period
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
             first = round(transient_periods * period_s / step_s)  # sample after the transient
@@ -204,6 +227,7 @@ def after_transient(trajectory, columns, transient_periods: int) -> Row:
     # only the period goes into the table: the report strobes the radius again
     points, scale = strobed_states(trajectory, transient_periods, 0.0, transient_periods, columns)
     row[STROBED.name] = detect_period(points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+    row |= snap_columns(scene, columns, transient_periods * scene.waves.period_s, row[STROBED.name])
     return row | lateral_growth(trajectory, transient_periods)
 
 
@@ -228,7 +252,7 @@ def exponents(columns: tuple[Column, Column], exponent) -> Row:
 
 
 def settled(scene, columns, transient_s: float) -> Row:
-    """Extremes and slack of what follows the transient, by column of the table (`EXTREMES`)."""
+    """Extremes and slack of what follows the transient, by column (`EXTREMES`, `ALONG_LINE`)."""
     step_s = scene.sample_step_s()
     # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
     radius, angle, low, high = (
@@ -242,7 +266,45 @@ def settled(scene, columns, transient_s: float) -> Row:
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
     )
     ends = radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum
-    return dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
+    row = dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
+    return row | along_line(scene, columns, transient_s)
+
+
+def snap_columns(scene, columns, transient_s: float, period: int | None = None) -> Row:
+    """The columns SNAPS; none for a line that bears no tension at rest.
+
+    Those a wave, their median and 95 % are of the last whole periods of the motion after the transient. period: of the
+    motion, in waves; None: not known.
+    """
+    try:
+        snaps = snaps_of(scene, columns, transient_s=transient_s)
+    except ValueError:
+        return {}
+    row, counted_from_s = {}, transient_s
+    if scene.waves is not None and snaps.watched_s > 0.0:
+        waves, whole = snaps.watched_s / scene.waves.period_s, period or WHOLE_WAVES
+        if waves >= whole:
+            waves = (waves + 1e-6) // whole * whole
+        counted_from_s = columns["time_s"][-1] - columns["time_s"][0] - waves * scene.waves.period_s
+        row["snaps_per_wave"] = float((snaps.counted_s >= counted_from_s).sum() / waves)
+    peaks_N = snaps.peak_N[snaps.counted_s >= counted_from_s]
+    if len(peaks_N):
+        # a peak that occurs: the mean of the two in the middle would jump where large and small ones take turns
+        median_N, high_N = np.quantile(peaks_N, [0.5, 0.95], method="inverted_cdf")
+        row["snap_peak_median_N"], row["snap_peak_95_N"] = float(median_N), float(high_N)
+        row["snap_peak_max_N"] = float(snaps.peak_N.max())
+        row["snap_speed_max_mps"] = float(snaps.taut_speed_mps.max())
+    return row
+
+
+def along_line(scene, columns, transient_s: float) -> Row:
+    """The columns ALONG_LINE: of the samples, and of the upper end between them; none of an older record."""
+    first = int(np.ceil(transient_s / scene.sample_step_s() - 1e-6))
+    anchor, most, top = (columns[name][first:] for name in ("tension_anchor_N", "tension_max_N", "tension_top_high_N"))
+    largest, place = float(most.max()), float(columns["tension_max_s_m"][first + int(most.argmax())])
+    if top.max() > largest:
+        largest, place = float(top.max()), scene.tether.length_m
+    return dict(zip(names(ALONG_LINE), (float(anchor.max()), largest, place), strict=True))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -61,10 +61,11 @@ def without_waves(name: str, scene) -> Iterator[str]:
     elif scene.end.kind != "buoy":
         yield fault("end.kind", scene.end.kind, "'buoy' in this campaign")
     elif waves.irregular:
-        key = "waves.components" if waves.jonswap is None else "waves.jonswap"
+        seas = "components", "jonswap", "significant_steepness"
+        key = next(f"waves.{name}" for name in seas if getattr(waves, name) is not None)
         yield (
             f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
-            "period; engine.simulate runs irregular waves (docs/scenes.md#waves)"
+            "period; campaigns.sea answers for a sea, and engine.simulate runs irregular waves (docs/scenes.md#waves)"
         )
 
 
@@ -128,6 +129,7 @@ def _waves(scene) -> Iterator[Odd]:
     for key, given, steepness in (
         ("steepness", waves.steepness, 1.0),
         ("amplitude_m", waves.amplitude_m, k),
+        ("significant_steepness", waves.significant_steepness, 1.0),
         ("jonswap.significant_height_m", getattr(waves.jonswap, "significant_height_m", None), k / 2.0),
     ):
         if given is not None and given * steepness > (limit := breaking_steepness(scene)):

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.explore.rows import NEAR_ZERO, lasts
+from analysis.snaps import NEAR_ZERO
+from campaigns.explore.rows import lasts
 from engine.run.rest import static_tension_N
 from engine.views import strobed_radius
 

@@ -10,11 +10,18 @@ long enough, and over one key how far each largest tension holds; any other line
 counts. Of an irregular sea only the ramp is left out, and of a run without waves nothing. Nothing is random.
 """
 
+from __future__ import annotations
+
+import contextlib
+import io
+import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
+from numbers import Real
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
@@ -22,8 +29,14 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
+from engine.atomic import write_atomic
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names
+from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
+
+if TYPE_CHECKING:
+    import pandas
+
+    from engine.run.simulation import SceneOrName
 
 MOST_KEYS = 2
 
@@ -94,7 +107,8 @@ def measures(order: Order) -> Measures:
     if any(map(in_regular_waves, order.scenes)):
         columns = motions.columns_of(keys)
     else:
-        measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
+        measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, *rows.SNAPS, *rows.ALONG_LINE)
+        measured = (*measured, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
     waves = order.cases[0].scene.waves
     if waves is not None and waves.irregular:
@@ -110,7 +124,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
     of an irregular sea its ramp at least.
     """
-    from campaigns.explore.rows import HEIGHT, buoy_row, height_m, settled, sound_part
+    from campaigns.explore.rows import HEIGHT, buoy_row, height_m, settled, snap_columns, sound_part
 
     scene = trajectory.scene
     if judgement is not None:
@@ -122,7 +136,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
         transient_s = max(scene.waves.ramp_s, (transient_periods or 0) * scene.waves.period_s)
         row["transient_periods"] = transient_s / scene.waves.period_s
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
-        row |= settled(scene, columns, transient_s)
+        row |= settled(scene, columns, transient_s) | snap_columns(scene, columns, transient_s)
     return row
 
 
@@ -166,6 +180,76 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         lines.append(f"Largest tension {largest(peak)} at {place}.")
         lines.append(use_of(peak, scene, searched=False))
     return lines
+
+
+def sweep(
+    scene: SceneOrName,
+    key: str,
+    values: Iterable[float],
+    *,
+    periods: int | None = None,
+    transient: int | None = None,
+    duration: float | None = None,
+    starts: str | int | None = None,
+    seed: int | None = None,
+    jobs: int | None = None,
+    out: str | Path = Path("results", "sweep"),
+    report: bool = True,
+) -> pandas.DataFrame:
+    """The campaign as a function: a row for each motion at each value of a key, and its folder.
+
+    scene     a Scene, the name of a shipped one, or the path of a scene file
+    key       of the scene, as "waves.steepness" or "buoy.mass_kg"
+    values    numbers
+    out       folder of the results, with table.csv, trajectories and the report; what is there is not done again
+    report    whether report.html and report.pdf are made
+    others    as the options of `python -m campaigns.sweep`; None: as without the option
+    Returns the table; its attrs have `units` (column -> unit), `meanings`, `folder` and the lines of the `answer`.
+    Raises ValueError with every fault; then nothing is run or written. A run that ends early is a row with its status.
+    """
+    import pandas
+
+    from engine import Scene
+
+    values, faults, words = list(values), [], ["--out", str(out)]
+    given = {"periods": periods, "transient": transient, "duration": duration, "starts": starts, "seed": seed}
+    for name, value in {**given, "jobs": jobs}.items():
+        if value is not None:
+            words += [f"--{name}", str(value)]
+    if not report:
+        words.append("--no-report")
+    numbers = [float(value) for value in values if isinstance(value, Real) and math.isfinite(value)]
+    if not values or len(numbers) < len(values):
+        faults.append(f"values: given {values}; allowed: finite numbers, one or more")
+    options = cli.split(STUDY.parser(), words, faults)
+    how = cli.running(options, STUDY.places, STUDY.name, faults)
+    varied_key = varied([key], faults, "key", numbers=numbers or [0.0])
+    if faults:
+        raise ValueError("; ".join(faults))
+    name = str(scene)
+    if isinstance(scene, Scene):
+        name, content = str(how.out / "given.toml"), scene.to_toml().encode()
+        how.out.mkdir(parents=True, exist_ok=True)
+        if not Path(name).exists() or Path(name).read_bytes() != content:
+            write_atomic(name, content)
+    for name_of_scene in ("scene", "set"):
+        delattr(options, name_of_scene)
+    order = STUDY.order(how, name, {}, **vars(options) | {"grid": Grid((varied_key,))})
+    if order.faults:
+        if isinstance(scene, Scene):
+            Path(name).unlink()
+            with contextlib.suppress(OSError):  # a folder that holds more stays
+                how.out.rmdir()
+        raise ValueError("; ".join(order.faults))
+    called = ["--scene", name, *words, "--vary", key, *map(str, numbers)]
+    with contextlib.redirect_stdout(io.StringIO()):
+        STUDY.conduct(order, called)
+    columns = read_columns(how.out / "columns.csv")
+    table = pandas.DataFrame(read_table(how.out / "table.csv"))
+    table.attrs["units"] = {name: columns[name].unit for name in table}
+    table.attrs["meanings"] = {name: columns[name].meaning for name in table}
+    table.attrs |= {"folder": str(how.out), "answer": (how.out / ANSWER).read_text(encoding="utf-8").splitlines()}
+    return table
 
 
 STUDY = Study(

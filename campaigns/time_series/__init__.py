@@ -1,11 +1,14 @@
 """A column of any file: is it periodic, quasi-periodic or chaotic, and how sure is that?
 
     python -m analysis FILE.csv --column NAME [--time COLUMN | --step SECONDS] [--period SECONDS] [--out DIR]
+    python -m analysis FILE.csv --column TENSION --time COLUMN --snaps [--static N] [--ringing SECONDS]
 
 Any evenly sampled column will do. With --period, that of the forcing, the motion is judged once per period; a file
 whose rows are a section already takes --period equal to --step. Without it the motion is judged at its maxima, or,
 where less than six samples lie in a mean period, sample by sample. Noise is not called chaos: that word needs a
 positive exponent and what noise does not have (docs/time_series.md).
+
+With --snaps the column is the tension of a line: its snaps are counted, and listed with their peaks.
 """
 
 import argparse
@@ -16,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli
-from campaigns.machinery.cli import FOLDER, POSITIVE, Kind, fault_of, number
+from campaigns.machinery.cli import FOLDER, FRACTION, POSITIVE, Kind, fault_of, number
 from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command
 
@@ -29,13 +32,20 @@ WRITTEN = (
     *("answer.txt", "answer.json", "series.csv", "spectrum.csv", "section.csv", "divergence.csv", "dimension.csv"),
     *("columns.csv", "report.html", "report.pdf"),
 )
+OF_SNAPS_ALONE = ("snaps.csv", "snaps_columns.csv")  # what --snaps writes beside answer.txt
 EXITS = "exit codes: 0 done, 1 the folder could not be written, 2 bad input, 130 Ctrl-C"
+OF_SNAPS = {  # option: argument of `analysis.detect_snaps`
+    "--static": ("static_N", POSITIVE),
+    "--ringing": ("ringing_s", FRACTION),
+    "--slack": ("slack_share", FRACTION),
+    "--least": ("snap_share", POSITIVE),
+}
 SECONDS = "a finite number above 0 [s; samples where neither --time nor --step is given]"
 
 
 # What the command line asks for, checked. record: a Record; period [unit of time of the record], tolerance: None: not
-# given; how: a Running, whose `out` is the folder, or None
-Order = namedtuple("Order", "record period tolerance how")
+# given; how: a Running, whose `out` is the folder, or None; snaps: options of `detect_snaps`; None: not asked for
+Order = namedtuple("Order", "record period tolerance how snaps")
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -58,6 +68,17 @@ def parser() -> argparse.ArgumentParser:
     repeats = "a motion repeats within this share of its range (default 0.001; with noise, eight times its share)"
     argument_parser.add_argument("--tolerance", metavar="SHARE", help=repeats)
     argument_parser.add_argument(
+        "--snaps", action="store_true", help="count the snaps of a tension (N), and judge nothing"
+    )
+    static = "static tension, in the unit of the column, by which slack and snaps are told (default: the mean)"
+    argument_parser.add_argument("--static", metavar="N", help=static)
+    ringing = "longest period of axial ringing, 2 l/c; it does not count as snaps (default: 0, none)"
+    argument_parser.add_argument("--ringing", metavar="SECONDS", help=ringing)
+    slack = "the line is slack at this share of the static tension or less (default: 0.05)"
+    argument_parser.add_argument("--slack", metavar="SHARE", help=slack)
+    least = "a snap reaches this share of the static tension, more than --slack (default: 1)"
+    argument_parser.add_argument("--least", metavar="SHARE", help=least)
+    argument_parser.add_argument(
         "--out", metavar="DIR", help="folder for the answer and every curve behind it (default: none)"
     )
     return argument_parser
@@ -77,6 +98,14 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     period = value("--period", Kind(POSITIVE.convert, SECONDS))
     tolerance = value("--tolerance", number("a number above 0 and below 1", lambda share: 0.0 < share < 1.0))
     out = value("--out", FOLDER)
+    snaps = {name: value(option, kind) for option, (name, kind) in OF_SNAPS.items()}
+    given = [option for option in OF_SNAPS if getattr(options, option[2:]) is not None]
+    if options.snaps:
+        given = [option for option in ("--period", "--tolerance") if getattr(options, option[2:]) is not None]
+        if options.step is None and options.time is None:
+            faults.append("--snaps: given without times; allowed: with --time or --step")
+    with_or_without = "without" if options.snaps else "with"
+    faults.extend(f"{option}: allowed {with_or_without} --snaps only" for option in given)
     if options.step is not None and options.time is not None:
         faults.append("--time and --step: given both; allowed: one of them")
     file, *further_files = options.file or [None]
@@ -96,7 +125,16 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         fault = _no_fit(period, record)
         if fault:
             faults.append(fault)
-    return Order(record, period, tolerance, cli.Running(out, 1, "threading", None, False))
+    if options.snaps:
+        from analysis.snaps import NEAR_ZERO
+
+        slack_share, snap_share = snaps["slack_share"], snaps["snap_share"]
+        if (NEAR_ZERO if slack_share is None else slack_share) >= (snap_share or 1.0):
+            faults.append("--slack: not below --least; allowed: a smaller share")
+    if record is not None and options.snaps and snaps["static_N"] is None and record.values.mean() <= 0.0:
+        faults.append(f"--static: not given, and the mean is {record.values.mean():.4g}; allowed: a number above 0")
+    snaps = {name: number for name, number in snaps.items() if number is not None} if options.snaps else None
+    return Order(record, period, tolerance, cli.Running(out, 1, "threading", None, False), snaps)
 
 
 def _written_over(out: Path, file: str | None) -> str:
@@ -104,7 +142,7 @@ def _written_over(out: Path, file: str | None) -> str:
     # A folder with answer.txt alone is that of a command which a full disk stopped: provenance.json comes last.
     mine = (out / "provenance.json").exists() or (out / WRITTEN[0]).exists()
     lost = ""
-    for name in WRITTEN:
+    for name in (*WRITTEN, *OF_SNAPS_ALONE):
         path = out / name
         if not mine and path.exists():
             lost = f"which holds a {name} that is not known to be of this command"
@@ -132,7 +170,9 @@ def _no_fit(period: float, record: "Record") -> str:
 
 
 def judge(order: Order, argv: list[str]) -> int:
-    """Study the record, print the page, write the folder. Returns the exit code."""
+    """Study the record, or count its snaps, print the page, write the folder. Returns the exit code."""
+    if order.snaps is not None:
+        return _count_snaps(order)
     from campaigns.time_series.answer import page, write_files
     from campaigns.time_series.study import study
 
@@ -151,4 +191,17 @@ def judge(order: Order, argv: list[str]) -> int:
     except BrokenPipeError:
         # The reader (head, less) has what it wanted.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return cli.EXIT_OK
+
+
+def _count_snaps(order: Order) -> int:
+    """Count the snaps of the record, print them, write them. Returns the exit code."""
+    from campaigns.time_series.snaps import snap_page, snaps_in, write_snaps
+
+    found = snaps_in(order.record, order.snaps)
+    text = snap_page(order.record, found)
+    print(text)
+    if order.how.out is not None:
+        write_snaps(order.how.out, text, found)
+        print(f"\n{order.how.out}: the same, and every snap in snaps.csv")
     return cli.EXIT_OK

@@ -15,6 +15,7 @@ from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[2]
 NOTEBOOK = "docs/first_run"
+FIRST = (("engine", "load_scene"), ("engine", "simulate"), ("campaigns.sweep", "sweep"), ("engine", "Trajectory"))
 PACKAGES = ("engine", "analysis", "analysis.oscillator")
 
 
@@ -22,7 +23,7 @@ def on_files(files, config):
     """Add the pages that are made: the notebook, and the names with their docstrings."""
     notebook = json.loads((ROOT / f"{NOTEBOOK}.ipynb").read_text(encoding="utf-8"))
     files.append(File.generated(config, f"{NOTEBOOK}.md", content="\n\n".join(map(cell, notebook["cells"]))))
-    files.append(File.generated(config, "docs/api.md", content="\n\n".join(["# Python", *map(names, PACKAGES)])))
+    files.append(File.generated(config, "docs/api.md", content=python_page()))
     return files
 
 
@@ -63,20 +64,38 @@ def cell(notebook_cell):
     return "\n\n".join(parts)
 
 
-def names(package):
-    """The public names of a package with signatures and docstrings, as `help` shows them."""
-    module = importlib.import_module(package)
-    parts = [f"## {package}", inspect.getdoc(module).partition("\n")[0]]
-    for name in sorted(module.__all__):
-        parts += entry(f"{package}.{name}", getattr(module, name))
+def python_page():
+    """The public names with signatures and docstrings: first those with which everybody begins, then the others."""
+    beginning = (
+        "A scene is loaded, simulated or swept; a `Trajectory` is what a run left, with everything to look at it."
+    )
+    parts = ["# Python", "## To begin with", beginning]
+    for package, name in FIRST:
+        parts += entry(f"{package}.{name}", getattr(importlib.import_module(package), name))
+    for package in PACKAGES:
+        module = importlib.import_module(package)
+        parts += [f"## {package}", inspect.getdoc(module).partition("\n")[0]]
+        for name in sorted(set(module.__all__) - {name for first, name in FIRST if first == package}):
+            parts += entry(f"{package}.{name}", getattr(module, name))
     return "\n\n".join(parts)
+
+
+def signature(function):
+    """The parameters of a function, without those that only Tab is told of (`load_scene`)."""
+    whole = inspect.signature(function)
+    written = function.__code__.co_varnames
+    shown = [entry for name, entry in whole.parameters.items() if name in written]
+    rest = ", ...)" if len(shown) < len(whole.parameters) else ")"
+    return str(whole.replace(parameters=shown, return_annotation=inspect.Signature.empty))[:-1] + rest
 
 
 def entry(name, item):
     """Heading, signature and docstring of a function or class, and of the methods written in it."""
     docstring = inspect.getdoc(item) or ""
-    called = f"{name}{inspect.signature(item)}" if inspect.isfunction(item) else name
-    parts = [f"### {name}", f"<pre>{html.escape(called)}\n\n{html.escape(docstring)}</pre>"]
+    parts = [f"### {name}"]
+    if inspect.isfunction(item):
+        parts.append(f"<code>{html.escape(name.rpartition('.')[2] + signature(item))}</code>")
+    parts.append(f"<pre>{html.escape(docstring)}</pre>")
     if inspect.isclass(item):
         for key, method in vars(item).items():
             method = getattr(method, "__func__", method)

@@ -16,6 +16,7 @@ from ..dimensions import shape
 from ..perturbations.lateral import COEFFICIENTS, lateral_stage, normalise
 from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
+from ..physics.sea import SEA_WIDTH
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
 from ..simd.elementary import keep
@@ -134,7 +135,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
             linearise(p, grid, base, work, water)
         else:
             shape(p, grid, Y, work.Q, work.X)
-            flow(p, grid, base.t, 1.0, work.X, work.F)
+            flow(p, grid, base.t, 1.0, work.X, work.F, work.sea)
         for v in range(count):
             keep(begun, perturbed.K[v], perturbed.Ks[v, 0])
             known_part(turn.a, latest, perturbed.C[v], perturbed.Ks[v], perturbed.C_tilde)
@@ -155,7 +156,8 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
 
 def lane_work(n, width):
     """Work arrays of a Newton solve in all lanes; width: of E."""
-    return Work(*(lane_zeros(n, columns) for columns in (2, 4, planar_col.NODE_WIDTH, width, 6, 4)))
+    arrays = (lane_zeros(n, columns) for columns in (2, 4, planar_col.NODE_WIDTH, width, 6, 4))
+    return Work(*arrays, lane_zeros(n + 1, SEA_WIDTH))
 
 
 class Followers:

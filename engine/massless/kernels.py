@@ -20,7 +20,7 @@ import numpy as np
 from ..compiled import by_kind, kernel
 from ..physics.currents import uniform_current
 from ..physics.ends import planar_end
-from ..physics.submergence import end_of_cap, surface, wetted
+from ..physics.submergence import end_of_cap, surface_at, wetted
 from ..physics.tension.kernels import tension
 from ..physics.waves import wave_field
 from ..simd.select import finite, larger, smaller, some, where
@@ -30,17 +30,17 @@ HALVINGS = 20
 
 
 @kernel
-def _cap(p, t, x, z, U, W):
+def _cap(p, tables, t, x, z, U, W):
     """Added mass (kg) that the dry part of a cap lacks; depth h (m) of its lowest point, and its rate (m/s)."""
     if not p.spherical_cap:
         return 0.0, 2.0 * p.D_buoy, 0.0
-    eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * x)
+    eta, slope, _, rate, _ = surface_at(p, tables, t, 1.0, x)
     h = p.depth + eta - z + 0.5 * p.D_buoy
-    return p.M_added * wetted(p, h)[0], h, rate + p.direction * slope * U - W
+    return p.M_added * wetted(p, h)[0], h, rate + slope * U - W
 
 
 @kernel
-def _sphere(p, t, x, z, U, W):
+def _sphere(p, tables, t, x, z, U, W):
     """As `_cap` where no sphere has one."""
     return 0.0, 2.0 * p.D_buoy, 0.0
 
@@ -63,9 +63,9 @@ def rates(p, tables, length, t, y, X, F):
     ex, ez, _, _, _, _ = planar_end(p, tables, t, 0.0, 1.0, pull * x, pull * z, U, W, U, W, F[0])
     mass = p.M_total
     if p.spherical_cap:
-        cap = end_of_cap(p, t, 1.0, 0.0, 1.0, x, z, U, W, U, W, F[0])
+        cap = end_of_cap(p, tables, t, 1.0, 0.0, 1.0, x, z, U, W, U, W, F[0])
         ex, ez = ex + cap[0], ez + cap[1]
-        mass = mass - _part(p, t, x, z, U, W)[0]
+        mass = mass - _part(p, tables, t, x, z, U, W)[0]
     return -ex / mass, -ez / mass
 
 
@@ -103,7 +103,7 @@ def _gauges(p, tables, length, t, y):
     """What changes sign where the forces have a kink, and the rates of these: T, h and h - D."""
     r, r_t = _radius(y)
     T, slope = tension(r / length - 1.0, p, tables)
-    _, h, h_t = _part(p, t, y[0], y[1], y[2], y[3])
+    _, h, h_t = _part(p, tables, t, y[0], y[1], y[2], y[3])
     return (T, h, h - p.D_buoy), (slope * r_t / length, h_t, h_t)
 
 

@@ -135,8 +135,9 @@ class Record:
             top, tension = at[:, -1], at[7]
             low, high = min(state["low"], top[7]), max(state["high"], top[7])
             offplane = np.abs(self.across @ at[:3]).max()
+            line_most = tension[0], tension.max(), line.s[tension.argmax()]
             self.rows.append(
-                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min(), 0.0]
+                [t, *top[:6], top[7], tension.min(), low, high, offplane, 0.0, at[2].min(), 0.0, *line_most]
             )  # as `engine.record` has them
             state["low"] = state["high"] = top[7]
         for _, at in self._due(self.profiles, self.profile_step, self.profile_goal, now):

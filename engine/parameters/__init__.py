@@ -148,17 +148,21 @@ def _water(record, scene, place):
     if scene.water is not None:
         record["depth"] = scene.water.depth_m
     if wave is not None:
-        record["k"] = waves.wave_number(wave.period_s, scene.water.depth_m, scene.gravity_mps2)
-        record["omega"], record["phase"], record["ramp"] = 2 * math.pi / wave.period_s, wave.phase_rad, wave.ramp_s
-        amplitudes = sea.components_of(scene)[1]  # a regular wave has one: its amplitude_m, or kA over k
-        record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if wave.irregular else amplitudes[0]
+        periods, amplitudes, phases, directions = sea.components_of(scene)
+        several = len(periods) > 1
+        # of several waves the peak period, for what is measured in wave lengths; a sea of one wave is a regular wave
+        period_s = wave.period_s if several else float(periods[0])
+        record["k"] = waves.wave_number(period_s, scene.water.depth_m, scene.gravity_mps2)
+        record["omega"], record["phase"], record["ramp"] = 2 * math.pi / period_s, phases[0], wave.ramp_s
+        record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if several else amplitudes[0]
+        direction = float(directions[0])
         if codes.is_spatial(record):
-            record["dir_x"], record["dir_y"] = sea.direction_of(wave.direction_rad)
+            record["dir_x"], record["dir_y"] = sea.direction_of(direction)
         else:
-            record["direction"] = math.cos(wave.direction_rad)  # 1 or -1: `scene.rules` allow no other in a plane
-        if wave.irregular or codes.is_spatial(record):  # `physics.sea` reads rows, in space also for one regular wave
-            rows = sea.table_of(scene)
-            record["sea_n"], record["sea_at"] = len(rows), place(rows)
+            record["direction"] = math.cos(direction)  # 1 or -1: `scene.rules` allow no other in a plane
+        if several:
+            groups = sea.groups_of(scene)
+            record["sea_n"], record["sea_at"] = len(groups), place(groups)
         above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
         record["above"] = above[wave.above_still_water]
     if current is not None:
@@ -300,6 +304,8 @@ def _solver(record, scene, place, h):
         all_waves=scene.end.kind == "held" and scene.end.release_s is None,  # let go, a line whips: no ringing
     )
     scales.put_scales(record, scene, h)
+    if record["sea_n"]:
+        record["still"] = sea.STILL * record["newton_tolerance"] / (record["per_speed"] * sea.shear_of(scene))
     if solver.courant is not None:
         record["pace"] = solver.courant / scales.fastest_wave(record, scene)
         record["fixed_step"] = record["pace"] * float(h.min())

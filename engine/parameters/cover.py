@@ -7,8 +7,8 @@ from ..scene.models import Scene
 def goes_in_lanes(scene: Scene) -> bool:
     """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
 
-    Held and free ends, tabulated laws, irregular waves, currents with a profile and profiles of the line are left out
-    because no sweep needs them. Each would want its branches written as choices (`engine.simd.select`).
+    Held and free ends, tabulated laws, currents with a profile and profiles of the line are left out because no sweep
+    needs them. Each would want its branches written as choices (`engine.simd.select`).
     """
     return (
         scene.solver.scheme != "paper-box"
@@ -32,8 +32,9 @@ def has_rare_laws(scene: Scene) -> bool:
 
 
 def is_plain(scene: Scene) -> bool:
-    """Has every term of this planar scene the one form that lanes have too, and the sphere no cap?"""
-    return _without_tables(scene) and scene.buoy.submergence == "full" and not has_rare_laws(scene)
+    """Has every term of this planar scene its simplest form: a regular wave if any, and a sphere without a cap?"""
+    regular = scene.waves is None or not scene.waves.irregular
+    return regular and _without_tables(scene) and scene.buoy.submergence == "full" and not has_rare_laws(scene)
 
 
 def _without_tables(scene):
@@ -42,6 +43,5 @@ def _without_tables(scene):
         scene.end.kind == "buoy"
         and tension.LAWS[tension.NAMES.index(scene.tether.tension.law)].IN_LANES
         and (line_drag is None or drag.LAWS[drag.NAMES.index(line_drag.law)].IN_LANES)
-        and (scene.waves is None or not scene.waves.irregular)
         and (scene.current is None or scene.current.law == "uniform")
     )

@@ -8,6 +8,7 @@ import numpy as np
 from ..arrays import Trail, Work
 from ..compiled import kernel
 from ..dimensions import shape
+from ..physics.sea import SEA_WIDTH
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar.extras import node_width
@@ -33,12 +34,13 @@ def carry(p, tables, period, count, trail, tangent, across):
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
+    sea = np.zeros((n + 1, SEA_WIDTH))
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
     if tangent is not None:
         vectors, rates, growth = tangent
         number = vectors.shape[0]
-        work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)))
+        work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)), sea)
         water = Water(np.zeros((n, 8)), np.zeros((n, 4)))
         dKs, dC_tilde, dC = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((n, 4))
         lengths, known_of_box = np.empty(number), np.zeros((n, 3))
@@ -67,7 +69,7 @@ def carry(p, tables, period, count, trail, tangent, across):
                         copy_into(rates[v], dKs[v, i])
             else:
                 shape(p, tables, base.Y, Q, X)
-                flow(p, tables, base.t, 1.0, X, F)
+                flow(p, tables, base.t, 1.0, X, F, sea)
             if across is not None:
                 known_part(a, so_far, vector, dK, known)
                 lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)

@@ -181,7 +181,7 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:
-        cap = across_cap(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
+        cap = across_cap(p, tables, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
         of_V, known = of_V + cap[0], known + cap[1]
     A00 = of_N * (H[b, N_TAU] + H[b, N_RHO] * R20) + of_V * R00
     A01 = of_N * (H[b, N_RHO] * R21 - 1.0) + of_V * R01

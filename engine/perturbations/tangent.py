@@ -51,7 +51,7 @@ def linearise(p, tables, base, work, water):
     """The matrix of a stage (Base), eliminated, into work.E (n, 33), with the Q, X, F it belongs to, and Water."""
     Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
     shape(p, tables, Y, Q, work.X)
-    flow(p, tables, base.t, 1.0, work.X, work.F)
+    flow(p, tables, base.t, 1.0, work.X, work.F, work.sea)
     over = 1.0 / rate
     for k in range(Y.shape[0]):
         for m in range(2):
@@ -95,7 +95,7 @@ def _add_water(p, tables, base, work, water):
     last = Q.shape[0] - 1
     for axis in range(2):
         dF = _water_change(water.J[last], 1.0 - axis, 1.0 * axis)
-        x, z = _end_change(p, base, work, (0.0, 0.0), (0.0, 0.0), dF)
+        x, z = _end_change(p, tables, base, work, (0.0, 0.0), (0.0, 0.0), dF)
         top[col.TOP_DXX + axis], top[col.TOP_DZX + axis] = over * x, over * z
 
 
@@ -106,7 +106,7 @@ def _water_change(J, x, z):
 
 
 @kernel
-def _end_change(p, base, work, dV_tilde, dX_tilde, dF):
+def _end_change(p, tables, base, work, dV_tilde, dX_tilde, dF):
     """Known part of the linearised condition of the upper end (`engine.physics.ends`), for changes of V~, X~ (2) and of
     the water (4) there."""
     last = base.Y.shape[0] - 1
@@ -124,7 +124,7 @@ def _end_change(p, base, work, dV_tilde, dX_tilde, dF):
     buoy = 1.0 if p.end == BUOY else 0.0
     x, z = buoy * x, buoy * z
     if p.spherical_cap:
-        cap = change_of_cap(p, base.t, base.rate, work.X[last], Y, base.K[last], F, dV_tilde, dX_tilde, dF)
+        cap = change_of_cap(p, tables, base.t, base.rate, work.X[last], Y, base.K[last], F, dV_tilde, dX_tilde, dF)
         x, z = x + cap[0], z + cap[1]
     return x, z
 
@@ -178,7 +178,7 @@ def _up_the_line(p, tables, base, work, water, dC_tilde, known_of_box):
         put(known_of_box[k], 0, known)
     last, X, Z = n - 1, x / rate, z / rate
     dV_tilde = dC_tilde[last, col.VX], dC_tilde[last, col.VZ]
-    top_x, top_z = _end_change(p, base, work, dV_tilde, (X, Z), _water_change(water.J[last], X, Z))
+    top_x, top_z = _end_change(p, tables, base, work, dV_tilde, (X, Z), _water_change(water.J[last], X, Z))
     more_x, more_z = known_end(p, base.t, nx, nz)
     top_x, top_z = top_x + more_x, top_z + more_z
     Dxx, Dxz, Dzx, Dzz = quaternion(E[0], col.TOP_DXX)

@@ -1,7 +1,8 @@
 """The sphere of eq. (30) partly out of the water: what its wetted cap has less, or more, than the whole sphere.
 
-The cap reaches h below the surface, 0 <= h <= D; h follows from the height of the centre and the linear wave above it,
-h = H + eta(x, t) - z + D/2. With x = h/D, of the whole sphere there are in the water
+The cap reaches h below the surface, 0 <= h <= D; h follows from the height of the centre and the surface above it, that
+of one linear wave or of a whole sea, h = H + eta(x, t) - z + D/2. With x = h/D, of the whole sphere there are in the
+water
 
     volume   s = pi h^2 (3R - h)/3 / (4 pi R^3/3) = x^2 (3 - 2x)      buoyancy, wave load, added mass
     section  a = (acos(1 - 2x) - 2 (1 - 2x) sqrt(x (1 - x)))/pi       drag: the part of the circle below the surface
@@ -24,9 +25,12 @@ import math
 
 from ..compiled import by_kind, kernel
 from ..planar import columns as col
+from ..simd.access import in_lane, lane_of, with_lane
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, smaller, where
+from ..simd.vector import COUNT
 from ..spatial.vectors import dot, mixed
+from .sea import surface_sums
 
 
 @kernel
@@ -43,6 +47,66 @@ def surface(p, t, in_motion, distance):
         rate = p.omega * high * s + rising * c
         rate_slope = p.k * (p.omega * high * c - rising * s)
     return eta, slope, curve, rate, rate_slope
+
+
+@kernel
+def _of_regular(p, tables, t, in_motion, x):
+    """The surface at x (m) in a plane: eta, eta_x, eta_xx, eta_t, eta_tx; zeros in statics."""
+    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
+    return eta, p.direction * slope, curve, rate, p.direction * rate_slope
+
+
+@kernel
+def _grown(p, t, sums):
+    """The surface under its ramp, from `surface_sums` of full-grown waves in a plane."""
+    eta, slope, curve, rate, rate_slope = sums
+    gain, gain_rate = smooth_start(t, p.ramp)
+    rate, rate_slope = gain * rate + gain_rate * eta, gain * rate_slope + gain_rate * slope
+    return gain * eta, gain * slope, gain * curve, rate, rate_slope
+
+
+@kernel
+def _in_plane(p, tables, t, in_motion, x):
+    if p.sea_n == 0:
+        return _of_regular(p, tables, t, in_motion, x)
+    if in_motion == 0.0 or not p.waves:
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    eta, slope, _, curve, _, _, rate, rate_slope, _ = surface_sums(tables, p.sea_at, p.sea_n, t, x, 0.0)
+    return _grown(p, t, (eta, slope, curve, rate, rate_slope))
+
+
+@kernel
+def _in_lanes(p, tables, t, in_motion, x):
+    """As `_in_plane`, lane by lane in a sea."""
+    if p.sea_n == 0:
+        return _of_regular(p, tables, t, in_motion, x)
+    eta = slope = curve = rate = rate_slope = where(x > x, x, 0.0)
+    if p.waves and in_motion > 0.0:
+        for b in range(COUNT):
+            sums = surface_sums(in_lane(tables, b), p.sea_at, p.sea_n, lane_of(t, b), lane_of(x, b), 0.0)
+            eta, slope, curve = with_lane(eta, b, sums[0]), with_lane(slope, b, sums[1]), with_lane(curve, b, sums[3])
+            rate, rate_slope = with_lane(rate, b, sums[6]), with_lane(rate_slope, b, sums[7])
+    return _grown(p, t, (eta, slope, curve, rate, rate_slope))
+
+
+@kernel
+def surface_in_space(p, tables, t, in_motion, x, y):
+    """The surface at x, y (m): eta, its slopes by x, y, its second derivatives by xx, xy, yy, eta_t and its slopes."""
+    if p.sea_n == 0:
+        ax, ay = p.dir_x, p.dir_y
+        eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, ax * x + ay * y)
+        along, across = curve * ax, curve * ay
+        rate_x, rate_y = rate_slope * ax, rate_slope * ay
+        return eta, slope * ax, slope * ay, along * ax, along * ay, across * ay, rate, rate_x, rate_y
+    if in_motion == 0.0 or not p.waves:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    eta, gx, gy, xx, xy, yy, rate, rate_x, rate_y = surface_sums(tables, p.sea_at, p.sea_n, t, x, y)
+    gain, gain_rate = smooth_start(t, p.ramp)
+    rate, rate_x, rate_y = gain * rate + gain_rate * eta, gain * rate_x + gain_rate * gx, gain * rate_y + gain_rate * gy
+    return gain * eta, gain * gx, gain * gy, gain * xx, gain * xy, gain * yy, rate, rate_x, rate_y
+
+
+surface_at = by_kind(_in_plane, _in_plane, _in_lanes)  # in a plane: eta, eta_x, eta_xx, eta_t, eta_tx
 
 
 @kernel
@@ -64,23 +128,23 @@ def wetted(p, h):
 
 
 @kernel
-def cap_end(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, F):
+def cap_end(p, tables, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, F):
     """What the cap adds to `engine.physics.ends.upper_end` of a buoy at x, z (m), and to its derivatives.
 
     F (4,): water velocity and acceleration there. Returns ex, ez, Dxx, Dxz, Dzx, Dzz.
     """
     ax, az = cv * (U - U_tilde), cv * (W - W_tilde)
-    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F)
+    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, tables, t, cv, in_motion, x, z, U, W, ax, az, F)
     over = 1.0 / cq
     return ex, ez, Dxx + over * Gxx, Dxz + over * Gxz, Dzx + over * Gzx, Dzz + over * Gzz
 
 
 @kernel
-def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
+def _loads(p, tables, t, cv, in_motion, x, z, U, W, ax, az, F):
     """Loads of the cap less those of the sphere, their derivatives D by the velocity and G by the place."""
-    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
+    eta, slope, curve, rate, rate_slope = surface_at(p, tables, t, in_motion, x)
     dry, ds, bend, bare, da = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
-    nx = -p.direction * slope
+    nx = -slope
     u, w = in_motion * U - F[0], in_motion * W - F[1]
     square = u * u + w * w
     speed = math.sqrt(square)
@@ -101,7 +165,8 @@ def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
     added_bend = p.M_added * bend
     gx = added_bend * impact_x + ds * (p.M_added * ax - p.M_wave * F[2]) + p.C_buoy * da * speed * u
     gz = added_bend * impact_z + ds * (p.M_added * az - p.M_wave * F[3] - p.B_whole) + p.C_buoy * da * speed * w
-    faster = in_motion * slam * (p.direction * rate_slope + curve * U)
+    turned = curve * U
+    faster = in_motion * slam * (rate_slope + turned)
     Gxx = faster * (u - entering * nx) - slam * push * curve - gx * nx
     return (
         ex, ez, Dxx - over_speed * u * u + lost * nx * nx, turning - across,
@@ -111,17 +176,17 @@ def _loads(p, t, cv, in_motion, x, z, U, W, ax, az, F):
 
 
 @kernel
-def cap_change(p, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
+def cap_change(p, tables, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
     """Known part of the linearised `cap_end` in the tangent dynamics (`engine.perturbations.tangent`): x and z.
 
     X (2,), Y (6,), K (4,): place, state and rates of the last node; dV_tilde, dX_tilde: what the perturbation of C~
     makes of velocity and place there; dF (4,): of the water.
     """
     x, z, U, W = X[0], X[1], Y[col.VX], Y[col.VZ]
-    G = _loads(p, t, cv, 1.0, x, z, U, W, K[col.VX], K[col.VZ], F)
-    eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * x)
+    G = _loads(p, tables, t, cv, 1.0, x, z, U, W, K[col.VX], K[col.VZ], F)
+    eta, slope, _, rate, _ = surface_at(p, tables, t, 1.0, x)
     dry, ds, _, bare, _ = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
-    nx = -p.direction * slope
+    nx = -slope
     u, w = U - F[0], W - F[1]
     speed = math.sqrt(u * u + w * w)
     product = u * dF[0] + w * dF[1]
@@ -136,23 +201,23 @@ def cap_change(p, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
 
 
 @kernel
-def cap_across(p, t, cv, X, Y, F, V_tilde):
+def cap_across(p, tables, t, cv, X, Y, F, V_tilde):
     """What the cap adds to the lateral condition of a buoy: factor of V_y, and the known part."""
-    eta, slope, _, rate, _ = surface(p, t, 1.0, p.direction * X[0])
+    eta, slope, _, rate, _ = surface_at(p, tables, t, 1.0, X[0])
     dry, ds, _, bare, _ = wetted(p, p.depth + eta - X[1] + 0.5 * p.D_buoy)
     u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
     inertia = p.M_added * dry * cv
-    sinking = rate + p.direction * slope * Y[col.VX] - Y[col.VZ]
+    sinking = rate + slope * Y[col.VX] - Y[col.VZ]
     of_V = p.M_added * ds * sinking - inertia - p.C_buoy * bare * math.sqrt(u * u + w * w)
     return of_V, inertia * V_tilde
 
 
 @kernel
-def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
+def cap_end_3d(p, tables, t, cq, cv, in_motion, X, V, V_tilde, F):
     """As `cap_end` in space: X, V, V_tilde (x, y, z), F (6,). Returns e, and the three rows of D."""
-    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.dir_x * X[0] + p.dir_y * X[1])
+    eta, eta_x, eta_y, xx, xy, yy, rate, rate_x, rate_y = surface_in_space(p, tables, t, in_motion, X[0], X[1])
     dry, ds, bend, bare, da = wetted(p, p.depth + eta - X[2] + 0.5 * p.D_buoy)
-    ahead, n = (p.dir_x, p.dir_y, 0.0), (-p.dir_x * slope, -p.dir_y * slope, 1.0)
+    n, curves_x, curves_y = (-eta_x, -eta_y, 1.0), (xx, xy, 0.0), (xy, yy, 0.0)
     A = (cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1]), cv * (V[2] - V_tilde[2]))
     v = (in_motion * V[0] - F[0], in_motion * V[1] - F[1], in_motion * V[2] - F[2])
     water = (F[3], F[4], F[5])
@@ -168,25 +233,23 @@ def cap_end_3d(p, t, cq, cv, in_motion, X, V, V_tilde, F):
     g = mixed(p.M_added * bend, impact, p.C_buoy * da * speed, v)
     g = mixed(1.0, g, ds, mixed(p.M_added, A, -p.M_wave, water))
     g = (g[0], g[1], g[2] - p.B_whole * ds)
-    faster = in_motion * slam * (rate_slope + curve * dot(ahead, V))
-    moved = mixed(1.0, mixed(faster, v, -faster * entering, n), -slam * push * curve, ahead)
+    # the place changes the rate of the surface as the buoy sees it, and by its curvature the normal
+    faster = (in_motion * slam * (rate_x + dot(curves_x, V)), in_motion * slam * (rate_y + dot(curves_y, V)), 0.0)
+    met, bent = mixed(1.0, v, -entering, n), -slam * push
     over_speed = in_motion * drag / speed if speed > 0.0 else 0.0
     diagonal = in_motion * (slam * sinking - drag * speed) - p.M_added * dry * cv
     turning, over = in_motion * slam, 1.0 / cq
     back = mixed(-turning, v, turning * entering, n)
-    x = _row(turning * n[0] - over_speed * v[0], v, back[0] - over * g[0], n, over * moved[0], ahead)
-    y = _row(turning * n[1] - over_speed * v[1], v, back[1] - over * g[1], n, over * moved[1], ahead)
-    z = _row(turning * n[2] - over_speed * v[2], v, back[2] - over * g[2], n, over * moved[2], ahead)
+    x = mixed(turning * n[0] - over_speed * v[0], v, back[0] - over * g[0], n)
+    y = mixed(turning * n[1] - over_speed * v[1], v, back[1] - over * g[1], n)
+    z = mixed(turning * n[2] - over_speed * v[2], v, back[2] - over * g[2], n)
+    x = mixed(1.0, x, over, mixed(met[0], faster, bent, curves_x))
+    y = mixed(1.0, y, over, mixed(met[1], faster, bent, curves_y))
+    z = mixed(1.0, z, over * met[2], faster)
     return (
         (e[0], e[1], e[2] + p.B_whole * dry),
         ((x[0] + diagonal, x[1], x[2]), (y[0], y[1] + diagonal, y[2]), (z[0], z[1], z[2] + diagonal)),
     )
-
-
-@kernel
-def _row(a, v, b, n, c, ahead):
-    """a v + b n + c ahead"""
-    return mixed(1.0, mixed(a, v, b, n), c, ahead)
 
 
 @kernel

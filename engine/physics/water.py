@@ -5,30 +5,50 @@ import numpy as np
 from ..compiled import by_kind, kernel
 from ..simd.elementary import copy_into
 from .currents import current_field, uniform_current
-from .sea import sea_field
-from .waves import wave_field, wave_slopes
+from .sea import sea_field, sea_field_in_lanes, sea_slopes, sea_slopes_in_lanes
+from .waves import wave_field, wave_field_in_space, wave_slopes
 
 NUDGE = 1e-6  # m
 
 
 @kernel
-def _any(p, tables, t, X, F):
-    """In a plane: a regular wave, which has no rows of a sea, or a sea. In space and in lanes only one kind occurs."""
+def _in_plane(p, tables, t, X, F, sea):
     if p.sea_n == 0:
         wave_field(p, tables, t, X, F)
     else:
-        sea_field(p, tables, t, X, F)
+        sea_field(p, tables, t, X, F, sea)
 
 
-waves = by_kind(_any, sea_field, wave_field)
+@kernel
+def _in_space(p, tables, t, X, F, sea):
+    if p.sea_n == 0:
+        wave_field_in_space(p, tables, t, X, F)
+    else:
+        sea_field(p, tables, t, X, F, sea)
+
+
+@kernel
+def _in_lanes(p, tables, t, X, F, sea):
+    if p.sea_n == 0:
+        wave_field(p, tables, t, X, F)
+    else:
+        sea_field_in_lanes(p, tables, t, X, F, sea)
+
+
+@kernel
+def _regular(p, tables, t, X, F, sea):
+    wave_field(p, tables, t, X, F)
+
+
+waves = by_kind(_in_plane, _in_space, _in_lanes, _regular)
 current = by_kind(current_field, current_field, uniform_current)
 
 
 @kernel
-def water(p, tables, t, in_motion, X, F):
+def water(p, tables, t, in_motion, X, F, sea):
     """Velocity and acceleration of the water at places X (n, 2) or (n, 3), into F (n, 4) or (n, 6).
 
-    in_motion: 1.0, or 0.0 to leave out the waves. Where there is no water F is not touched.
+    in_motion: 1.0, or 0.0 to leave out the waves. sea: of Work. Where there is no water F is not touched.
     """
     if p.wet == 0:
         return
@@ -36,28 +56,50 @@ def water(p, tables, t, in_motion, X, F):
         for i in range(F.shape[1]):
             F[k, i] = 0.0
     if p.waves and in_motion > 0.0:
-        waves(p, tables, t, X, F)
+        waves(p, tables, t, X, F, sea)
     if p.current:
         current(p, tables, t, X, F)
 
 
 @kernel
-def _any_slopes(p, tables, t, X, F, J):
-    """By differences but for regular waves and a current that is the same everywhere."""
-    if p.sea_n == 0 and (p.current == 0 or p.cur_nx * p.cur_nz == 1):
+def _slopes_in_plane(p, tables, t, X, F, J):
+    """By differences: of a current that is not the same everywhere, and of regular waves over one."""
+    varied = p.current and p.cur_nx * p.cur_nz > 1
+    if p.sea_n > 0:
+        sea_slopes(p, tables, t, X, F, J)
+        if not varied:
+            return
+    elif not varied:
         wave_slopes(p, tables, t, X, F, J)
         return
     n = X.shape[0]
-    X_moved, F_moved = np.empty((n, 2)), np.empty((n, 4))
+    X_moved, there, moved = np.empty((n, 2)), np.zeros((n, 4)), np.empty((n, 4))
+    if p.sea_n > 0:
+        current_field(p, tables, t, X, there)
+    else:
+        copy_into(there, F)
     for axis in range(2):
         copy_into(X_moved, X)
         for k in range(n):
             X_moved[k, axis] += NUDGE
-        water(p, tables, t, 1.0, X_moved, F_moved)
+            for m in range(4):
+                moved[k, m] = 0.0
+        if p.sea_n == 0 and p.waves:
+            wave_field(p, tables, t, X_moved, moved)
+        current_field(p, tables, t, X_moved, moved)
         for k in range(n):
             for m in range(4):
-                J[k, 4 * axis + m] = (F_moved[k, m] - F[k, m]) * (1.0 / NUDGE)
+                slope = (moved[k, m] - there[k, m]) * (1.0 / NUDGE)
+                J[k, 4 * axis + m] = slope + (J[k, 4 * axis + m] if p.sea_n > 0 else 0.0)
+
+
+@kernel
+def _slopes_in_lanes(p, tables, t, X, F, J):
+    if p.sea_n > 0:
+        sea_slopes_in_lanes(p, tables, t, X, F, J)
+    else:
+        wave_slopes(p, tables, t, X, F, J)
 
 
 # J (n, 8): how the water F at the nodes of a line in a plane depends on their places X, dF/dx (4) and dF/dz (4)
-water_slopes = by_kind(_any_slopes, _any_slopes, wave_slopes)
+water_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_in_lanes, wave_slopes)

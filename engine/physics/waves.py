@@ -35,7 +35,7 @@ def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> 
 
 @kernel
 def wave_field(p, tables, t, X, F):
-    """Water velocity and local acceleration at the nodes of a line in a plane, added into F (in space: `physics.sea`).
+    """Water velocity and local acceleration at the nodes of a line in a plane, added into F (a sea: `physics.sea`).
 
     X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
     """
@@ -78,6 +78,44 @@ def wave_field(p, tables, t, X, F):
         F[j, 1] += u0 * ws
         F[j, 2] += u0 * om * us + u1 * uc
         F[j, 3] += u1 * ws - u0 * om * wc
+
+
+@kernel
+def wave_field_in_space(p, tables, t, X, F):
+    """As `wave_field` at places X (n, 3) x, y, z; F (n, 6): U, V, W and their rates."""
+    n = X.shape[0]
+    gain, gain_rate = smooth_start(t, p.ramp)
+    k, om, phase, cosine, sine = p.k, p.omega, p.phase, p.dir_x, p.dir_y
+    speed = p.amplitude * om / (1.0 - math.exp(-2.0 * k * p.depth))
+    u0, u1 = speed * gain, speed * gain_rate
+    up, down, s, c = 0.0, 0.0, 0.0, 1.0
+    x_below = z_below = 0.0
+    for j in range(n):
+        x = cosine * X[j, 0] + sine * X[j, 1]
+        z = max(X[j, 2], 0.0)
+        if p.above == WHEELER:
+            eta = p.amplitude * sincos(k * x - om * t + phase)[1]
+            z = z * p.depth / max(p.depth + gain * eta, 1e-3 * p.depth)
+        dz, dx = k * (z - z_below), k * (x - x_below)
+        x_below, z_below = x, z
+        if j > 0 and abs(dz) < SMALL and abs(dx) < SMALL and up > TINY:
+            e1, e2 = small_exponentials(dz)
+            ds, dc = small_sincos(dx)
+            up, down, s, c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
+        else:
+            s, c = sincos(k * x - om * t + phase)
+            up, down = math.exp(k * (z - p.depth)), math.exp(-k * (z + p.depth))
+        cosh_part, sinh_part = up + down, up - down
+        if p.above == ZERO and X[j, 2] > p.depth:
+            cosh_part = sinh_part = 0.0
+        uc, us, wc, ws = cosh_part * c, cosh_part * s, sinh_part * c, sinh_part * s
+        u, u_t = u0 * uc, u0 * om * us + u1 * uc
+        F[j, 0] += cosine * u
+        F[j, 1] += sine * u
+        F[j, 2] += u0 * ws
+        F[j, 3] += cosine * u_t
+        F[j, 4] += sine * u_t
+        F[j, 5] += u1 * ws - u0 * om * wc
 
 
 @kernel

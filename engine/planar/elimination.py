@@ -126,7 +126,7 @@ def eliminate(p, tables, stage, Y, work):
     Dzx = Dxz
     if p.spherical_cap:
         x, z = work.X[b, 0], work.X[b, 1]
-        cap = end_of_cap(p, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        cap = end_of_cap(p, tables, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
         ex, ez, Dxx = ex + cap[0], ez + cap[1], Dxx + cap[2]
         Dxz, Dzx, Dzz = Dxz + cap[3], Dzx + cap[4], Dzz + cap[5]
     if wide:

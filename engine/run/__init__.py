@@ -25,7 +25,7 @@ from ..time.status import ADVICE, OK, WORDS
 from ..time.time_loop import march
 from ..trajectory import EnergyBudget, Profiles, Trajectory
 from ..trajectory.columns import columns_of, sample_count, statistics_of
-from ..trajectory.excursions import with_excursions
+from ..trajectory.excursions import named_end, with_excursions
 from ..trajectory.final_state import FinalState
 from .rest import Rest, largest_turn, rest_of
 from .start import taken_over
@@ -196,9 +196,10 @@ class Run:
         columns = columns_of(self.output.samples[: min(int(state["samples"]), self.goal)], scene)
         message = doubts_of(self, columns) if status == OK else self._reason()
         message, excursions = with_excursions(message, scene, columns, WORDS[status])
+        word = named_end(WORDS[status], scene, columns)
         return Trajectory(
             scene,
-            WORDS[status],
+            word,
             message,
             columns,
             self._statistics(columns),

@@ -71,6 +71,7 @@ class Machine:
         lane.Ks[0, ..., b] = motion.K
         lane.numbers[RATE, b] = lane.numbers[STEP, b] = 1.0
         self.work.Q[:, col.TURN, b] = 0.0
+        self.work.sea[-1, :, b] = 0.0
 
     def load(self, b, run):
         """Put a run into a lane that is free."""

@@ -3,18 +3,22 @@
 import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
+from numbers import Real
+from pathlib import Path
 
-from ..parameters.limits import check_room
+from ..parameters.limits import MOST_SAMPLES, check_room
+from ..scene.load import load_scene
 from ..scene.models import Scene
 from ..trajectory import Trajectory
 from . import Run
 from .start import Start, checked_start
 
 Progress = Callable[[float], None]
+SceneOrName = Scene | str | Path
 
 
 def simulate(
-    scene: Scene,
+    scene: SceneOrName,
     periods: float | None = None,
     duration_s: float | None = None,
     progress: Progress | None = None,
@@ -22,6 +26,7 @@ def simulate(
 ) -> Trajectory:
     """Simulate one scene, from its static equilibrium or from the final state of another run.
 
+    scene        a Scene, the name of a shipped one, or the path of a scene file
     periods      run length in wave periods (scenes with waves), or
     duration_s   run length in s
     progress     callable(fraction of the run), called now and then; optional
@@ -40,7 +45,7 @@ def simulate(
 
 
 def simulate_batch(
-    scenes: Iterable[Scene],
+    scenes: Iterable[SceneOrName],
     periods: float | None = None,
     duration_s: float | None = None,
     progress: Progress | None = None,
@@ -55,7 +60,7 @@ def simulate_batch(
 
 
 def simulate_each(
-    scenes: Iterable[Scene],
+    scenes: Iterable[SceneOrName],
     periods: float | Iterable[float] | None = None,
     duration_s: float | None = None,
     progress: Progress | None = None,
@@ -75,8 +80,9 @@ def simulate_each(
     """
     from . import batch
 
-    scenes = list(scenes)
-    lengths = [periods] * len(scenes) if periods is None or isinstance(periods, int | float) else list(periods)
+    scenes = [_scene_of(scene) for scene in scenes]
+    one_length = periods is None or isinstance(periods, Real | str)
+    lengths = [periods] * len(scenes) if one_length else list(periods)
     starts = [None] * len(scenes) if starts is None else list(starts)
     waiting: dict[object, deque] = {}  # requests by `batch.kind_of` their scene; None: runs that go alone
     known_s = done_s = 0.0
@@ -109,6 +115,15 @@ def simulate_each(
             del waiting[kind]
 
 
+def _scene_of(scene: SceneOrName) -> Scene:
+    """The scene itself, or that of a name or a file. Raises SceneError, and TypeError for anything else."""
+    if isinstance(scene, Scene):
+        return scene
+    if isinstance(scene, str | Path):
+        return load_scene(scene)
+    raise TypeError(f"scene: given {scene!r}; allowed: a Scene, the name of one, or the path of a scene file")
+
+
 def _work(request: object) -> float:
     """A rough measure of the computing time of a run, to compare it with others."""
     return request.duration_s * request.scene.solver.rtol**-0.25
@@ -132,6 +147,9 @@ def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> 
     """The length of a run in s. Raises ValueError for a length that is missing, given twice, or impossible."""
     if (periods is None) == (duration_s is None):
         raise ValueError("give exactly one of periods and duration_s")
+    for name, length in (("periods", periods), ("duration_s", duration_s)):
+        if length is not None and (isinstance(length, bool) or not isinstance(length, Real)):
+            raise ValueError(f"{name}: given {length!r}; allowed: a number above 0")
     if periods is not None:
         if scene.waves is None:
             raise ValueError("periods needs a scene with waves; give duration_s")

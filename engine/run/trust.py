@@ -7,6 +7,7 @@ import numpy as np
 
 from ..parameters.limits import longest_step
 from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_beyond
+from ..physics.sea import AMPLITUDE, OMEGA, K, rows_of
 from ..physics.strains import tension_at
 from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
 from ..scene.models import Scene
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from . import Run
 
 NOTED = 0.05  # share of the largest tension: a smaller error is not told
+MUCH = 0.5  # share of the energy of a sea
+MANY, RECURRENCES = 8, 10  # waves from which on a sea is meant to be random; mean times of recurrence in a run
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -36,6 +39,7 @@ def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
         unresolved(record, run.tables, scene, columns),
         _waves_on_element(run),
         _out_at_rest(run),
+        _sea(run),
     ]
     if record["end"] == HELD:
         doubts.append(words_of_folds(scene, run.state, columns))
@@ -94,6 +98,31 @@ def _out_at_rest(run: "Run") -> str:
         return ""
     height_m = scene.anchor.position_m[2] + run.output.samples[0, AT_Z] - scene.water.depth_m
     return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
+
+
+def _sea(run: "Run") -> str:
+    """Says that a sea is of waves too short for eq. (30), or that a long run meets too few waves, or nothing."""
+    scene = run.scene
+    if not run.record["sea_n"]:
+        return ""
+    rows, sentences = rows_of(scene), []
+    energy, omega = rows[:, AMPLITUDE] ** 2, np.sort(rows[:, OMEGA])
+    if scene.buoy is not None:
+        short = float(energy[rows[:, K] * scene.buoy.diameter_m > 1.0].sum() / energy.sum())
+        if short > MUCH:
+            sentences.append(
+                f"{100 * short:.0f} % of the energy of the sea is in waves with k D > 1, shorter than six diameters of "
+                "the sphere: eq. (30) has no diffraction, and overstates their force"
+            )
+    spacing = (omega[-1] - omega[0]) / (len(omega) - 1) if len(omega) > 1 else 0.0
+    recurs_s = 2 * math.pi / spacing if spacing else math.inf
+    measured = scene.waves.record is not None
+    if len(omega) >= MANY and run.duration_s > (1.0 if measured else RECURRENCES) * recurs_s:
+        sentences.append(
+            f"the sea has {len(omega)} waves and {'repeats' if measured else 'nearly repeats its groups'} after some "
+            f"{recurs_s:.4g} s: " + ("use a longer record" if measured else "give it more waves, or run several seeds")
+        )
+    return "; ".join(sentences)
 
 
 def errors_of_ringing(record: np.void, scene: Scene, time_s: np.ndarray, lost_N: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ The models are in `models`, the shipped scenes in `engine/scenes/*.toml`.
 import contextlib
 import copy
 import difflib
+import inspect
 import re
 import tomllib
 from collections.abc import Mapping
@@ -50,6 +51,20 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
             raise SceneError(f"{word}: given {shown(value)} {rest}")
         changes[key] = value
     return scene_from_toml(text, changes, source=str(name_or_path))
+
+
+def _name_keywords() -> None:
+    """Put the keywords that `load_scene` takes into its signature, so that Tab completes them."""
+    given = inspect.signature(load_scene)
+    parameters = [entry for entry in given.parameters.values() if entry.kind != inspect.Parameter.VAR_KEYWORD]
+    words = {key.rpartition(".")[2] for key in known_fields(Scene)}
+    for word in sorted(word for word in words if len(ending_in(word, Scene)) == 1):
+        parameters.append(inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=...))
+        load_scene.__annotations__[word] = object
+    load_scene.__signature__ = given.replace(parameters=parameters)
+
+
+_name_keywords()
 
 
 def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:

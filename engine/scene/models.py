@@ -16,8 +16,9 @@ from pydantic import ValidationError, model_validator
 from pydantic_core import PydanticCustomError
 
 from engine.scene.faults import TOO_DEEP, SceneError, field_faults, too_deep
+from engine.scene.measured_sea import with_measured_sea
 from engine.scene.rules import cross_faults
-from engine.scene.sections import Anchor, Buoy, Current, End, Floor, Tether, Water, Waves, above_by_default
+from engine.scene.sections import Anchor, Buoy, Current, End, Floor, Tether, Water, Waves, above_by_default, irregular
 from engine.scene.values import (
     Count,
     CountOrZero,
@@ -175,6 +176,16 @@ class Scene(Section):
         return hashlib.sha256(canonical.encode()).hexdigest()
 
 
+def _floating(raw: dict[str, object]) -> dict[str, object]:
+    """The raw scene with the wetted cap for a buoy in an irregular sea, where buoy.submergence is not given."""
+    sections = [raw.get(name) for name in ("waves", "buoy", "solver")]
+    waves, buoy, solver = (section if isinstance(section, dict) else {} for section in sections)
+    sea = irregular(*(waves.get(key) for key in ("components", "jonswap", "significant_steepness")))
+    if not sea or not buoy or buoy.get("submergence") is not None or solver.get("scheme") == "paper-box":
+        return raw
+    return raw | {"buoy": buoy | {"submergence": "spherical-cap"}}
+
+
 def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> Scene:
     """A validated Scene from plain dicts and lists.
 
@@ -184,6 +195,9 @@ def build_scene(raw: dict[str, object], extra_faults: tuple[str, ...] = ()) -> S
     """
     if too_deep(raw):
         raise SceneError((*extra_faults, f"scene: {TOO_DEEP}"))
+    raw, unfit = with_measured_sea(raw)
+    raw = _floating(raw)
+    extra_faults = (*extra_faults, *unfit)
     try:
         scene = Scene.model_validate(raw)
     except ValidationError as error:

@@ -19,9 +19,11 @@ from engine.scene.values import (
     Number,
     PeakEnhancement,
     Positive,
+    RelativeWidth,
     Section,
     Series,
     Stretching,
+    Text,
     UnitInterval,
     Vector,
     Vectors,
@@ -200,7 +202,10 @@ class Buoy(Section):
     added_mass_kg: NonNegative = described("added mass", symbol="M_a", paper="Table 1, (30)")
     drag: NonNegative = described("drag coefficient; the area is pi D^2/4", symbol="C_d", paper="(30)")
     submergence: Literal["full", "spherical-cap"] = described(
-        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave", "full", paper="(30)"
+        "part of the buoy on which the water acts: the whole sphere, or the cap below the wave, the default in an "
+        "irregular sea",
+        "full",
+        paper="(30)",
     )
     impact_loss: UnitInterval = described(
         "spherical-cap: share of the energy of an impact on the water that is lost in spray", 0.0, paper="(30)"
@@ -241,12 +246,18 @@ class Jonswap(Section):
     seed: CountOrZero = described("seed of the random frequencies and phases; the same seed gives the same sea", 0)
 
 
+def irregular(*given: object) -> bool:
+    """Whether one of the descriptions of a sea of several waves is given."""
+    return any(description is not None for description in given)
+
+
 def above_by_default(waves: dict[str, object]) -> str:
     """waves.above_still_water where it is not given, by the other keys of `waves`.
 
     Extrapolated or stretched, the short waves of an irregular sea can throw a sphere so far that its run fails.
     """
-    return "zero" if waves.get("components") or waves.get("jonswap") else "extrapolate"
+    several = (waves.get(key) for key in ("components", "jonswap", "significant_steepness"))
+    return "zero" if irregular(*several) else "extrapolate"
 
 
 class Waves(Section):
@@ -259,7 +270,8 @@ class Waves(Section):
         "period; of an irregular sea the peak period, in which runs are counted", symbol="T_i", paper="section 4.2"
     )
     steepness: NonNegative | None = described(
-        "steepness kA of a regular wave; give one of steepness, amplitude_m, components and jonswap",
+        "steepness kA of a regular wave; give one of steepness, amplitude_m, significant_steepness, record, components "
+        "and jonswap",
         None,
         symbol="kA",
         paper="section 4.2",
@@ -268,6 +280,21 @@ class Waves(Section):
     ramp_s: NonNegative = described("time in which the waves grow from zero, as sin^2; 0: full waves from t = 0", 0.0)
     phase_rad: Number = described("phase, added to k x - omega t", 0.0)
     direction_rad: Number = described("direction of travel, from +x to +y", 0.0, symbol="a", paper="figure 8")
+    significant_steepness: NonNegative | None = described(
+        "steepness k H_s/2 of a sea with a Gaussian spectrum about period_s, k of period_s; with relative_width",
+        None,
+        symbol="k H_s/2",
+    )
+    relative_width: RelativeWidth | None = described(
+        "standard deviation of the Gaussian spectrum over its peak frequency; 0: one regular wave of the same energy",
+        None,
+    )
+    component_count: Components = described("number of waves of a Gaussian spectrum", 64)
+    seed: CountOrZero = described("seed of the frequencies and phases of a Gaussian spectrum", 0)
+    record: Text | None = described(
+        "CSV file of a measured sea, columns time_s and elevation_m; it is read once and kept as components", None
+    )
+    record_x_m: Number = described("place of the gauge of record", 0.0)
     components: WaveComponents | None = described(
         "an irregular sea as a list of waves, each a table of the four keys below", None
     )
@@ -282,7 +309,7 @@ class Waves(Section):
     @property
     def irregular(self) -> bool:
         """Whether this is a sea of several waves rather than one regular wave."""
-        return self.components is not None or self.jonswap is not None
+        return irregular(self.components, self.jonswap, self.significant_steepness)
 
 
 class UniformCurrent(Section):

@@ -40,6 +40,7 @@ Components = Annotated[
     int, Field(strict=True, ge=1, le=MOST_COMPONENTS), Allowed(f"a whole number from 1 to {MOST_COMPONENTS}")
 ]
 PeakEnhancement = Annotated[_Float, Field(ge=1, le=10), Allowed("a number from 1 to 10")]
+RelativeWidth = Annotated[_Float, Field(ge=0, le=0.2), Allowed("a number from 0 to 0.2")]
 Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
 Text = Annotated[str, Field(strict=True), Allowed("text")]
 Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]
@@ -90,3 +91,11 @@ class Section(BaseModel):
     """A part of a scene: immutable, and an unknown key is a fault."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"{name}: a scene does not change; load_scene(name, {{key: value}}) makes another one")
+
+    def __dir__(self) -> list[str]:
+        """The keys, and what a scene can do; without the names of pydantic."""
+        own = {name for kind in type(self).__mro__ if issubclass(kind, Section) for name in vars(kind)}
+        return sorted({*type(self).model_fields, *(name for name in own if not name.startswith(("_", "model_")))})

@@ -9,7 +9,9 @@ from engine.scene.faults import fault, shown
 from engine.scene.sound import Facts, Sound
 
 _DRAGS = "tether.drag_normal", "tether.drag_tangential", "buoy.drag"
-HEIGHTS = ("steepness", "amplitude_m", "components", "jonswap")  # of the waves: a scene has one of these
+# heights of the waves: a scene has one of these
+HEIGHTS = ("steepness", "amplitude_m", "significant_steepness", "record", "components", "jonswap")
+STEEPEST = 1.0  # k H_s/2 beyond which no sea can be meant
 PLANE = "in a plane (motion.dimensions = 2)"
 _ALONG = f"0 or pi {PLANE}"
 
@@ -35,13 +37,35 @@ def _aslant(angle: float) -> bool:
 
 def sea(sound: Sound) -> Facts:
     """What an irregular sea takes the place of."""
-    listed, drawn = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap"))
-    because = "each component has its own" if listed else "waves.jonswap draws those of its components"
+    listed, *spectra = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap", "significant_steepness"))
+    drawn, gaussian = any(spectra), spectra[1]
+    source = "waves.significant_steepness" if gaussian else "waves.jonswap"
+    because = "each component has its own" if listed else f"{source} draws those of its components"
+    key, width = "waves.relative_width", sound["waves.relative_width"]
+    if gaussian and width is None and "waves" in sound.raw:
+        yield True, key, "a number from 0 to 0.2, because waves.significant_steepness is given"
+    gauge_m, measured = sound["waves.record_x_m"], sound["waves.record"] is not None
+    yield bool(gauge_m) and not measured, "waves.record_x_m", "0, because waves.record is not given"
+    yield width is not None and not gaussian, key, "none, because waves.significant_steepness is not given"
+    k_depth = _deep_water_number(sound)
+    highest = min(0.5 * k_depth, STEEPEST) if k_depth else STEEPEST
+    steepness, height = sound["waves.significant_steepness"] or 0, sound["waves.jonswap.significant_height_m"]
+    yield steepness >= highest, "waves.significant_steepness", f"less than {highest:.4g}: waves break at 0.44"
+    if height and k_depth:
+        most = 2.0 * STEEPEST * sound["water.depth_m"] / k_depth
+        rule = f"less than {most:.4g}, k H_s/2 = {STEEPEST:g} at waves.period_s: waves break at 0.44"
+        yield height >= most, "waves.jonswap.significant_height_m", rule
     yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
     yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {because}"
-    for key in ("buoy.submergence", "tether.submergence"):
-        cut = sound[key] in ("spherical-cap", "free-surface")
-        yield (listed or drawn) and cut, key, "'full' in irregular waves"
+    key = "tether.submergence"
+    rule = "'full' in irregular waves: only the buoy is cut by the surface of a sea (buoy.submergence)"
+    yield (listed or drawn) and sound[key] == "free-surface", key, rule
+
+
+def _deep_water_number(sound: Sound) -> float | None:
+    """k H of waves.period_s in deep water, below that in any; None where a value is missing."""
+    period, depth, g = (sound[key] for key in ("waves.period_s", "water.depth_m", "gravity_mps2"))
+    return (2 * math.pi / period) ** 2 * depth / g if period and depth and g else None
 
 
 def heights(sound: Sound) -> Iterator[str]:
@@ -51,6 +75,8 @@ def heights(sound: Sound) -> Iterator[str]:
     values = {name: waves[name] for name in HEIGHTS if waves.get(name) is not None}
     if not values:
         yield "waves.steepness: missing; allowed: exactly one of " + ", ".join(f"waves.{name}" for name in HEIGHTS)
+    if "record" in values:
+        values.pop("components", None)
     if len(values) > 1:
         several = " and ".join(f"waves.{name} = {shown(value)}" for name, value in values.items())
         yield f"waves: given {several}; allowed: exactly one of them"

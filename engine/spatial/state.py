@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import Work
 from ..compiled import kernel
+from ..physics.sea import SEA_WIDTH
 from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import strain_within, within
@@ -29,7 +30,8 @@ def size_of(p):
 def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node_width(p)))
-    return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6)))
+    E, D, C_tilde = np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6))
+    return Work(X, F, Q, E, D, C_tilde, np.zeros((n + 1, SEA_WIDTH)))
 
 
 @kernel

@@ -48,7 +48,7 @@ def end_condition(p, tables, stage, Y, work):
     e, eN, S = upper_end_3d(p, tables, t, cv, in_motion, vector(work.Q[last], col.N), V, V_tilde, F)
     rows = ((S[0], S[1], S[2]), (S[1], S[3], S[4]), (S[2], S[4], S[5]))
     if p.spherical_cap:
-        cap, D = cap_end_3d(p, t, cq, cv, in_motion, vector(work.X[last], 0), V, V_tilde, F)
+        cap, D = cap_end_3d(p, tables, t, cq, cv, in_motion, vector(work.X[last], 0), V, V_tilde, F)
         e = mixed(1.0, e, 1.0, cap)
         rows = (
             mixed(1.0, rows[0], 1.0, D[0]),

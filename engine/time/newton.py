@@ -47,7 +47,7 @@ def assemble(p, tables, stage, Y, work):
     The order is fixed: places, the water there, forces at the nodes, then elements and both ends in one elimination.
     """
     shape(p, tables, Y, work.Q, work.X)
-    water(p, tables, stage.t, stage.in_motion, work.X, work.F)
+    water(p, tables, stage.t, stage.in_motion, work.X, work.F, work.sea)
     node_quantities(p, tables, stage, Y, work)
     return eliminate(p, tables, stage, Y, work)
 

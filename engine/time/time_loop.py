@@ -186,7 +186,11 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
             near_stages(p, tables, Ys, row)
         add_damping(p, weights, share, begin, end, row)
         least, lowest = row[0, col.TENSION], row[0, col.PLACE + 2]
+        s, most, most_at = 0.0, row[0, col.TENSION], 0.0
         for k in range(1, n):
+            s += tables[p.grid_at + k - 1]
+            if row[k, col.TENSION] > most:
+                most, most_at = row[k, col.TENSION], s
             least = min(least, row[k, col.TENSION])
             lowest = min(lowest, row[k, col.PLACE + 2])
         for i in range(3):
@@ -195,6 +199,7 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
         out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
         out[col.RELEASES], out[col.LOWEST], out[col.MISSED] = state.releases, lowest, max(state.ringing, 0.0)
+        out[col.FOOT], out[col.MOST], out[col.MOST_AT] = row[0, col.TENSION], most, most_at
         state.ringing = min(state.ringing, 0.0)
         state.low, state.high = top, top
         state.samples += 1

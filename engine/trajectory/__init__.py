@@ -66,14 +66,21 @@ class Trajectory:
         return joined(self, later)
 
     def table(self) -> "pandas.DataFrame":
-        """The samples as a pandas table, one row a sample, columns in the order of COLUMNS."""
+        """The samples as a pandas table, one row a sample, columns in the order of COLUMNS; `attrs` has their units."""
         import pandas
 
-        return pandas.DataFrame({name: self.columns[name] for name in COLUMNS})
+        table = pandas.DataFrame({name: self.columns[name] for name in COLUMNS})
+        table.attrs["units"] = {name: unit for name, (unit, _) in COLUMNS.items()}
+        return table
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        """The samples of a column, as run["tension_top_N"]. Raises ValueError with all names where there is none."""
+        return views.samples(self, column)
 
     # how one looks at a run: each of these takes the run and is described there
-    plot, spectrum, section, exponent = views.plot, views.spectrum, views.section, views.exponent
-    verdict, to_xarray, _repr_html_ = views.verdict, views.to_xarray, views.html
+    plot, animate, snaps, extremes = views.plot, views.animate, views.snaps, views.extremes
+    spectrum, section, exponent, verdict = views.spectrum, views.section, views.exponent, views.verdict
+    to_xarray, _repr_html_ = views.to_xarray, views.html
 
     def __repr__(self) -> str:
         return f"Trajectory({self.scene.name!r}, {self.status!r}, {len(self.columns['time_s'])} samples)"

@@ -22,9 +22,13 @@ COLUMNS = {  # name -> (unit, long name), in the order of the table
     "loop_releases": ("1", "loops of slack tether released since t = 0"),
     "line_lowest_m": ("m", "height of the lowest node of the tether above the anchor"),
     "unresolved_N": ("N", "axial ringing that steps and grid did not resolve since the previous sample"),
+    "tension_anchor_N": ("N", "tension at the lower end"),
+    "tension_max_N": ("N", "largest tension along the tether"),
+    "tension_max_s_m": ("m", "unstretched arc length, from the lower end, at which the tension is largest"),
 }
 MEASURED = (  # columns of a sample that are columns of the table as they are, in its order
     col.OFFPLANE, col.TOP, col.LEAST, col.TOP_LOW, col.TOP_HIGH, col.RELEASES, col.LOWEST, col.MISSED,
+    col.FOOT, col.MOST, col.MOST_AT,
 )  # fmt: skip
 
 STATISTICS = {  # of a trajectory: the fields of STATE that they come from

@@ -15,9 +15,6 @@ AIR = (
     "to {most:.2g} m above the water, and kept its whole buoyancy there (buoy.submergence = 'full'): "
 )
 CAP = "'spherical-cap' loads what is below the wave"
-NO_CAP = (
-    "loads of an irregular sea hold where it stays in the water; waves.above_still_water = 'zero' adds none up there"
-)
 BED = (
     "the line was up to {most:.2g} m below the bed (first at t = {first:.5g} s), because the scene has no floor: "
     "floor.stiffness_Npm3 = 1e5 adds one"
@@ -39,6 +36,17 @@ def with_excursions(own_message: str, scene: Scene, columns: Mapping[str, np.nda
     return "; ".join(filter(None, (own_message, excursions))), excursions
 
 
+def named_end(status: str, scene: Scene, columns: Mapping[str, np.ndarray]) -> str:
+    """The status of a run; `left-the-water` where the numerics failed in a sea with the sphere in the air.
+
+    Up there it keeps all its buoyancy, and the first pull of the line after that means nothing.
+    """
+    irregular = scene.waves is not None and scene.waves.irregular
+    if status == "ok" or not irregular or not len(columns["time_s"]):
+        return status
+    return "left-the-water" if height_above_wave(scene, columns)[-1] > 0.0 else status
+
+
 def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[str]:
     """A sentence for each way in which a run left what its laws are made for."""
     time_s = columns["time_s"]
@@ -49,8 +57,7 @@ def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[s
     if flying.any():
         first, last = time_s[flying][[0, -1]]
         words = AIR.format(share=100.0 * flying.mean(), first=first, last=last, most=height[flying].max())
-        irregular = scene.waves is not None and scene.waves.irregular
-        yield words + (NO_CAP if irregular else CAP)
+        yield words + CAP
     depth = -scene.anchor.position_m[2] - columns["line_lowest_m"]
     buried = depth > scene.tether.diameter_m
     if scene.floor is None and buried.any():

@@ -18,7 +18,14 @@ if TYPE_CHECKING:
 
 TEXTS = ("title", "scene", "status", "message", "statistics")  # attributes of a file that are part of the run
 OPTIONAL_TEXTS = ("began", "excursions")  # those that only some files have: fields of a Trajectory, where not empty
-NOT_IN_OLDER_FILES = ("loop_releases", "line_lowest_m", "unresolved_N")
+NOT_IN_OLDER_FILES = {  # columns that older files lack, and what is known of them
+    "loop_releases": 0.0,
+    "line_lowest_m": 0.0,
+    "unresolved_N": 0.0,
+    "tension_anchor_N": np.nan,
+    "tension_max_N": np.nan,
+    "tension_max_s_m": np.nan,
+}
 
 
 class TrajectoryError(ValueError):
@@ -92,7 +99,8 @@ def fields_of(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> dict[str,
         scene = scene_from_toml(texts["scene"])
     except SceneError as error:
         raise TrajectoryError(f"holds a scene that this version does not accept: {error}") from None
-    columns = dict.fromkeys(NOT_IN_OLDER_FILES, np.zeros(len(arrays["time_s"]))) | arrays
+    samples = len(arrays["time_s"])
+    columns = {name: np.full(samples, value) for name, value in NOT_IN_OLDER_FILES.items()} | arrays
     columns = {name: columns[name] for name in COLUMNS}
     excursions = texts.get("excursions", "")
     if texts["message"] and not excursions:  # older files have them in the message alone

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from analysis import read_evidence
+from engine.animation import shapes_of
 from tables import (
     CAPPED,
     OPEN,
@@ -24,7 +25,7 @@ from tables import (
     printed,
 )
 
-from ..figures.animations import Snap, tether_animation, tether_stills
+from ..figures.animations import tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, shown_on
@@ -34,7 +35,6 @@ from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import Run, Sweep
 from .tables import sweep_table
 
-_SHOWN_PERIODS = 3.0  # of the tether as it snaps
 _DEFINED = (
     "A run is looked at after 90, 135, 205, ... wave periods, each time without its first third. A word counts when "
     "two looks in a row find it, or a clear one from 465 periods on (docs/motions.md). Periodic: the strobed orbit "
@@ -225,8 +225,9 @@ def close_up_items(sweep: Sweep) -> Items:
     trajectory, _ = part.trajectory(row)
     if trajectory is None:
         return []
-    snap = _snap(trajectory)
-    if snap is None:
+    try:
+        snap = shapes_of(trajectory)
+    except ValueError:  # no shapes were kept
         return []
     periods, tension_N = snap.record
     place = np.argmax(tension_N)
@@ -239,31 +240,6 @@ def close_up_items(sweep: Sweep) -> Items:
     alt = f"The tether at six moments as the buoy comes back and pulls it taut, with the top tension, at most {seen}."
     figure = Figure(tether_stills(snap), caption, alt, tether_animation(snap))
     return [Heading("The tether as it snaps"), figure]
-
-
-def _snap(trajectory) -> Snap | None:
-    """The wave periods about the highest tension, None where the run has no profiles or no whole period."""
-    from engine.physics.sea import elevation_m
-
-    lines, scene = trajectory.profiles, trajectory.scene
-    time_s, top = trajectory.columns["time_s"], trajectory.columns["tension_top_high_N"]
-    period_s, end_s = scene.waves.period_s, float(time_s[-1])
-    if lines is None or len(lines.time_s) < 2 or lines.time_s[-1] < period_s:
-        return None
-    late = time_s >= min(2.0 * period_s, 0.5 * end_s)  # the start from rest is left out where the record goes on
-    shown_s = _SHOWN_PERIODS * period_s
-    begin = float(time_s[late][np.argmax(top[late])]) - 0.6 * shown_s
-    begin = min(max(begin, 0.0), max(end_s - shown_s, 0.0))
-    inside = (lines.time_s >= begin) & (lines.time_s <= begin + shown_s)
-    part = (time_s >= begin) & (time_s <= begin + shown_s)
-    x, z = lines.x_m[inside], lines.z_m[inside]
-    beyond = max(3.0 * scene.buoy.diameter_m, 0.25 * float(z.max()))  # of the rope, on both sides
-    across = np.linspace(x.min() - beyond, x.max() + beyond, 80)
-    anchor = scene.anchor.position_m  # places of a run are told from there
-    surface = scene.water.depth_m - anchor[2] + elevation_m(scene, lines.time_s[inside][:, None], anchor[0] + across)
-    record = time_s[part] / period_s, top[part]
-    times = lines.time_s[inside] / period_s
-    return Snap(times, x, z, lines.tension_N[inside], scene.buoy.diameter_m, (across, surface), record)
 
 
 def regime_items(sweep: Sweep) -> Items:

@@ -9,6 +9,7 @@ from tables import COARSE, OTHER_MOTION, decimals, number, percent
 from ..parts import T_I, TAU_0, Heading, Items, Notice, Report, Text, limits, report_page, section_items
 from ..sweep.motions import every_motion
 from ..sweep.quantities import extremes, series
+from ..sweep.snaps import snap_items
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
@@ -40,6 +41,7 @@ def report(directory: Path) -> Report:
         *regime_items(sweep),
         *every_motion(sweep.folder, "steepness", "kA"),
         *close_up_items(sweep),
+        *snap_items(sweep.folder, sweep.folder.columns["steepness"]),
         *plane_items(sweep),
         *runs_items(sweep),
         *sheet_items(sweep),

@@ -6,22 +6,22 @@ settings are fixed and the bytes have no date.
 """
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.resources import files
 
 import matplotlib
-import numpy as np
 from matplotlib.figure import Figure
+
+from engine.animation import BLUE, ORANGE, SKY, VERMILION  # noqa: F401  the other colours of every figure
 
 from .content import Picture
 
 WIDTH_IN = 6.8  # the text width of the PDF page
 DOTS_PER_INCH = 200
-MOVING_DOTS_PER_INCH, MOVING_COLOURS, MOST_FRAMES = 90, 64, 48  # of a GIF
 MOST_VECTOR_POINTS = 6000  # a scatter of more points is smaller, and opens faster, as pixels
 
-BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#56b4e9"
+GREEN, PURPLE = "#009e73", "#cc79a7"
 
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
@@ -59,37 +59,3 @@ def picture_of(figure: Figure, kind: str = "svg") -> Picture:
 def kind_for(points: int) -> str:
     """The format of a figure with so many points: "svg" up to MOST_VECTOR_POINTS, then "png"."""
     return "png" if points > MOST_VECTOR_POINTS else "svg"
-
-
-def moving_picture(figure: Figure, artists: list, frames: int, show: Callable[[int], None], per_second: int) -> Picture:
-    """A GIF of `frames` frames, `per_second` in a second. `show(k)` changes the `artists` to their state in frame k.
-
-    Only the artists are drawn again for each frame; the rest of the figure is drawn once. All frames have one layout
-    and one palette. If there are more than MOST_FRAMES, frames are left out, and the GIF lasts as long as with all of
-    them. Call it inside the `sheet` block.
-    """
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from PIL import Image
-
-    figure.set_dpi(MOVING_DOTS_PER_INCH)
-    canvas = FigureCanvasAgg(figure)
-    show(0)
-    for artist in artists:
-        artist.set_animated(True)
-    canvas.draw()
-    background, images = canvas.copy_from_bbox(figure.bbox), []
-    stride = -(-frames // MOST_FRAMES)
-    for frame in range(0, frames, stride):
-        canvas.restore_region(background)
-        show(frame)
-        for artist in artists:
-            artist.draw(canvas.get_renderer())
-        images.append(Image.fromarray(np.array(canvas.buffer_rgba())).convert("RGB"))
-    sampled_images = images[:: max(1, len(images) // 6)]
-    sample = np.hstack([np.asarray(image) for image in sampled_images])
-    # MAXCOVERAGE does not weigh a colour by its area; otherwise a small red dot would turn brown
-    palette = Image.fromarray(sample).quantize(MOVING_COLOURS, Image.Quantize.MAXCOVERAGE)
-    first, *rest = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
-    target = io.BytesIO()
-    first.save(target, "gif", save_all=True, append_images=rest, duration=round(1000 * stride / per_second), loop=0)
-    return Picture(target.getvalue(), "gif")

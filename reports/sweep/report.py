@@ -30,6 +30,7 @@ from ..parts import (
 )
 from .motions import every_motion
 from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
+from .snaps import snap_items
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")
@@ -65,6 +66,7 @@ def report(directory: Path) -> Report:
         (key,) = keys
         question = f"What does the scene `{folder.scene.name}` do as {key_names} varies?"
         figures = _panels(key, rows, shown, motions) + every_motion(folder, key.name, key.head)
+        figures += snap_items(folder, key)
     else:
         question = f"What does the scene `{folder.scene.name}` do as {key_names} vary?"
         figures = _maps_of_each(keys, rows, shown, motions)

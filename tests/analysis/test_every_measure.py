@@ -19,6 +19,7 @@ STEPPED = {
     "poincare_section by name": lambda x, step: analysis.poincare_section({"radius_m": x}, step, 5.0),
     "slack_fraction": lambda x, step: analysis.slack_fraction(x, step),
     "extremes": lambda x, step: analysis.extremes(x, step),
+    "detect_snaps": lambda x, step: analysis.detect_snaps(x, step, 1.0),
 }
 CALLS = {name: lambda x, call=call: call(x, 0.1) for name, call in STEPPED.items()} | {
     "orbit_diagram": lambda x: analysis.orbit_diagram([1.0], [x]),

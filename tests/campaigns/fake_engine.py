@@ -110,6 +110,9 @@ def sines(
         "loop_releases": np.where(t > 0.5 * t[-1], releases, 0.0),
         "unresolved_N": np.zeros_like(t),
         "line_lowest_m": np.zeros_like(t),
+        "tension_anchor_N": force - 20.0,
+        "tension_max_N": force,
+        "tension_max_s_m": np.full_like(t, scene.tether.length_m),
     }
     statistics = STATISTICS | {"max_turn_rad": 0.1, "min_strain": 0.01, "end_time_s": float(t[-1]), "wall_s": 0.5}
     statistics["loop_releases"] = releases

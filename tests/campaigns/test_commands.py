@@ -38,6 +38,7 @@ HELPS = {  # what each tells
     "campaigns.regime_map": "--vary --pages --starts --refine --budget --cut --screen",
     "campaigns.oscillator": "--effort",
     "campaigns.out_of_plane": "--periods",
+    "campaigns.sea": "--vary --seeds --starts --hours --distance --breaking-load --no-regular",
     "campaigns.stability": "--drift-periods",
     "campaigns.sweep": "--vary",
     "campaigns.validation": "--only --quick",

@@ -16,7 +16,8 @@ from tests.campaigns.fake_engine import STATISTICS, sines
 PERIODS, TRANSIENT = 90, 10
 SETTLED = {
     "strobed_period", "radius_min_m", "radius_max_m", "angle_min_rad", "angle_max_rad", "tension_top_min_N",
-    "tension_top_max_N", "slack_fraction", "compression_fraction",
+    "tension_top_max_N", "slack_fraction", "compression_fraction", "snaps_per_wave", "tension_anchor_max_N",
+    "tension_line_max_N", "tension_line_max_s_m",
 }  # fmt: skip
 
 
@@ -131,3 +132,16 @@ def test_every_entry_has_a_column_and_the_public_ones_are_there(scene):
         lyapunov_tangent_bits_per_period lyapunov_tangent_error offplane_growth_bits_per_period offplane_growth_error
         max_turn_rad loop_releases steps rejected_steps newton_iterations wall_s"""
     assert {*measured(scene), *public.split()} <= set(names(COLUMNS))
+
+
+@pytest.mark.parametrize(("harmonic", "period"), [(1.0, 1), (0.5, 2), (1.0 / 3.0, 3), (0.2, 5)])
+def test_snaps_a_wave_are_those_of_whole_periods_of_the_motion(scene, harmonic, period):
+    """A sine of 1800 about 1000 N is slack once in its period, and then snaps to 2800 N."""
+    run = sines(scene, PERIODS, tension=(1000.0, 1800.0), harmonic=harmonic)
+    for name in ("radius_rate_mps", "angle_rate_radps"):
+        run.columns[name][0] = 0.0  # it begins at rest, at the mean, which so is its static tension
+    row = judged_row(run, TRANSIENT)
+    assert row["strobed_period"] == period and row["snaps_per_wave"] == pytest.approx(1.0 / period, rel=1e-9)
+    assert row["snap_peak_median_N"] == pytest.approx(2810.0, rel=1e-3)  # the steps of the fake see 10 N more
+    assert row["snap_peak_max_N"] == pytest.approx(row["tension_top_max_N"], rel=1e-3)
+    assert (row["tension_line_max_N"], row["tension_line_max_s_m"]) == (row["tension_top_max_N"], 20.0)

@@ -16,6 +16,7 @@ import pytest
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from campaigns.sweep import read_order
+from engine import load_scene, simulate
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
@@ -197,3 +198,32 @@ def test_keys_take_their_values_in_lists_too_and_leave_the_rest(keys):
             *parents, last = (int(part) if part.isdigit() else part for part in re.findall(r"\w+", key))
             reduce(getitem, parents, expected)[last] = case.labels[key]
         assert case.scene.as_dict() == expected
+
+
+def test_from_python_a_sweep_is_the_table_of_its_folder_with_units(tmp_path):
+    scene = load_scene("tethered_buoy", {"tether.nodes": 5, "waves.steepness": 0.02})
+    table = sweep_command.sweep(
+        scene, "waves.period_s", [4.0, 5.0, 7.0], periods=4, transient=1, jobs=1, out=tmp_path / "out", report=False
+    )
+    assert table["waves.period_s"].tolist() == [4.0, 5.0, 7.0] and set(table.status) == {"ok"}
+    assert table.attrs["units"]["tension_top_max_N"] == "N" and table.attrs["answer"]
+    assert [row["run_key"] for row in rows_of(tmp_path / "out")] == table.run_key.tolist()
+    alone = simulate(scene.with_values("waves", period_s=5.0), periods=4)
+    assert table.tension_top_max_N[1] == alone["tension_top_high_N"][100:].max()
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "values", "options", "fault"),
+    [
+        ("tethered_buoy", "waves.steepnes", [0.1], {}, "did you mean 'waves.steepness'"),
+        ("tethered_buoy", "waves.steepness", [], {}, "values: given"),
+        ("tethered_buoy", "waves.steepness", [0.1, "x"], {}, "values: given"),
+        ("tethered_buoy", "waves.steepness", [0.1], {"periods": "x"}, "--periods: given 'x'"),
+        ("tethered_bouy", "waves.steepness", [0.1], {}, "did you mean 'tethered_buoy'"),
+        (load_scene("tethered_buoy"), "waves.steepness", [-1.0], {}, "waves.steepness: given -1"),
+    ],
+)
+def test_from_python_a_sweep_refuses_as_the_command_does(tmp_path, scene, key, values, options, fault):
+    with pytest.raises(ValueError, match=fault):
+        sweep_command.sweep(scene, key, values, out=tmp_path / "out", **options)
+    assert not (tmp_path / "out").exists()

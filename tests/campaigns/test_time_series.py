@@ -274,3 +274,38 @@ def test_what_is_missing_is_named(judged, tmp_path):
     with pytest.raises(FolderError) as fault:
         build(tmp_path)
     assert "answer.json is missing" in str(fault.value) and "section.csv cannot be read" in str(fault.value)
+
+
+def tension_file(tmp_path, hertz=0.0):
+    """Half sines of 6 kN, once in 10 s, for 200 s, with zero between them and a ringing of 1.5 kN at each end."""
+    time_s = 0.005 * np.arange(40001)
+    since_s = np.mod(time_s - 2.0, 5.0)
+    pull = np.sin(2.0 * np.pi * (time_s - 2.0) / 10.0)
+    tension_N = 6e3 * np.maximum(pull, 0.0) + 3e3 * np.sin(2.0 * np.pi * hertz * since_s) * np.exp(-since_s / 0.3)
+    path = tmp_path / "tension.csv"
+    np.savetxt(path, np.column_stack([time_s, tension_N]), delimiter=",", header="t,T", comments="")
+    return path
+
+
+@pytest.mark.parametrize("hertz", [0.0, 40.0])
+def test_snaps_of_a_measured_tension_are_counted_once_though_the_line_rings(tmp_path, hertz, capsys):
+    words = [str(tension_file(tmp_path, hertz)), "--column", "T", "--time", "t", "--snaps", "--static", "2000"]
+    assert main([*words, "--ringing", "0.054", "--out", str(tmp_path / "out")]) == 0
+    assert "20 snaps in 200 s" in capsys.readouterr().out
+    taut_s = pandas.read_csv(tmp_path / "out" / "snaps.csv").taut_s
+    np.testing.assert_allclose(taut_s, 2.0 + 10.0 * np.arange(20), atol=0.1)
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        (["--snaps", "--column", "T"], "--snaps: given without times"),
+        (["--snaps", "--column", "T", "--time", "t", "--period", "5"], "--period: allowed without --snaps only"),
+        (["--column", "T", "--time", "t", "--static", "5"], "--static: allowed with --snaps only"),
+        (["--snaps", "--column", "T", "--time", "t", "--slack", "2"], "--slack: not below --least"),
+        (["--snaps", "--column", "T", "--time", "t", "--static", "-5"], "--static: given '-5'"),
+    ],
+)
+def test_options_of_snaps_that_mean_nothing_are_refused(tmp_path, words, fault, capsys):
+    assert main([str(tension_file(tmp_path)), *words, "--out", str(tmp_path / "out")]) == 2
+    assert fault in capsys.readouterr().err and not (tmp_path / "out").exists()

@@ -13,9 +13,9 @@ from engine.perturbations.exponents import carry
 from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.perturbations.tangent import Base
 from engine.physics.ends import upper_end, upper_end_3d
-from engine.physics.sea import sea_field
+from engine.physics.sea import SEA_WIDTH, sea_field
 from engine.physics.water import current_field, water
-from engine.physics.waves import wave_field
+from engine.physics.waves import wave_field, wave_field_in_space
 from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
@@ -48,7 +48,7 @@ class Stage:
         self.state, self.node = (spatial, spatial_node) if space else (planar, planar_node)
         self.eliminate = (spatial_elimination if space else planar_elimination).eliminate
         self.work = self.state.work_arrays.py_func(self.p, self.n)
-        self.X, self.F, self.Q, self.E, self.D, self.C_tilde = self.work
+        self.X, self.F, self.Q, self.E, self.D, self.C_tilde, self.sea = self.work
 
     def places(self, Y):
         """X of a state."""
@@ -58,7 +58,7 @@ class Stage:
     def water(self, t, Y):
         """F of a state at time t."""
         self.places(Y)
-        water(self.p, self.tables, t, 1.0, self.X, self.F)
+        water(self.p, self.tables, t, 1.0, self.X, self.F, self.sea)
         return self.F.copy()
 
     def conserved(self, Y):
@@ -98,7 +98,10 @@ def waves_at(scene, t, X, there=0.0):
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), there)
-    (sea_field if p["sea_n"] else wave_field)(p, tables, t, X, F)
+    if p["sea_n"]:
+        sea_field(p, tables, t, X, F, np.zeros((len(X) + 1, SEA_WIDTH)))
+    else:
+        (wave_field if X.shape[1] == 2 else wave_field_in_space)(p, tables, t, X, F)
     return F
 
 

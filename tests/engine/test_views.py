@@ -7,6 +7,7 @@ import pytest
 
 from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
+from engine.natural_frequencies import axial_period_s, impact_Nspm
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
 from engine.views import facts
@@ -98,6 +99,108 @@ def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
         run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
         said = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {whole}", later)))
         assert facts(run)["tension"] == said
+
+
+def test_an_exponent_says_over_which_periods():
+    assert f"over periods {PERIODS // 3} to {PERIODS}" in moved(GOLDEN, 0.05).exponent().method
+    assert "over periods 100 to 310" in str(moved(GOLDEN, 0.05).exponent(transient_periods=100))
+
+
+def test_the_table_of_extremes_has_both_parts_with_moments():
+    run = moved(0.5, -0.2)
+    time_s = run.columns["time_s"]
+    run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
+    run.columns["tension_max_N"] = np.where(time_s == 700.0, 8e3, 0.0)
+    table = run.extremes()
+    assert list(table.index.unique("part")) == ["whole run", "after t = 516.65 s"]
+    assert table.loc[("whole run", "tension_top_N"), ["largest", "largest_s"]].tolist() == [7e3, 5.0]
+    assert table.loc[("after t = 516.65 s", "tension_top_N"), ["largest", "largest_s"]].tolist() == [5e3, 900.0]
+    assert table.loc[("after t = 516.65 s", "tension_line_N"), ["largest", "largest_s"]].tolist() == [8e3, 700.0]
+    assert table.loc[("whole run", "radius_m"), "largest"] == pytest.approx(21.5)
+
+
+def snapping() -> Trajectory:
+    """A motion whose tension is zero for half of each period, and then a half sine of 6 kN."""
+    run = moved(0.5)
+    phase = 2.0 * np.pi * run.columns["time_s"] / 5.0
+    tension_N = np.where(np.sin(phase) > 0.0, 6e3 * np.sin(phase), 0.0)
+    for name in ("tension_top_N", "tension_top_high_N", "tension_top_low_N"):
+        run.columns[name] = tension_N
+    return run
+
+
+def test_snaps_of_a_run_are_one_a_pull_and_know_the_rope():
+    """The first pull has no slack before it. Impact: sqrt(k (M + M_a)) with k = EA/l0 = 2500 N/m."""
+    run = snapping()
+    table = run.snaps(static_N=2e3)
+    assert len(table) == PERIODS - 1
+    np.testing.assert_allclose(np.diff(table.taut_s), 5.0, atol=1e-9)
+    np.testing.assert_allclose(table.peak_over_static, 3.0, rtol=1e-3)
+    impact = table.peak_N / (table.taut_speed_mps * np.sqrt(2500.0 * (1611.0 + 907.0)))
+    rising = table.taut_speed_mps > 0.0
+    np.testing.assert_allclose(table.peak_over_impact[rising], impact[rising], rtol=1e-6)
+    assert table.attrs["slack_N"] == pytest.approx(100.0) and set(table.attrs["units"]) == set(table.columns)
+    assert len(run.snaps(static_N=2e3, snap_share=3.1)) == 0
+    assert len(run.snaps(static_N=2e3, transient_s=1000.0)) == PERIODS - 200
+
+
+def test_a_run_that_blew_up_has_the_snaps_before():
+    run = snapping()
+    run.columns["tension_top_N"][-1000:] = np.nan
+    assert len(run.snaps(static_N=2e3)) == PERIODS - 11
+
+
+def test_a_line_without_tension_at_rest_needs_one_for_its_snaps():
+    with pytest.raises(ValueError, match="static_N"):
+        replace(moved(0.5), scene=load_scene("falling_chain")).snaps()
+
+
+def test_ringing_of_the_line_is_that_of_a_wave_to_the_anchor_and_back():
+    """2 l sqrt(m/EA) of the shipped rope: 53.5 ms."""
+    scene = load_scene("tethered_buoy")
+    assert axial_period_s(scene, 2e3) == pytest.approx(2.0 * 20.0 * np.sqrt(1140.0 * 7.85e-5 / 5e4), rel=1e-6)
+    assert impact_Nspm(load_scene("hanging_line"), 10.0) is None
+
+
+def test_mistakes_get_one_line(tmp_path):
+    run = moved(0.5)
+    assert run["radius_m"] is run.columns["radius_m"]
+    assert run.table().attrs["units"]["tension_top_N"] == "N"
+    for call, error, words in (
+        (lambda: run["tension"], ValueError, "no column 'tension'.*tension_top_N"),
+        (lambda: run.save(tmp_path / "none" / "run.nc"), FileNotFoundError, "there is no folder"),
+        (lambda: run.animate(tmp_path / "run.gif"), ValueError, "output.profiles"),
+        (lambda: simulate("tethered_buoy", periods="3"), ValueError, "periods: given '3'"),
+        (lambda: simulate(None, periods=3), TypeError, "scene: given None"),
+        (lambda: simulate("tethered_bouy", periods=3), ValueError, "did you mean 'tethered_buoy'"),
+    ):
+        with pytest.raises(error, match=words) as caught:
+            call()
+        assert "\n" not in str(caught.value)
+
+
+def test_a_name_is_a_scene_and_a_run_with_shapes_moves(tmp_path):
+    changes = {"tether.nodes": 5, "waves.steepness": 0.01, "output.profiles": True}
+    run = simulate(load_scene("tethered_buoy", changes), periods=2)
+    run.animate(tmp_path / "run.gif", begin_s=1.0, duration_s=2.0)
+    assert (tmp_path / "run.gif").read_bytes().startswith(b"GIF")
+    (tmp_path / "mine.toml").write_text(run.scene.to_toml())
+    again = simulate(tmp_path / "mine.toml", periods=2)
+    np.testing.assert_array_equal(again["tension_top_N"], run["tension_top_N"])
+    profiles = run.profiles
+    np.testing.assert_array_equal(run["tension_anchor_N"], profiles.tension_N[:, 0])
+    np.testing.assert_array_equal(run["tension_max_N"], profiles.tension_N.max(axis=1))
+    np.testing.assert_allclose(run["tension_max_s_m"], profiles.s_m[profiles.tension_N.argmax(axis=1)])
+
+
+def test_a_periodic_section_is_a_dot_and_not_its_rounding():
+    from matplotlib import pyplot
+
+    axes = moved(1.0).plot()
+    (low, high), (slow, fast) = axes["section"].get_xlim(), axes["section"].get_ylim()
+    assert high - low > 0.009 * 3.0 and fast - slow > 0.009 * 3.7
+    assert "angle" in axes
+    pyplot.close(axes["section"].figure)
 
 
 def test_what_has_no_period_or_no_end_is_refused_in_words():

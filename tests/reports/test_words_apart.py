@@ -8,8 +8,9 @@ import pytest
 from matplotlib.text import Text
 from PIL import Image, ImageSequence
 
+from engine.animation import Shapes
 from reports.buoy_sweep.report import report
-from reports.figures.animations import Snap, tether_animation, tether_stills
+from reports.figures.animations import tether_animation, tether_stills
 
 APART = 2.0  # pixels of 100 to an inch, between two numbers of one axis; half a space
 
@@ -40,14 +41,16 @@ def crowded(figure) -> list[tuple[str, ...]]:
     ]
 
 
-def snap(way_m: float) -> Snap:
+def snap(way_m: float) -> Shapes:
     """A straight line whose upper end goes to and fro by `way_m`."""
     periods, share = np.linspace(2.0, 5.0, 60), np.linspace(0.0, 1.0, 9)
     x = way_m * np.sin(periods)[:, None] * share
     z = np.broadcast_to(20.0 * share, x.shape)
     across = np.linspace(-way_m - 3.0, way_m + 3.0, 20)
     pull = 2e3 * np.sin(periods) ** 2
-    return Snap(periods, x, z, np.ones_like(x), 1.5, (across, np.full((60, 20), 21.0)), (periods, pull))
+    return Shapes(
+        periods, "wave periods", x, z, np.ones_like(x), 1.5, (across, np.full((60, 20), 21.0)), (periods, pull)
+    )
 
 
 @pytest.mark.slow

@@ -19,6 +19,8 @@ from tests.engine.physics.caps import CAP, afloat, condition, potential, volume
 RNG = np.random.default_rng(11)
 D, DEPTH, CV, CQ, T = 1.5, 21.0, 80.0, 120.0, 1.7
 SPACE = {"motion.dimensions": 3, "waves.direction_rad": 0.7}
+SEA = {"waves.jonswap": {"significant_height_m": 1.2, "components": 11, "seed": 2}, "waves.ramp_s": 4.0}
+WAVES = [{}, SEA]  # T lies within the ramp
 HEADINGS = [(2, 0.0), (2, np.pi), (3, 0.7)]
 HEIGHTS = [DEPTH + 0.7 * step for step in (-2.5, -1.5, -0.6, 0.1, 0.9, 1.8, 3.0)]  # from under water to the air
 
@@ -27,9 +29,9 @@ def total(p, tables, in_motion, place, V, V_tilde, N, F):
     """e and D of the end with its cap."""
     e, _, whole = upper_end_of(p, tables, T, CV, in_motion, N, V, V_tilde, F)
     if len(V) == 3:
-        more, rows = cap_end_3d(p, T, CQ, CV, in_motion, tuple(place), tuple(V), tuple(V_tilde), F)
+        more, rows = cap_end_3d(p, tables, T, CQ, CV, in_motion, tuple(place), tuple(V), tuple(V_tilde), F)
     else:
-        found = cap_end(p, T, CQ, CV, in_motion, *place, *V, *V_tilde, F)
+        found = cap_end(p, tables, T, CQ, CV, in_motion, *place, *V, *V_tilde, F)
         more, rows = found[:2], (found[2:4], found[4:])
     return e + more, whole + rows
 
@@ -58,10 +60,11 @@ def test_it_is_lagranges_equation(height, loss, axes, heading):
 
 @pytest.mark.parametrize("in_motion", [1.0, 0.0])
 @pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("waves", WAVES, ids=["regular", "sea"])
 @pytest.mark.parametrize("axes", [2, 3])
-def test_the_derivatives_are_those_of_the_condition(axes, height, in_motion):
+def test_the_derivatives_are_those_of_the_condition(axes, waves, height, in_motion):
     """By velocity, with which the place moves by dV/cq: central differences."""
-    p, tables = parameters_of(line(CAP, {"buoy.impact_loss": 0.7}, SPACE if axes == 3 else {}))
+    p, tables = parameters_of(line(CAP, {"buoy.impact_loss": 0.7}, SPACE if axes == 3 else {}, waves))
     place = np.append([0.3, 0.2][: axes - 1], height)
     V, V_tilde, N, F = drawn(axes)
     if in_motion == 0.0:
@@ -75,12 +78,12 @@ def test_the_derivatives_are_those_of_the_condition(axes, height, in_motion):
 @pytest.mark.parametrize("height", HEIGHTS)
 def test_across_the_plane_it_is_the_condition_in_space(height):
     """To first order in a velocity across the plane of motion: `engine.perturbations.lateral`."""
-    flat, space = (parameters_of(line(CAP, {"motion.dimensions": axes}))[0] for axes in (2, 3))
+    (flat, tables), (space, _) = (parameters_of(line(CAP, {"motion.dimensions": axes})) for axes in (2, 3))
     V, V_tilde, _, F = drawn(2)
     Y = np.array([0.0, 0.0, *V, 0.0, 0.0])
-    factor, known = cap_across(flat, T, CV, np.array([0.4, height]), Y, F, 0.3)
+    factor, known = cap_across(flat, tables, T, CV, np.array([0.4, height]), Y, F, 0.3)
     place, v, water = (0.4, 0.0, height), (V[0], 0.0, V[1]), np.insert(F, [1, 3], 0.0)
-    e, rows = cap_end_3d(space, T, 1e30, CV, 1.0, place, v, (V_tilde[0], 0.3, V_tilde[1]), water)
+    e, rows = cap_end_3d(space, tables, T, 1e30, CV, 1.0, place, v, (V_tilde[0], 0.3, V_tilde[1]), water)
     assert factor == pytest.approx(rows[1][1], rel=1e-12, abs=1e-9)
     assert known == pytest.approx(e[1], rel=1e-12, abs=1e-9)
 

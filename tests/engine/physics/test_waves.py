@@ -21,6 +21,7 @@ from engine import goes_in_lanes
 from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
 from engine.physics.submergence import surface
 from engine.physics.waves import wave_number
+from engine.run.batch import kind_of
 from engine.scene.values import LARGEST, SMALLEST
 from tests.engine.kernels import parameters_of, waves_at
 from tests.engine.lines import SPACE, line
@@ -190,7 +191,7 @@ def test_the_seed_is_the_sea():
 
 
 def test_a_regular_wave_is_no_sea():
-    """It takes the way that it took before, and only it shares a batch."""
+    """It takes the way that it took before; both share batches, each with its kind."""
     plain, many = sea_of("one"), sea_of("two")
-    assert (parameters_of(plain)[0]["sea_n"], parameters_of(many)[0]["sea_n"]) == (0, 2)
-    assert goes_in_lanes(plain) and not goes_in_lanes(many)
+    assert (parameters_of(plain)[0]["sea_n"], parameters_of(many)[0]["sea_n"]) == (0, 1)
+    assert goes_in_lanes(plain) and goes_in_lanes(many) and kind_of(plain) != kind_of(many)

@@ -1,5 +1,6 @@
 """Scenes by name and from files: overrides, round trips, keys, and files that are not scenes."""
 
+import inspect
 import math
 
 import numpy as np
@@ -56,11 +57,22 @@ def test_the_shipped_scene_is_table_1():
 
 def test_a_scene_cannot_be_changed_in_place():
     scene = load_scene("tethered_buoy")
-    with pytest.raises(pydantic.ValidationError):
+    with pytest.raises(AttributeError, match="length_m: a scene does not change"):
         scene.tether.length_m = 3.0
     with pytest.raises(TypeError):
         scene.start.buoy_velocity_mps[0] = 1.0
     assert hash(scene) == hash(load_scene("tethered_buoy"))
+
+
+def test_tab_completes_the_keywords_that_are_taken():
+    given = inspect.signature(load_scene).parameters
+    words = [name for name, entry in given.items() if entry.kind == inspect.Parameter.KEYWORD_ONLY]
+    assert {"steepness", "depth_m", "nodes"} <= set(words) and "diameter_m" not in words  # of tether and of buoy
+    for word in words:
+        try:
+            load_scene("tethered_buoy", **{word: object()})
+        except SceneError as error:
+            assert all("no such key" not in fault and "the end of" not in fault for fault in error.faults), word
 
 
 def test_a_scene_made_directly_obeys_the_same_rules():

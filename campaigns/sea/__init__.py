@@ -1,0 +1,221 @@
+"""Irregular waves: is the start forgotten, which motion does the buoy have, how many snaps are there, what is the load?
+
+    python -m campaigns.sea                                        the paper's buoy in a sea as steep as its large wave
+    python -m campaigns.sea --seeds 20 --hours 3 --starts 1        loads only
+    python -m campaigns.sea --scene FILE --set waves.jonswap.significant_height_m=4
+    python -m campaigns.sea --vary waves.significant_steepness 0.02 0.14 6 --vary waves.relative_width 0 0.1 5 --seeds 3
+
+Protocol: every sea is drawn anew for each of --seeds, and runs from rest and from kicks of the buoy, with the same
+waves for all starts. The run from rest carries a perturbation, whose mean growth is the exponent of the sea, and gives
+the loads. One run goes on with twice the elements and a quarter of the tolerance beside the others. Motions of regular
+waves up to 1.86 times the significant height are looked for as in `campaigns.sweep`; the folds between two of them give
+the forecast of a slow envelope. Kicks are drawn by --seed.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+from campaigns.explore.grid import Grid, varied
+from campaigns.explore.sweep import kick_speed
+from campaigns.finer import finer
+from campaigns.machinery import cli
+from campaigns.machinery.plan import Job
+from campaigns.study import Measures, Order, Study
+from engine.views import carries_tangents
+from tables import LARGE
+
+MOST_KEYS = 2
+HEIGHT = "waves.jonswap.significant_height_m"
+HEIGHTS = ("waves.jonswap.significant", "waves.components", "waves.significant", "waves.record", "waves.steepness")
+HEIGHTS += ("waves.amplitude_m",)
+SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
+TANGENTS = "output.tangent_vectors"
+AS_GIVEN, FINER = "", "finer"
+SCREEN_NODES = 9
+FINER_ELEMENTS, FINER_STEPS = 2, 4
+
+
+@dataclass
+class Options(cli.Options):
+    """The options of this campaign. grid: the keys of a map, read from --vary; without one there is one sea state."""
+
+    vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
+    seeds: int = cli.option("N", "seas of each state, with seeds 1 to N", cli.whole(1, 1000), 8)
+    starts: int = cli.option("N", "starts in each sea: from rest, and N - 1 kicks", cli.whole(1, 100), 4)
+    hours: float = cli.option("H", "length of every run after the transient, hours", cli.POSITIVE, 0.25)
+    transient: int = cli.option("N", "peak periods left out of exponent, events and loads", cli.whole(0), 40)
+    kick_speed: float = kick_speed()
+    seed: int = cli.seed("of the kicks")
+    distance: float = cli.option("SHARE", "of the size of the motion: nearer starts are one response", SHARE, 0.05)
+    window: int = cli.option("N", "peak periods of a window in which starts part or come together", cli.whole(1), 10)
+    slack_share: float = cli.option("SHARE", "of the static tension: below it the line is slack", SHARE, 0.05)
+    snap_share: float = cli.option("RATIO", "of the static tension: what a snap reaches", cli.POSITIVE, 1.0)
+    slope: float = cli.option("M", "of the S-N curve: 3 chain, 4 to 5 wire, 13 polyester", cli.POSITIVE, 5.0)
+    breaking_load: float | None = cli.option(
+        "N", "minimum breaking load of the line, for its utilisation", cli.POSITIVE
+    )
+    no_regular: bool = cli.flag("leave out the regular waves beside the sea")
+    screen: bool = cli.flag(
+        "a look at a map in a sixth of the time: a line of nine nodes, one run from rest in each sea"
+    )
+    grid: Grid = field(default_factory=Grid)
+
+    def read(self, out: Path, faults: list[str]) -> None:
+        """The keys with their values in the words of --vary; thresholds that contradict each other."""
+        if self.screen:
+            self.starts = 1
+        words = self.vary or []
+        if len(words) % 4 or len(words) > 4 * MOST_KEYS:
+            faults.append(f"--vary: given {' '.join(words)}; allowed: once or twice KEY LO HI COUNT")
+            words = []
+        keys = [varied(words[first : first + 4], faults) for first in range(0, len(words), 4)]
+        self.grid = Grid(tuple(filter(None, keys)))
+        if len({key.key for key in self.grid.keys}) < len(self.grid.keys):
+            faults.append(f"--vary {self.grid.keys[0].key}: given twice; allowed: two different keys")
+        if not self.slack_share < self.snap_share:
+            allowed = f"above --slack-share {self.slack_share:g}"
+            faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
+
+
+def kicks(options: Options) -> list[tuple[float, float]]:
+    """Velocities (x, z) of the starts in m/s: rest, then even in a disc."""
+    import numpy as np
+
+    rng = np.random.default_rng(options.seed)
+    velocities = [(0.0, 0.0)]
+    for _ in range(options.starts - 1):
+        speed, angle = options.kick_speed * math.sqrt(rng.random()), 2.0 * math.pi * rng.random()
+        velocities.append((round(speed * math.cos(angle), 6), round(speed * math.sin(angle), 6)))
+    return velocities
+
+
+def usual_sea(order: Order) -> dict:
+    """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
+    from engine.physics.waves import wave_number
+
+    given = {*order.changes, *(key.key for key in order.options.grid.keys)}
+    usual = {}
+    base = order.base()
+    if base is None or order.name != STUDY.scene:
+        return usual
+    for key, value in (("buoy.submergence", "spherical-cap"), ("waves.above_still_water", "wheeler")):
+        if key not in given:
+            usual[key] = value
+    if not any(key.startswith(HEIGHTS) for key in given):
+        k = wave_number(base.waves.period_s, base.water.depth_m, base.gravity_mps2)
+        usual[HEIGHT] = round(2.0 * LARGE / k, 4)
+    return usual
+
+
+def cases(order: Order) -> Iterator[Job]:
+    """Every start in every sea of every state; one of a single state once more, on a finer grid."""
+    options: Options = order.options
+    options.grid.refuse_set(order)
+    order.changes = {**usual_sea(order), **order.changes}
+    if options.screen:
+        order.changes["tether.nodes"] = SCREEN_NODES
+    for place in options.grid.places():
+        base = order.base()
+        if base is None and not options.grid.keys:
+            order.base(tell=True)
+            return
+        changes, faults = options.grid.changes(place, base)
+        order.tell(faults)
+        scene = order.base(changes, tell=True)
+        if scene is None:
+            return
+        if scene.end.kind != "buoy" or scene.waves is None or not scene.waves.irregular:
+            allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
+            order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
+            return
+        if _seed_key(scene) is None and options.seeds > 1:
+            order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
+            return
+        yield from _runs(order, place, changes, scene)
+
+
+def _seed_key(scene) -> str | None:
+    """The key by which the waves of a scene are drawn anew; None where they are listed or measured."""
+    if scene.waves.jonswap is not None:
+        return "waves.jonswap.seed"
+    return None if scene.waves.significant_steepness is None else "waves.seed"
+
+
+def _runs(order: Order, place: dict, changes: dict, base) -> Iterator[Job]:
+    """The runs of one sea state."""
+    options: Options = order.options
+    duration_s = options.transient * base.waves.period_s + options.hours * 3600.0
+    labels = {**place, "solver": AS_GIVEN}
+    for seed in range(1, options.seeds + 1):
+        for start, (x_mps, z_mps) in enumerate(kicks(options)):
+            further = {}
+            if _seed_key(base) is not None:
+                further[_seed_key(base)] = seed
+            if start > 0:
+                further["start.buoy_velocity_mps"] = [x_mps, 0.0, z_mps]
+            elif carries_tangents(base):
+                further[TANGENTS] = 1
+            scene = order.scene({**changes, **further}, duration_s)
+            if scene is None:
+                return
+            of_run = {**labels, "sea": seed, "start": start, "kick_x_mps": x_mps, "kick_z_mps": z_mps}
+            yield Job(of_run, scene, duration_s=duration_s)
+            if seed == 1 and start == 0 and not options.grid.keys:
+                yield Job({**of_run, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
+
+
+def measures(order: Order) -> Measures:
+    """A row a run (`rows.run_row`)."""
+    from campaigns.sea.rows import columns_of, run_row
+
+    options: Options = order.options
+    settings = {name: getattr(options, name) for name in ("transient", "window", "slack_share", "snap_share", "slope")}
+    sources = ("analysis", "engine", "campaigns/sea/rows.py")
+    return Measures(columns_of(options.grid.columns), partial(run_row, **settings), sources, settings)
+
+
+def beside(order: Order) -> Iterator[Callable]:
+    """What follows the runs: the motions of regular waves, then what all runs of a sea state say together."""
+    from campaigns.sea.cells import write_cells
+    from campaigns.sea.regular import regular_waves
+
+    if not order.options.no_regular:
+        yield partial(regular_waves, order)
+    yield partial(write_cells, order)
+
+
+def parameters(order: Order) -> dict:
+    options: Options = order.options
+    values = {entry.name: getattr(options, entry.name) for entry in Options.offered() if entry.metadata}
+    del values["vary"]
+    return {"sea_keys": [key.key for key in options.grid.keys], **values}
+
+
+def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+    """The findings (`answer.sentences`)."""
+    from campaigns.explore.sweep import tables_of
+    from campaigns.sea.answer import sentences
+
+    return sentences(tables_of(order.how.out, "cells")["cells"], order.options)
+
+
+STUDY = Study(
+    name="sea",
+    protocol=__doc__,
+    scene="tethered_buoy",
+    taken={
+        "waves.jonswap.seed": "use --seeds",
+        "waves.seed": "use --seeds",
+        "start.buoy_velocity_mps": "use --starts and --kick-speed",
+    },
+    options=Options,
+    cases=cases,
+    measures=measures,
+    parameters=parameters,
+    beside=beside,
+    answer=answer,
+)
+main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order

@@ -1,0 +1,5 @@
+"""`python -m campaigns.sea`."""
+
+from campaigns.sea import main
+
+raise SystemExit(main())

@@ -1,0 +1,174 @@
+"""What a sea, or a map of seas, showed, in sentences: memory of the start, motion, loads, certainty."""
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Sequence
+
+from campaigns.answers import greatest, kilonewton
+from campaigns.sea.cells import WELL_ABOVE
+from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
+
+FAILED = "No run ended, so there is nothing to say of this sea."
+
+
+def sentences(cells: Sequence[Row], options) -> Iterator[str]:
+    """At most eight, of the rows of cells/table.csv. options: of the campaign."""
+    known = [cell for cell in cells if cell["status"] == "ok"]
+    if not known:
+        yield FAILED
+    elif len(cells) == 1:
+        yield from _of_sea(known[0], options)
+    else:
+        yield from _of_map(known, len(cells), options)
+
+
+def _of_sea(cell: Row, options) -> Iterator[str]:
+    yield _memory(cell, options)
+    if math.isfinite(number_of(cell, TANGENT_EXPONENT)):
+        yield _exponent(cell, options)
+    yield _visits(cell, options)
+    yield _loads(cell)
+    yield _fatigue(cell, options)
+    yield from _certainty(cell, options)
+
+
+def _memory(cell: Row, options) -> str:
+    """Whether the start is forgotten, and after how many periods."""
+    seas, apart = number_of(cell, "seas"), number_of(cell, "apart_seas")
+    sign, periods = cell.get("sign"), number_of(cell, "together_periods")
+    if sign == "+":
+        words = "In this sea the buoy never forgets how it began: two starts stay apart however near they are"
+        if math.isfinite(periods):
+            words += f", but for spells of {number_of(cell, 'together_mean_periods'):.0f} periods on average"
+        return f"{words}."
+    if not sign:
+        words = "This scene carries no perturbation, so there is no exponent"
+        if math.isfinite(periods):
+            return (
+                f"{words}; the starts come together after about {_rounded(periods)} periods in {seas - apart:.0f} seas."
+            )
+        return f"{words}; the starts were not seen to come together."
+    if sign != "−":
+        return "It is not decided whether this sea makes the buoy forget how it began: use more --seeds or --hours."
+    if options.starts < 2:
+        return "In this sea the buoy forgets a small difference of the start; with --starts 4 it is seen how fast."
+    if not math.isfinite(periods):
+        return (
+            f"In this sea small differences of the start die out, but the {options.starts} starts were still apart at "
+            f"the end in all {seas:.0f} seas: there is more than one response."
+        )
+    words = f"In this sea the buoy forgets how it began after about {_rounded(periods)} periods"
+    if apart > 0:
+        words += f"; in {apart:.0f} of {seas:.0f} seas its starts were still apart at the end"
+    partings = number_of(cell, "partings_per_hour")
+    if partings > 0.0:
+        words += f"; then groups of waves part the starts again {partings:.2g} times an hour"
+    return f"{words}."
+
+
+def _exponent(cell: Row, options) -> str:
+    value, error = number_of(cell, TANGENT_EXPONENT), number_of(cell, TANGENT_ERROR)
+    share = number_of(cell, "growing_share")
+    return (
+        f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in {share:.0%} of the "
+        f"windows of {options.window} periods."
+    )
+
+
+def _visits(cell: Row, options) -> str:
+    """The large motion, beside the forecast of a slow envelope."""
+    share = number_of(cell, "large_share")
+    if options.no_regular or not math.isfinite(share):
+        if options.no_regular:
+            return "Motions of regular waves were left out."
+        return "The regular waves up to 1.86 H_s have one motion each, so there is no other motion to visit."
+    forecast = number_of(cell, "forecast_share")
+    words = f"It is in the large motion {_percent(share)} of the time"
+    if share > 0.0:
+        words += f", for {number_of(cell, 'large_mean_periods'):.0f} periods on average"
+    words += f"; a slow envelope would give {_percent(forecast)}"
+    if forecast > 0.0:
+        words += f" and {number_of(cell, 'forecast_mean_periods'):.0f} periods"
+    return f"{words}."
+
+
+def _loads(cell: Row) -> str:
+    words = "Snaps are not counted, because the line bears no tension at rest"
+    if math.isfinite(number_of(cell, "snaps_per_hour")):
+        words = f"{number_of(cell, 'snaps_per_hour'):.0f} snaps an hour"
+    error = number_of(cell, "snaps_per_hour_error")
+    if math.isfinite(error):
+        words += f" (± {error:.0f})"
+    storm_N = number_of(cell, "storm_maximum_N")
+    if not math.isfinite(storm_N):
+        return f"{words}; no three-hour maximum: {cell.get('storm_reason')}."
+    low_N, high_N = number_of(cell, "storm_low_N"), number_of(cell, "storm_high_N")
+    words += f"; three-hour maximum {kilonewton(storm_N)} ({low_N / 1e3:.3g} to {high_N / 1e3:.3g})"
+    regular_N, high_wave_N = number_of(cell, "regular_N"), number_of(cell, "regular_high_N")
+    if math.isfinite(regular_N):
+        words += f", {storm_N / regular_N:.1f} times that of the regular design wave of H_s"
+    if math.isfinite(high_wave_N):
+        words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
+    return f"{words}."
+
+
+def _fatigue(cell: Row, options) -> str:
+    words = (
+        f"One cycle of {kilonewton(number_of(cell, 'equivalent_load_N'))} a peak period does the damage of the sea "
+        f"(S-N slope {options.slope:g})"
+    )
+    used = number_of(cell, "utilisation")
+    if math.isfinite(used):
+        return f"{words}; the line is used to {used:.0%} by DNV-OS-E301, consequence class 1."
+    if options.breaking_load is not None:
+        return f"{words}; without a three-hour maximum there is no utilisation of the line."
+    return f"{words}; --breaking-load gives the utilisation."
+
+
+def _certainty(cell: Row, options) -> Iterator[str]:
+    value, error = number_of(cell, TANGENT_EXPONENT), number_of(cell, TANGENT_ERROR)
+    finer, finer_error = number_of(cell, "finer_bits_per_period"), number_of(cell, "finer_error")
+    if math.isfinite(finer):
+        agrees = "agrees"
+        if abs(finer - value) > 2.0 * math.hypot(error, finer_error):
+            agrees = "does NOT agree"
+        yield f"The exponent of a finer run {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
+    noise = number_of(cell, "noise")
+    if noise * WELL_ABOVE > options.distance:
+        yield (
+            f"Starts that are together are still {noise:.2g} of the motion apart, by the steps of the solver: use a "
+            f"smaller solver.rtol, or --distance above {WELL_ABOVE * noise:.2g}."
+        )
+
+
+def _of_map(cells: Sequence[Row], count: int, options) -> Iterator[str]:
+    signs = Counter(str(cell.get("sign") or "open") for cell in cells)
+    yield (
+        f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and "
+        f"{count - signs['−'] - signs['+']} are not decided."
+    )
+    keys = [key.key for key in options.grid.keys]
+    for name, words in (
+        ("large_share", "The share of the large motion is largest"),
+        ("storm_maximum_N", "The three-hour maximum is largest"),
+    ):
+        worst = greatest(cells, name)
+        if worst is None:
+            continue
+        place = " and ".join(f"{key} = {number_of(worst, key):.4g}" for key in keys)
+        size = _percent(number_of(worst, name)) if name == "large_share" else kilonewton(number_of(worst, name))
+        yield f"{words} at {place}: {size}."
+    refused = sum(not math.isfinite(number_of(cell, "storm_maximum_N")) for cell in cells)
+    if refused:
+        yield f"{refused} states have no three-hour maximum; the column storm_reason says why."
+
+
+def _rounded(periods: float) -> str:
+    """Two digits are all that a median of some seas knows."""
+    if periods < 10.0:
+        return f"{periods:.0f}"
+    return f"{round(periods, -1) if periods < 1000 else round(periods, -2):.0f}"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %"

@@ -1,0 +1,298 @@
+"""What all runs in one sea state say together, as a row of cells/table.csv.
+
+exponent     mean over the seas, from their runs from rest
+responses    all starts of a sea, strobed once a peak period, with the same seed
+motions      pieces of MOTION_PERIODS peak periods of all runs, by the folds of the regular waves
+loads        runs from rest, because starts that have come together are no independent draws
+"""
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+
+import numpy as np
+
+from analysis import (
+    envelope,
+    growing_share,
+    residence,
+    responses,
+    sea_lyapunov,
+    storm_maximum,
+    utilisation,
+)
+from analysis.seas import Responses, standard_error
+from analysis.tangent_growth import turned
+from campaigns.explore.motions import subfolder
+from campaigns.explore.rows import TANGENT, exponents
+from campaigns.machinery.folder import run_of
+from campaigns.machinery.plan import Plan, Summary
+from campaigns.machinery.progress import stage
+from campaigns.sea.regular import (
+    DESIGN,
+    Folds,
+    design_loads,
+    folds_of,
+    one_set,
+    regular_tables,
+    significant_height_m,
+)
+from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS
+from campaigns.study import Order
+from engine.physics.sea import elevation_m
+from engine.views import carried, state_of
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, finite, names, number_of, write_table
+
+FOLDER = "cells"
+MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
+WELL_ABOVE = 4.0  # times the noise of the steps: the least distance of two responses
+BLOCK_PERIODS = 20  # of the shortest block of a maximum
+_BITS = "bits/period"
+_REST = "; of the runs from rest"
+COLUMNS = (
+    STATUS,
+    Column("significant_height_m", "m", "H_s", "significant height: four standard deviations of the surface", 2),
+    Column("seas", "", "seas", "seas of this state, drawn independently", 0),
+    Column("starts", "", "starts", "starts in each sea", 0),
+    *TANGENT,
+    Column("sign", "", "sign", "of the exponent: +, − or open, by two standard errors", None),
+    Column("finer_bits_per_period", _BITS, "σ finer", "exponent of the run marked finer", 3, SHEET),
+    Column("finer_error", _BITS, "± σ finer", "standard error of the exponent of the finer run", 3, SHEET),
+    GROWING,
+    Column("responses_mean", "", "responses", "mean number of different responses after the transient", 2),
+    Column("together_periods", "periods", "together", "median time at which all starts are first one response", 0),
+    Column("apart_seas", "", "apart", "seas in which the starts are never one response", 0),
+    Column("together_share", "", "stays", "share of the time, once together, that they are one response", 2),
+    Column("together_mean_periods", "periods", "stay", "mean time for which they stay together", 0, REGIMES),
+    Column("partings_per_hour", "1/h", "partings", "how often they part again", 1, REGIMES),
+    Column("distance", "", "distance", "nearer starts are one response, as a share of the motion", 3, SHEET),
+    Column("noise", "", "noise", "median distance of the starts while together: what the steps leave", 5, SHEET),
+    Column("large_share", "", "large", "share of the time in the large motion of regular waves", 3),
+    Column("large_share_error", "", "± large", "standard error over seas", 3),
+    Column("large_mean_periods", "periods", "visit", "mean length of a visit to the large motion", 1),
+    Column("forecast_share", "", "forecast", "share if the motion followed the envelope from fold to fold", 3),
+    Column("forecast_share_error", "", "± forecast", "standard error over seas", 3),
+    Column("forecast_mean_periods", "periods", "visit, forecast", "mean length of a visit by that forecast", 1),
+    Column("fold_up_m", "m", "A up", "amplitude at which a slowly rising wave brings the large motion", 3, SHEET),
+    Column("fold_down_m", "m", "A down", "amplitude at which a slowly falling wave ends it", 3, SHEET),
+    SNAPS,
+    Column("snaps_per_hour_error", "1/h", "± snaps", f"standard error over seas{_REST}", 1),
+    MEAN,
+    Column("storm_maximum_N", "N", "T_3h", "most probable largest tension in three hours", 0),
+    Column("storm_low_N", "N", "T_3h low", "lower end of its 90 % interval", 0),
+    Column("storm_high_N", "N", "T_3h high", "upper end of its 90 % interval", 0),
+    Column("storm_reason", "", "by", "how the maximum was found, or why there is none", None, SHEET),
+    EQUIVALENT,
+    Column("utilisation", "", "u", "design tension over design strength, DNV-OS-E301, consequence class 1", 2),
+    Column("regular_N", "N", "T_reg", "largest tension in the regular wave of the height H_s, of all its motions", 0),
+    Column("regular_high_N", "N", "T_1.86", "largest tension in the regular wave of 1.86 H_s, of all its motions", 0),
+    Column("regular_high_motions", "", "motions high", "the same in the wave of 1.86 H_s", None, SHEET),
+    Column("regular_motions", "", "motions", "largest tension of each motion in the regular wave, kN", None, SHEET),
+    MESSAGE,
+)  # fmt: skip
+HISTORY = "history"
+HISTORY_COLUMNS = (
+    SEA,
+    Column("period", "periods", "t/T_p", "time in peak periods", 0),
+    Column("responses", "", "responses", "different responses of the starts", 0),
+    Column("apart", "", "apart", "largest distance of two starts, as a share of the motion", 4),
+    Column("large", "", "large", "1 while the run from rest is in the large motion", 0),
+    Column("forecast", "", "forecast", "1 while a slow envelope would have it there", 0),
+)
+
+
+@dataclass(frozen=True)
+class Digest:
+    """What is needed of a run in a sea.
+
+    row: of table.csv. period_s, step_s: peak period, and step of its samples. states (p, 4), scale (4,): once a peak
+    period, and what counts as 1. growth_nats (p,): of its perturbation; None: it carried none. high_N (n,): largest
+    tensions after the transient. large, forecast (m,): whether each piece is in the large motion, and by the forecast.
+    """
+
+    row: Row
+    period_s: float
+    step_s: float
+    states: np.ndarray
+    scale: np.ndarray
+    growth_nats: np.ndarray | None
+    high_N: np.ndarray
+    large: np.ndarray
+    forecast: np.ndarray
+
+
+def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
+    """The digest of a run that reached its end. transient: peak periods left out."""
+    period_s, step_s, columns = run.scene.waves.period_s, run.scene.sample_step_s(), run.columns
+    samples = period_s / step_s  # of a peak period
+    length = len(columns["time_s"])
+    strobes = np.rint(np.arange(0.0, length - 0.5, samples)).astype(int)
+    coordinates, scale = state_of(columns, step_s, period_s, 0)
+    states = np.column_stack([series[strobes] for series in coordinates.values()])
+    growth_nats = run.tangent.growth_nats[:, 0] if carried(run) else None
+    high_N = columns["tension_top_high_N"]
+    large = forecast = np.zeros(0, bool)
+    ends = strobes[transient + MOTION_PERIODS :]
+    begins = strobes[transient : len(strobes) - MOTION_PERIODS]
+    if folds is not None and len(ends):
+        heights_m = envelope(elevation_m(run.scene, columns["time_s"]))
+        pieces = list(map(slice, begins, ends))
+        amplitude_m = np.array([heights_m[piece].mean() for piece in pieces])
+        large = folds.is_large(amplitude_m, np.array([high_N[piece].max() for piece in pieces]))
+        forecast = folds.forecast(amplitude_m, bool(large[0]))
+    late_N = high_N[round(transient * samples) :]
+    return Digest(row, period_s, step_s, states, np.array(scale), growth_nats, late_N, large, forecast)
+
+
+def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
+    """Write cells/table.csv, a row a sea state, and of a single one history/table.csv. Returns seconds."""
+    began = time.perf_counter()
+    folds, regular_rows = None, ()
+    if not order.options.no_regular and one_set(order):
+        regular_rows, ends = regular_tables(order)
+        folds = folds_of(regular_rows, ends)
+    keys = order.options.grid.columns
+    of_cell: dict[tuple, list[Row]] = {}
+    for row in summary.rows:
+        of_cell.setdefault(tuple(row[name] for name in names(keys)), []).append(row)
+    cells: list[Row] = []
+    with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
+        for place, rows in of_cell.items():
+            cell = dict(zip(names(keys), place, strict=True))
+            digests = []
+            for row in rows:
+                run = run_of(plan.how.out, row)
+                if run is not None:
+                    digests.append(digest(run, row, order.options.transient, folds))
+                    cell["significant_height_m"] = significant_height_m(run.scene)
+            cells.append(cell | cell_row(rows, digests, order.options, folds))
+            for name, height in (("regular_N", 1.0), ("regular_high_N", DESIGN)):
+                loads = design_loads(regular_rows, 0.5 * height * cell.get("significant_height_m", 0.0))
+                if loads:
+                    motions = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
+                    cells[-1] |= {name: loads[-1][1], f"{name.removesuffix('_N')}_motions": motions}
+    write_table(subfolder(plan, FOLDER) / "table.csv", (*keys, *COLUMNS), cells)
+    if not keys:
+        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(digests, order.options))
+    return time.perf_counter() - began
+
+
+def cell_row(rows: Sequence[Row], digests: Sequence[Digest], options, folds: Folds | None) -> Row:
+    """The columns of one sea state. rows: of all its runs; digests: of those that reached their end."""
+    if not digests:
+        return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}
+    lost = len(rows) - len(digests)
+    cell: Row = {
+        "status": "ok",
+        "starts": options.starts,
+        "message": f"{lost} of {len(rows)} runs failed" if lost else "",
+    }
+    seas = list(seas_of(digests))
+    cell["seas"] = len(seas)
+    rest = [run for run in digests if run.row["start"] == 0 and not run.row["solver"]]
+    finer = [run for run in digests if run.row["solver"]]
+    cell |= _exponent(rest, finer, options) | _together(seas, options)
+    if folds is not None:
+        cell |= {"fold_up_m": folds.jump(True), "fold_down_m": folds.jump(False)}
+        cell |= _visits("large", [[run.large for run in sea] for sea in seas])
+        cell |= _visits("forecast", [[run.forecast for run in sea] for sea in seas])
+    if rest:
+        cell |= _loads(rest, options)
+    return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in cell.items()}
+
+
+def seas_of(digests: Sequence[Digest]) -> Iterator[list[Digest]]:
+    """The runs in each sea, without the finer one."""
+    for seed in sorted({run.row["sea"] for run in digests}):
+        yield [run for run in digests if run.row["sea"] == seed and not run.row["solver"]]
+
+
+def _exponent(rest: Sequence[Digest], finer: Sequence[Digest], options) -> Row:
+    """The columns on the exponent."""
+    growths = [run.growth_nats for run in rest if run.growth_nats is not None]
+    exponent = sea_lyapunov(growths, options.transient)
+    row = exponents(TANGENT, exponent)
+    if not exponent.found:
+        return row
+    row["sign"] = "open"
+    if abs(exponent.value) > 2.0 * exponent.error:
+        row["sign"] = "+" if exponent.value > 0.0 else "−"
+    shares = [growing_share(turned(growth, options.transient), options.window) for growth in growths]
+    row[GROWING.name] = float(np.mean(shares))
+    for run in finer:
+        check = sea_lyapunov([run.growth_nats], options.transient)
+        row |= {"finer_bits_per_period": check.value, "finer_error": check.error}
+    return row
+
+
+def responses_of(sea: Sequence[Digest], distance: float) -> Responses:
+    """The responses of all starts in one sea."""
+    states = np.stack([run.states for run in sea])
+    return responses(states, np.max([run.scale for run in sea], axis=0), distance)
+
+
+def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
+    """The columns on the responses of all starts."""
+    answers = [responses_of(sea, options.distance) for sea in seas if len(sea) > 1]
+    if not answers:
+        return {}
+    met = [answer for answer in answers if math.isfinite(answer.together_at)]
+    mean_count = np.mean([answer.counts[options.transient :].mean() for answer in answers])
+    row: Row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
+    if met:
+        periods = sum(len(answer.counts) - answer.together_at for answer in met)
+        row |= {
+            "together_periods": float(np.median([answer.together_at for answer in met])),
+            "together_share": np.mean([answer.together_share for answer in met]),
+            "together_mean_periods": np.mean([answer.together_mean for answer in met]),
+            "partings_per_hour": 3600.0 * sum(answer.partings for answer in met) / (periods * seas[0][0].period_s),
+            "noise": float(np.median([answer.noise for answer in met])),
+        }
+    return row
+
+
+def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
+    """The columns on the large motion, or on its forecast, from the flags of the runs in each sea."""
+    answer = residence(list(chain.from_iterable(flags)))
+    shares = [residence(of_sea).share for of_sea in flags]
+    row = {f"{name}_share": answer.share, f"{name}_mean_periods": answer.mean}
+    if len(shares) > 1:
+        row[f"{name}_share_error"] = standard_error(shares)
+    return row
+
+
+def history(digests: Sequence[Digest], options) -> Iterator[Row]:
+    """The responses in every sea over time, and the motion of its first run: a row a peak period."""
+    for sea in seas_of(digests):
+        answer = responses_of(sea, options.distance)
+        for period, (count, apart) in enumerate(zip(answer.counts, answer.apart, strict=True)):
+            row: Row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
+            piece = period - options.transient
+            if 0 <= piece < len(sea[0].large):
+                row |= {"large": int(sea[0].large[piece]), "forecast": int(sea[0].forecast[piece])}
+            yield row
+
+
+def _loads(rest: Sequence[Digest], options) -> Row:
+    """The columns on snaps and loads."""
+    rates, means, ranges = (
+        np.array([number_of(run.row, column.name) for run in rest]) for column in (SNAPS, MEAN, EQUIVALENT)
+    )
+    mean_N = float(np.mean(means))
+    row: Row = {
+        SNAPS.name: float(np.mean(rates)),
+        MEAN.name: mean_N,
+        EQUIVALENT.name: float(np.mean(ranges**options.slope) ** (1.0 / options.slope)),
+    }
+    if len(rates) > 1:
+        row["snaps_per_hour_error"] = standard_error(rates)
+    highs = [run.high_N for run in rest]
+    storm = storm_maximum(highs, rest[0].step_s, least_block_s=BLOCK_PERIODS * rest[0].period_s)
+    row["storm_reason"] = storm.reason
+    if storm.found:
+        row |= {"storm_maximum_N": storm.value, "storm_low_N": storm.low, "storm_high_N": storm.high}
+        if options.breaking_load is not None:
+            row["utilisation"] = utilisation(mean_N, storm.value, options.breaking_load)
+    return row

@@ -1,0 +1,106 @@
+"""A run in one sea as a row: its exponent, its snaps and its loads after the transient."""
+
+import math
+
+import numpy as np
+
+from analysis import (
+    damage_equivalent_load,
+    extremes,
+    growing_share,
+    peaks,
+    sea_lyapunov,
+    slack_fraction,
+    turning_points,
+)
+from analysis.tangent_growth import turned
+from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, exponents, height_m, sound_part
+from campaigns.explore.rows import SNAPS as SNAPS_OF_RUNS
+from campaigns.judge import periods_of
+from engine.run.rest import static_tension_N
+from engine.views import carried, snaps_of
+from tables import MESSAGE, PEAK, PERIODS_RUN, REGIMES, RUN_KEY, SHEET, STATISTICS, STATUS, Column, Row, counted, names
+
+SEA = Column("sea", "", "sea", "seed of the waves", 0)
+START = Column("start", "", "start", "number of the start; 0: rest", 0)
+SOLVER = Column("solver", "", "solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
+SNAPS = Column("snaps_per_hour", "1/h", "snaps", "snaps an hour after the transient", 1)
+GROWING = Column(
+    "growing_share", "", "growing", "share of windows of the record in which a small perturbation grows", 2, REGIMES
+)
+MEAN = Column("tension_mean_N", "N", "T_mean", "mean tension at the top after the transient", 0)
+EQUIVALENT = Column(
+    "equivalent_load_N", "N", "R_eq", "range that does the damage of the record in one cycle a peak period", 0
+)
+LARGEST = Column(PEAK, "N", "T_max", "largest tension at the top after the transient", 0)
+_OF_SNAPS = [column for column in SNAPS_OF_RUNS if column.name in ("snap_peak_median_N", "snap_speed_max_mps")]
+_MEASURED = (
+    SEA,
+    START,
+    Column("kick_x_mps", "m/s", "u", "velocity of the buoy along the waves at the start", 2, SHEET),
+    Column("kick_z_mps", "m/s", "w", "velocity of the buoy upwards at the start", 2, SHEET),
+    SOLVER,
+    STATUS,
+    PERIODS_RUN,
+    *TANGENT,
+    GROWING,
+    SNAPS,
+    *_OF_SNAPS,
+    SLACK,
+    MEAN,
+    LARGEST,
+    Column("peaks", "", "peaks", "peaks of the tension: one between two up-crossings of its mean", 0, SHEET),
+    Column("peak_p99_N", "N", "T_99", "peak that one in a hundred exceeds", 0, SHEET),
+    EQUIVALENT,
+    HEIGHT,
+    *STATISTICS,
+    RUN_KEY,
+    MESSAGE,
+)
+
+
+def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+    """Those of the varied keys, then those of `run_row`."""
+    return *keys, *(column for column in _MEASURED if column.name not in names(keys))
+
+
+def run_row(trajectory, transient: int, window: int, slack_share: float, snap_share: float, slope: float) -> Row:
+    """The columns that a trajectory fills. A record that ends within the transient has its statistics only.
+
+    transient: peak periods left out. window, slack_share, snap_share, slope: options of the campaign.
+    """
+    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
+    row[HEIGHT.name] = height_m(scene, columns)
+    period_s, step_s = scene.waves.period_s, scene.sample_step_s()
+    if len(columns["time_s"]):
+        row[PERIODS_RUN.name] = periods_of(scene, columns)
+    if carried(trajectory):
+        growth = trajectory.tangent.growth_nats[:, 0]
+        row |= exponents(TANGENT, sea_lyapunov([growth], transient))
+        row[GROWING.name] = growing_share(turned(growth, transient), window)
+    transient_s = transient * period_s
+    first = round(transient_s / step_s)
+    tension, low, high = (columns[f"tension_top{kind}_N"] for kind in ("", "_low", "_high"))
+    if len(tension) - first < 2:
+        return row
+    crests = high[first:][peaks(high[first:])]
+    waves = (len(tension) - 1 - first) * step_s / period_s
+    row |= {
+        MEAN.name: float(np.mean(tension[first:])),
+        LARGEST.name: extremes(high, step_s, transient_s).maximum,
+        "peaks": len(crests),
+        EQUIVALENT.name: damage_equivalent_load(turning_points(low[first:], high[first:]), waves, slope),
+    }
+    if len(crests) > 100:
+        row["peak_p99_N"] = float(np.quantile(crests, 0.99))
+    static_N = static_tension_N(scene, columns)
+    if static_N > 0.0:  # by which slack and snaps are measured
+        snaps = snaps_of(scene, columns, transient_s=transient_s, slack_share=slack_share, snap_share=snap_share)
+        row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
+        row[SLACK.name] = slack_fraction(tension, step_s, slack_share * static_N, transient_s).fraction
+        if len(snaps):
+            row["snap_peak_median_N"] = float(np.median(snaps.peak_N))
+            row["snap_speed_max_mps"] = float(np.max(snaps.taut_speed_mps))
+    return {
+        name: None if isinstance(entry, float) and not math.isfinite(entry) else entry for name, entry in row.items()
+    }

@@ -1,0 +1,141 @@
+"""From vectors to the numbers in them: one lane by itself, and eight numbers of one run as one vector.
+
+A sum over many terms of one run, such as the waves of a sea (`engine.physics.sea`), has its terms side by side.
+Runs that share a batch take such a sum one after another, each from its own lane. So both have the same bits.
+"""
+
+from llvmlite import ir
+from numba.core import cgutils, types
+from numba.extending import intrinsic
+from numba.np import arrayobj
+
+from .vector import COUNT, DOUBLE, LaneMask, Lanes
+
+_LONG = ir.VectorType(ir.IntType(64), COUNT)
+_SHIFT = 6755399441055744.0  # 1.5 * 2^52: its sum with a whole number has that number in its last bits
+
+
+def _index(number):
+    return ir.Constant(ir.IntType(32), number)
+
+
+@intrinsic
+def lane_of(context, value, lane):
+    """The number, or the yes or no, of one lane; of a number itself that number."""
+    kind = value.each[0] if isinstance(value, (Lanes, LaneMask)) else value
+
+    def generate(context, builder, signature, values):
+        if not isinstance(value, (Lanes, LaneMask)):
+            return values[0]
+        return builder.extract_element(values[0], builder.trunc(values[1], ir.IntType(32)))
+
+    return kind(value, types.intp), generate
+
+
+@intrinsic
+def with_lane(context, value, lane, number):
+    """The vector with another number in one lane."""
+
+    def generate(context, builder, signature, values):
+        return builder.insert_element(values[0], values[2], builder.trunc(values[1], ir.IntType(32)))
+
+    return value(value, types.intp, types.float64), generate
+
+
+@intrinsic
+def in_lane(context, array, lane):
+    """View of one lane of an array (...) of vectors, as an array (...) of floats."""
+    kind = types.Array(types.float64, array.ndim, "A")
+
+    def generate(context, builder, signature, values):
+        source = arrayobj.make_array(array)(context, builder, values[0])
+        target = arrayobj.make_array(kind)(context, builder)
+        first = builder.bitcast(source.data, DOUBLE.as_pointer())
+        arrayobj.populate_array(
+            target,
+            data=builder.gep(first, [values[1]]),
+            shape=cgutils.unpack_tuple(builder, source.shape, array.ndim),
+            strides=cgutils.unpack_tuple(builder, source.strides, array.ndim),
+            itemsize=context.get_constant(types.intp, 8),
+            meminfo=None,
+        )
+        return target._getvalue()
+
+    return kind(array, types.intp), generate
+
+
+@intrinsic
+def eight_of(context, array, at):
+    """The COUNT numbers array[at : at + COUNT] of an array of one axis, as a vector."""
+
+    def generate(context, builder, signature, values):
+        source = arrayobj.make_array(array)(context, builder, values[0])
+        (stride,) = cgutils.unpack_tuple(builder, source.strides, 1)
+        first = builder.bitcast(source.data, cgutils.voidptr_t)
+        result = ir.Constant(ir.VectorType(DOUBLE, COUNT), ir.Undefined)
+        for lane in range(COUNT):
+            place = builder.mul(builder.add(values[1], context.get_constant(types.intp, lane)), stride)
+            address = builder.bitcast(builder.gep(first, [place]), DOUBLE.as_pointer())
+            result = builder.insert_element(result, builder.load(address), _index(lane))
+        return result
+
+    return Lanes(COUNT)(array, types.intp), generate
+
+
+def _address(context, builder, kind, array, at):
+    first = arrayobj.make_array(kind)(context, builder, array).data
+    return builder.bitcast(builder.gep(first, [at]), ir.VectorType(DOUBLE, COUNT).as_pointer())
+
+
+@intrinsic
+def read_eight(context, array, at):
+    """As `eight_of` for a contiguous array, in one instruction."""
+
+    def generate(context, builder, signature, values):
+        return builder.load(_address(context, builder, array, *values), align=8)
+
+    return Lanes(COUNT)(array, types.intp), generate
+
+
+@intrinsic
+def write_eight(context, array, at, value):
+    """The vector into array[at : at + COUNT] of a contiguous array."""
+
+    def generate(context, builder, signature, values):
+        builder.store(values[2], _address(context, builder, array, *values[:2]), align=8)
+        return context.get_dummy_value()
+
+    return types.none(array, types.intp, Lanes(COUNT)), generate
+
+
+@intrinsic
+def total(context, vector):
+    """Sum over the lanes: halves are added until one number is left."""
+
+    def generate(context, builder, signature, values):
+        (value,), width = values, COUNT
+        while width > 1:
+            width //= 2
+            halves = [
+                builder.shuffle_vector(
+                    value, value, ir.Constant(ir.VectorType(ir.IntType(32), width), [first + i for i in range(width)])
+                )
+                for first in (0, width)
+            ]
+            value = builder.fadd(*halves)
+        return builder.extract_element(value, _index(0))
+
+    return types.float64(vector), generate
+
+
+@intrinsic
+def power_of_two(context, exponent):
+    """2^exponent in every lane, for whole numbers from -1022 to 1023, put where a number has its exponent."""
+
+    def generate(context, builder, signature, values):
+        kind = values[0].type
+        whole = builder.bitcast(builder.fadd(values[0], ir.Constant(kind, [_SHIFT] * COUNT)), _LONG)
+        shifted = builder.shl(whole, ir.Constant(_LONG, [52] * COUNT))
+        return builder.bitcast(builder.add(shifted, ir.Constant(_LONG, [1023 << 52] * COUNT)), kind)
+
+    return exponent(exponent), generate

@@ -1,0 +1,158 @@
+"""A campaign of seas: what is run, what is refused, the folds between motions, and that nothing is done twice."""
+
+import math
+
+import numpy as np
+import pytest
+
+from campaigns import sea
+from campaigns.sea.answer import sentences
+from campaigns.sea.regular import design_loads, folds_of
+from tests.campaigns.conftest import built_twice, finished, ran, rows_of
+
+SMALL = "water.depth_m=23 buoy.submergence=full waves.jonswap.components=4 tether.nodes=5"
+SHORT = ["--set", *SMALL.split(), "--no-regular", "--hours", "0.03", "--transient", "5"]
+WORDS = [*SHORT, "--set", f"{sea.HEIGHT}=1"]
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    out = tmp_path_factory.mktemp("sea")
+    return out, ran(sea, out, *WORDS, "--seeds", 2, "--starts", 3)
+
+
+def test_every_start_runs_in_every_sea_and_one_run_is_finer(small):
+    _, rows = small
+    plain = [(row["sea"], row["start"]) for row in rows if not row["solver"]]
+    assert plain == [(str(seed), str(start)) for seed in (1, 2) for start in (0, 1, 2)]
+    assert [row["sea"] for row in rows if row["solver"]] == ["1"]
+    assert {row["status"] for row in rows} == {"ok"}
+
+
+def test_all_starts_of_a_sea_have_the_same_waves(small):
+    from engine import Trajectory
+    from engine.physics.sea import components_of
+
+    out, rows = small
+    waves = {}
+    for row in rows:
+        scene = Trajectory.load(out / "trajectories" / f"{row['run_key']}.nc").scene
+        waves.setdefault(row["sea"], []).append(np.concatenate(components_of(scene)))
+    assert all(np.array_equal(first, other) for first, *others in waves.values() for other in others)
+    assert not np.array_equal(waves["1"][0], waves["2"][0])
+
+
+def test_the_row_of_the_sea_says_what_its_runs_say(small):
+    out, rows = small
+    (cell,) = rows_of(out, "cells/table.csv")
+    rates = [float(row["snaps_per_hour"]) for row in rows if row["start"] == "0" and not row["solver"]]
+    assert float(cell["snaps_per_hour"]) == pytest.approx(np.mean(rates))
+    assert float(cell["significant_height_m"]) == pytest.approx(1.0)
+    history = rows_of(out, "history/table.csv")
+    assert {row["responses"] for row in history} <= {"1", "2", "3"}
+
+
+def test_the_same_command_computes_nothing_again(small):
+    out, rows = small
+    before = finished(out)
+    assert ran(sea, out, *WORDS, "--seeds", 2, "--starts", 3) == rows and finished(out) == before
+    assert len(ran(sea, out, *WORDS, "--seeds", 1, "--starts", 2)) == 3 and finished(out) == before
+
+
+def test_the_report_of_a_sea_is_the_same_when_it_is_drawn_again(small):
+    page, _ = built_twice(small[0])
+    assert b"Top: distance of the buoy from its anchor" in page
+
+
+@pytest.mark.parametrize("other", [[], ["waves.jonswap.peak_enhancement", 1, 5, 2]], ids=["a row", "a map"])
+def test_every_state_of_a_map_has_a_row(tmp_path, other):
+    ran(sea, tmp_path, *SHORT, "--seeds", 1, "--starts", 1, "--vary", sea.HEIGHT, 0.5, 1.5, 2, *other)
+    cells = rows_of(tmp_path, "cells/table.csv")
+    assert [float(cell["significant_height_m"]) for cell in cells] == pytest.approx(
+        sorted([0.5, 1.5] * (len(cells) // 2))
+    )
+    built_twice(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        (["--set", "waves.steepness=0.1"], "irregular waves"),
+        (["--vary", "water.depth_m", "21", "23"], "--vary"),
+        (["--vary", *"water.depth_m 21 23 2 water.depth_m 21 23 2".split()], "given twice"),
+        (["--snap-share", "0.01"], "--snap-share"),
+        (["--hours", "0"], "--hours"),
+        (["--set", "waves.jonswap.seed=3"], "use --seeds"),
+        (["--set", "waves.components=[{period_s=5, amplitude_m=0.3}]"], "--seeds"),
+        (
+            ["--set", "waves.jonswap.significant_height_m=2", "--vary", *f"{sea.HEIGHT} 1 2 2".split()],
+            "this campaign sets",
+        ),
+    ],
+)
+def test_an_order_that_cannot_be_is_refused_with_its_key(words, fault, tmp_path, capsys):
+    assert sea.main([*words, "--out", str(tmp_path / "out")]) == 2
+    assert fault in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def motion(amplitude, letter, tension):
+    lengths = {"radius_min_m": 20.0, "radius_max_m": 21.0, "angle_min_rad": -0.1, "angle_max_rad": 0.1}
+    return {"waves.amplitude_m": amplitude, "motion": letter, "status": "ok", "tension_top_max_N": tension, **lengths}
+
+
+FOLDED = [motion(a, "A", 1000.0 * (1 + a)) for a in (0.2, 0.4, 0.6, 0.8)]
+FOLDED += [motion(a, "B", 4000.0 * (1 + a)) for a in (0.6, 0.8, 1.0, 1.2)]
+
+
+def test_folds_lie_where_the_motions_end():
+    folds = folds_of(FOLDED, ())
+    ends = pytest.approx(0.5, abs=2e-3), pytest.approx(0.9, abs=2e-3)
+    assert (folds.jump(False), folds.jump(True)) == ends
+    assert folds.is_large(np.array([0.6, 0.6, 0.1]), np.array([3190.0, 3210.0, 3210.0])).tolist() == [False, True, True]
+    end = {"motion": "A", "end": "upper", "waves.amplitude_m_end": 0.83, "leads_to": "B"}
+    folds = folds_of(FOLDED, [end])
+    assert folds.jump(True) == pytest.approx(0.83, abs=2e-3)
+    follows = folds.forecast(np.array([0.3, 0.7, 0.95, 0.7, 0.45]), False)
+    assert follows.tolist() == [False, False, True, True, False]
+
+
+def test_waves_of_one_motion_have_no_folds():
+    assert folds_of(FOLDED[:4], ()) is None
+    assert folds_of([*FOLDED[:4], motion(0.4, "B", 1450.0)], ()) is None
+    assert design_loads(FOLDED, 0.61) == [("A", 1600.0), ("B", 6400.0)]
+
+
+def cell(**entries):
+    known = {"status": "ok", "seas": 8.0, "apart_seas": 0.0, "snaps_per_hour": 41.0, "equivalent_load_N": 1.0}
+    return known | entries
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        (
+            {"sign": "−", "together_periods": 104.0, "partings_per_hour": 0.0},
+            "forgets how it began after about 100 periods",
+        ),
+        ({"sign": "+"}, "never forgets"),
+        ({"sign": "open"}, "not decided"),
+        ({"sign": "−", "apart_seas": 8.0}, "more than one response"),
+    ],
+)
+def test_the_first_sentence_answers_the_question(entries, words):
+    options = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=True)
+    first, *_ = sentences([cell(**entries)], options)
+    assert words in first
+    assert not math.isnan(len(first))
+
+
+def test_a_map_over_steepness_and_width_draws_every_state_anew_by_its_seed():
+    faults = []
+    words = "--vary waves.significant_steepness 0.05 0.1 2 --vary waves.relative_width 0 0.05 2 --seeds 2 --starts 1"
+    order = sea.read_order(words.split(), faults)
+    assert not faults
+    drawn = {
+        (case.scene.waves.significant_steepness, case.scene.waves.relative_width, case.scene.waves.seed)
+        for case in order.cases
+    }
+    assert drawn == {(s, w, seed) for s in (0.05, 0.1) for w in (0.0, 0.05) for seed in (1, 2)}

@@ -1,0 +1,119 @@
+"""Law: the water of a sea is the plain sum of its linear waves, in a plane and in space, also far above waves that are
+short beside an element; its slopes are those of the sum. Two halves of one wave move a line as the whole wave does. A
+run in a lane is the run alone, a run that goes on is the whole run, and a sea in a plane is the same in space.
+"""
+
+import numpy as np
+import pytest
+
+from engine import load_scene, simulate
+from engine.physics.sea import rows_of, sea_slopes
+from engine.run.simulation import simulate_batch
+from tests.engine.kernels import parameters_of, waves_at
+
+RNG = np.random.default_rng(7)
+DEPTH = 22.5
+CAP = {"buoy.submergence": "spherical-cap"}
+
+
+def sea(seed, dimensions=2, **changes):
+    jonswap = {"significant_height_m": 1.6, "seed": seed, "components": int(RNG.choice([2, 8, 37, 64]))}
+    keys = {"water.depth_m": DEPTH, "motion.dimensions": dimensions, "waves.jonswap": jonswap, "tether.nodes": 11}
+    return load_scene("tethered_buoy", keys | changes)
+
+
+def plain_sum(scene, t, X):
+    """Velocity and its rate at X (n, 2) or (n, 3) in long doubles."""
+    k, omega, phase, cosine, sine, speed, _ = rows_of(scene).astype(np.longdouble).T
+    along = X[:, :1] * cosine + (X[:, 1:2] * sine if X.shape[1] == 3 else 0.0)
+    psi, z = k * along - omega * np.longdouble(t) + phase, np.maximum(X[:, -1:], 0.0)
+    up, down = speed * np.exp(k * (z - DEPTH)), speed * np.exp(-k * (z + DEPTH))
+    level, rate = (up + down) * np.cos(psi), omega * (up + down) * np.sin(psi)
+    ahead = [cosine, sine] if X.shape[1] == 3 else [cosine]
+    velocity = [*(level * part for part in ahead), (up - down) * np.sin(psi)]
+    rates = [*(rate * part for part in ahead), -omega * (up - down) * np.cos(psi)]
+    return np.stack([part.sum(axis=1) for part in (*velocity, *rates)], axis=1)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@pytest.mark.parametrize("period_s", [1.0, 4.0, 8.0])
+@pytest.mark.parametrize("stretch", [1.0, 9.0])
+def test_the_field_is_the_plain_sum(dimensions, period_s, stretch):
+    """On smooth lines, for the recurrence, and at places far apart, where it is not used."""
+    jonswap = {"significant_height_m": 0.2, "seed": 3, "components": 37}
+    keys = {"waves.above_still_water": "extrapolate", "waves.period_s": period_s, "waves.jonswap": jonswap}
+    scene = sea(0, dimensions, **keys, **({"waves.direction_rad": 0.7} if dimensions == 3 else {}))
+    for t in RNG.uniform(0.0, 2000.0, 5):
+        X = np.column_stack([np.sin(np.linspace(0.0, 2.0 * stretch, 60 + axis)[:60]) for axis in range(dimensions)])
+        X[:, -1] = np.linspace(0.0, DEPTH + 0.2, 60)
+        X[30:] += RNG.normal(size=(30, dimensions)) * (stretch > 1.0)
+        X[:, -1] = np.clip(X[:, -1], 0.0, DEPTH + 0.3)
+        exact = plain_sum(scene, t, X)
+        size = np.abs(exact).max(axis=0)
+        assert np.all(np.abs(waves_at(scene, t, X) - exact) <= 1e-12 * size + 1e-300)
+
+
+@pytest.mark.parametrize("above", ["extrapolate", "zero", "wheeler"])
+def test_the_slopes_are_those_of_the_field(above):
+    """By central differences of step 1e-4 m, within a ramp."""
+    scene = sea(1, **{"waves.above_still_water": above, "waves.ramp_s": 20.0})
+    p, tables = parameters_of(scene)
+    X = np.column_stack([np.linspace(-2.0, 2.0, 9), np.linspace(1.0, DEPTH + 0.6, 9)])
+    J, d = np.zeros((9, 8)), 1e-4
+    sea_slopes(p, tables, 7.0, X, np.zeros((9, 4)), J)
+    for axis in range(2):
+        step = d * np.eye(2)[axis]
+        slope = (waves_at(scene, 7.0, X + step) - waves_at(scene, 7.0, X - step)) / (2 * d)
+        assert J[:, 4 * axis : 4 * axis + 4] == pytest.approx(slope, abs=1e-6)
+
+
+@pytest.mark.parametrize("capped", [{}, CAP], ids=["whole", "cap"])
+@pytest.mark.parametrize("angle", [0.0, np.pi])
+def test_two_halves_of_a_wave_are_the_wave(capped, angle):
+    tight = {"solver.newton_tolerance": 1e-11, "waves.above_still_water": "extrapolate", "water.depth_m": 21.3}
+    whole = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.amplitude_m": 0.6, "waves.direction_rad": angle})
+    half = {"period_s": 5.0, "amplitude_m": 0.3, "direction_rad": angle}
+    halves = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half, half]})
+    one = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half | {"amplitude_m": 0.6}]})
+    expected, found, alone = (simulate(scene, periods=2).columns for scene in (whole, halves, one))
+    for name in ("x_m", "z_m"):
+        assert np.abs(found[name] - expected[name]).max() < 1e-9
+        assert np.array_equal(alone[name], expected[name])
+
+
+@pytest.mark.parametrize("capped", [{}, CAP | {"output.tangent_vectors": 1}], ids=["whole", "cap and tangent"])
+def test_a_run_in_a_lane_is_the_run_alone_and_goes_on_as_if_it_had_not_stopped(capped):
+    scenes = [sea(seed, **capped, **{"waves.jonswap": jonswap(seed)}) for seed in range(3)]
+    together = list(simulate_batch(scenes, periods=4))
+    whole = simulate(scenes[1], periods=4)
+    later = simulate(scenes[1], periods=2, start=simulate(scenes[1], periods=2))
+    for name in ("x_m", "z_m", "tension_top_N"):
+        assert np.array_equal(together[1].columns[name], whole.columns[name])
+        assert np.array_equal(later.columns[name][1:], whole.columns[name][-len(later.columns[name]) + 1 :])
+    assert not np.array_equal(together[0].columns["x_m"], together[2].columns["x_m"])
+
+
+def jonswap(seed):
+    return {"significant_height_m": 1.6, "seed": seed, "components": 20}
+
+
+@pytest.mark.parametrize("capped", [{}, CAP], ids=["whole", "cap"])
+def test_in_space_a_sea_moves_a_line_as_in_its_plane(capped):
+    """In the first period, because the equations make 1e7 of a difference in the second, in a regular wave too."""
+    keys = {"waves.jonswap": jonswap(4) | {"significant_height_m": 0.8}, **capped}
+    plane, space = (simulate(sea(0, axes, **keys), periods=1).columns for axes in (2, 3))
+    for name in ("x_m", "z_m"):
+        assert np.abs(plane[name] - space[name]).max() < 1e-9
+
+
+def test_a_gaussian_sea_has_its_energy_and_its_width_and_without_width_is_a_regular_wave():
+    keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1}
+    broad = rows_of(sea(0, **keys, **{"waves.relative_width": 0.1, "waves.component_count": 500}))
+    energy = broad[:, 6] ** 2 / 2.0
+    (one,) = rows_of(sea(0, **keys, **{"waves.relative_width": 0.0}))
+    assert energy.sum() == pytest.approx((2.0 * 0.1 / one[0]) ** 2 / 16.0, rel=1e-12)
+    assert one[6] ** 2 / 2.0 == pytest.approx(energy.sum(), rel=1e-12)
+    ratio = broad[:, 1] / (2.0 * np.pi / 5.0)
+    mean = np.sum(energy * ratio) / energy.sum()
+    assert mean == pytest.approx(1.0, abs=1e-3)
+    assert np.sqrt(np.sum(energy * (ratio - mean) ** 2) / energy.sum()) == pytest.approx(0.1, rel=1e-2)
