@@ -13,6 +13,7 @@ import numpy as np
 
 from analysis import detect_period, extremes, slack_fraction, transverse_lyapunov
 from analysis.evidence import evidence_text
+from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of
@@ -38,7 +39,6 @@ from tables import (
 if TYPE_CHECKING:
     from campaigns.explore.judgement import Judgement
 
-STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0, PLANE)
 TRANSIENT = Column(
     "transient_periods", "", "transient", "wave periods at the start that are left out of extremes", 0, REGIMES
