@@ -3,6 +3,7 @@
     python -m engine                                           lists the scenes
     python -m engine tethered_buoy --set waves.steepness=0.1   runs one, prints what it did, shows a figure
     python -m engine tethered_buoy --start-from RUN.nc         goes on from the end of a saved run
+    python -m engine --new my.toml                             asks for your own mooring, writes a commented scene
 
 A buoy in regular waves carries a perturbation along, unless `--set output.tangent_vectors=0` says otherwise: its growth
 is the exponent that tells chaos from other motions.
@@ -118,6 +119,10 @@ def main(argv: list[str] | None = None) -> int:
         for name in engine.list_scenes():
             print(f"  {name:<14} {engine.load_scene(name).title}")
         return 0
+    if argv[0] == "--new":
+        from engine.own_mooring import command
+
+        return command.main(argv[1:])
     faults: list[str] = []
     order = read_order(argv, faults)
     if faults:
