@@ -10,12 +10,13 @@ is the exponent that tells chaos from other motions.
 """
 
 import argparse
-import os
+import difflib
 import sys
 from pathlib import Path
 
 import engine.scene
 from engine import views
+from engine.atomic import can_be_written
 from engine.streams import open_streams, printed
 
 MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
@@ -57,8 +58,7 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     try:
         options = parser().parse_args(argv)
     except ValueError as error:
-        hint = "; keys of the scene are given as --set KEY=VALUE" if "unrecognized" in str(error) else ""
-        faults.append(f"{error}{hint}")
+        faults.append(f"{error}{_hint(str(error))}")
         return None
     name, options.scene, options.start = options.scene, None, None
     changes = {}
@@ -88,6 +88,21 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     return options
 
 
+def _hint(message: str) -> str:
+    """What may have been meant by the first word that argparse does not know."""
+    _, unknown, words = message.partition("unrecognized arguments: ")
+    if not unknown:
+        return ""
+    word = words.split()[0]
+    options = ["--new", *(name for action in parser()._actions for name in action.option_strings)]
+    close = difflib.get_close_matches(word.partition("=")[0], options, n=1, cutoff=0.75)
+    if close:
+        return f"; did you mean {close[0]}?"
+    if "=" in word and not word.startswith("-"):
+        return f"; did you mean --set {word}?"
+    return "; keys of the scene are given as --set KEY=VALUE"
+
+
 def _faults_of_run(options: argparse.Namespace) -> list[str]:
     """What lets no run of these options begin; sets the state that it begins in."""
     from engine.parameters.limits import check_room
@@ -106,7 +121,7 @@ def _faults_of(out: Path) -> list[str]:
     folder = out.parent
     if out.suffix not in KINDS:
         return [f"--out: given {str(out)!r}; allowed: a file whose name ends in {', '.join(KINDS)}"]
-    if out.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+    if out.is_dir() or not can_be_written(folder):
         return [f"--out: given {str(out)!r}; allowed: a file in a folder that is there and can be written to"]
     return []
 

@@ -17,13 +17,14 @@ import json
 import math
 import os
 import re
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import Field, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
+import engine
 import engine.scene
+from engine.atomic import can_be_written
 
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
@@ -279,10 +280,10 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             continue  # the value of an unknown option, which has been named
         name = word.partition("=")[0]
         fault = f"{name}: no such option"
-        meant = _option_of(word, parser)
+        meant = _with_option(word, parser)
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         if meant:
-            fault = f"{word}: given without its option; did you mean {meant} {word}?"
+            fault = f"{word}: given without its option; did you mean {meant}?"
         elif close:
             fault += f"; did you mean {close[0]}?"
         faults.append(fault)
@@ -293,25 +294,29 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
     return values
 
 
-def _option_of(word: str, parser: argparse.ArgumentParser) -> str:
-    """The option whose value a word without one may be: --steepness of 0.05, --set of KEY=VALUE; "" if there is none.
+def _with_option(word: str, parser: argparse.ArgumentParser) -> str:
+    """A word with the option that it may belong to: "--steepness 0.05" of 0.05; "" where there is none.
 
     Of the options that take many values of a kind, the first that allows the word.
     """
-    names = {action.option_strings[0]: action for action in parser._actions if action.option_strings}
-    if re.fullmatch(r"[\w.\[\]]+=.+", word) and "--set" in names:
-        return "--set"
-    if word.endswith(".toml") and "--scene" in names:
-        return "--scene"
-    for name, action in names.items():
-        declared = getattr(action, "option", None)
+    named = [action for action in parser._actions if action.option_strings]
+    options = {action.option_strings[0]: getattr(action, "option", None) for action in named}
+    key, equals, value = word.partition("=")
+    if equals and f"--{key}" in options:
+        return f"--{key} {value}"
+    if re.fullmatch(r"[\w.\[\]]+=.+", word) and "--set" in options:
+        return f"--set {word}"
+    shipped = Path(engine.__file__).parent / "scenes" / f"{word}.toml"
+    if "--scene" in options and (word.endswith(".toml") or shipped.exists()):
+        return f"--scene {word}"
+    for name, declared in options.items():
         if declared is None or declared.kind is None or not declared.many:
             continue
         try:
             declared.kind.convert(word)
         except ValueError:
             continue
-        return name
+        return f"{name} {word}"
     return ""
 
 
@@ -376,23 +381,12 @@ def fault_of(out: Path, campaign: str) -> str | None:
     parent = next((path for path in (out, *above) if os.path.exists(path)), out)
     if not os.path.isdir(parent):
         return f"{given}, but {parent} is a file; {A_FOLDER}"
-    if not _can_be_written(parent):
+    if not can_be_written(parent):
         return f"{given}, but {parent} cannot be written to; allowed: a folder that can"
     held = _held(out)
     if held in ("", campaign):
         return None
     return f"{given}, which holds {held}; {A_FOLDER}"
-
-
-def _can_be_written(folder: Path) -> bool:
-    """Whether a file can be made in a folder: /proc says yes to whoever asks for his rights, and makes none."""
-    if not os.access(folder, os.W_OK):
-        return False
-    try:
-        with tempfile.TemporaryFile(dir=folder):  # without a name, where the file system has such files
-            return True
-    except OSError:
-        return False
 
 
 def _held(out: Path) -> str:

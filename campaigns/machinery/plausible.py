@@ -145,5 +145,7 @@ def _too_long(scene, k: float, height_m: float) -> Iterator[Odd]:
     """A wave of wave number k (rad/m) that is too long for its height in this depth to be linear."""
     ursell = height_m * (2.0 * math.pi / k) ** 2 / scene.water.depth_m**3
     if ursell > MOST_URSELL:
-        beyond = f"H L^2/depth^3 = {ursell:.3g} is above {MOST_URSELL:g}, where waves are no longer linear (Hedges 1995)"
+        beyond = (
+            f"H L^2/depth^3 = {ursell:.3g} is above {MOST_URSELL:g}, where waves are no longer linear (Hedges 1995)"
+        )
         yield "waves.period_s", scene.waves.period_s, f"a shorter period or lower waves, because {beyond}"

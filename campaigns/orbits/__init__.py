@@ -60,16 +60,18 @@ class Options(cli.Options):
 
     def read(self, out: Path, faults: list[str]) -> None:
         """The key with its values in the words of --vary."""
+        if self.motion is not None and self.start_from is not None:
+            faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
+        elif self.motion is not None and not re.fullmatch("[A-Z]{1,2}", self.motion):
+            faults.append(f"--motion: given {self.motion!r}; allowed: a capital letter, as motions/table.csv has them")
         words = self.vary or USUAL.split()
+        if faults and words == USUAL.split():
+            return
         if len(words) != 3:
             faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
             words = USUAL.split()
         key = varied([*words, str(self.values)], faults)
         self.grid = Grid(() if key is None else (key,))
-        if self.start_from is not None and self.motion is not None:
-            faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
-        elif self.motion is not None and not re.fullmatch("[A-Z]{1,2}", self.motion):
-            faults.append(f"--motion: given {self.motion!r}; allowed: a capital letter, as motions/table.csv has them")
 
 
 def cases(order: Order) -> Iterator[Job]:

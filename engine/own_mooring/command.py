@@ -2,25 +2,23 @@
 
 import argparse
 import math
-import os
 import re
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from engine.atomic import write_atomic
+from engine.atomic import can_be_written, write_atomic
 from engine.own_mooring.ropes import materials, rope_of
 from engine.own_mooring.scene import SUBMERGED, SURFACE, Mooring, scene_text
-from engine.scene import SceneError, scene_from_toml
 
 DESCRIPTION = """Write a commented scene of a sphere on one rope; what is not given is asked for on a terminal.
 
     python -m engine --new my.toml --buoy-diameter 3 --depth 60 --rope nylon --rope-mm 50 --length 70 \\
         --wave-height 6 --wave-period 9 --current 0.5
 
-The programme chooses the rest and says why in the file: wetted cap or fully submerged, added mass, drag, the bed, a ramp
-of the waves, and the properties of the rope (engine/own_mooring/ropes.toml names their sources).
+The programme chooses the rest and says why in the file: wetted cap or fully submerged, added mass, drag, the bed, a
+ramp of the waves, and the properties of the rope (engine/own_mooring/ropes.toml names their sources).
 """
 
 
@@ -122,6 +120,8 @@ def main(argv: list[str]) -> int:
         return 130
     if faults:
         return _refused(faults)
+    from engine.scene import SceneError, scene_from_toml  # half a second
+
     mooring = Mooring(
         buoy_diameter_m=answers["buoy-diameter"],
         depth_m=answers["depth"],
@@ -171,7 +171,7 @@ def _faults_of(path: Path) -> list[str]:
         return [f"--new: {given}; allowed: NAME.toml, with letters, digits and _ . - in the name"]
     if path.exists():
         return [f"--new: {given}, which is there already; allowed: a new file"]
-    if not path.parent.is_dir() or not os.access(path.parent, os.W_OK):
+    if not can_be_written(path.parent):
         return [f"--new: {given}; allowed: a file in a folder that is there and can be written to"]
     return []
 
@@ -186,10 +186,12 @@ def _tell(mooring: Mooring, path: Path) -> None:
     """What was chosen, and the next commands."""
     rope = mooring.rope
     print(f"scene     {path}")
-    print(f"rope      EA {1e-3 * rope.stiffness_N:.3g} kN, {rope.mass_kgpm:.3g} kg/m, "
+    print(f"rope      EA {1e-3 * rope.stiffness_N:.4g} kN, {rope.mass_kgpm:.3g} kg/m, "
           f"breaking load {1e-3 * rope.breaking_load_N:.3g} kN: {rope.source}")  # fmt: skip
-    for other_N, source in rope.others:
-        print(f"          EA {1e-3 * other_N:.3g} kN by {source}: try it, --set tether.tension.stiffness_N={other_N:.3g}")
+    for alternative_N, source in rope.alternatives:
+        print(
+            f"          EA {1e-3 * alternative_N:.3g} kN by {source}: try it, --set tether.tension.stiffness_N={alternative_N:.3g}"
+        )
     floats = "floats (its wetted cap is in the water)" if mooring.kind == SURFACE else "stays submerged"
     print(f"buoy      {floats}; with {1e-3 * mooring.lift_N:.3g} kN it pulls at most while it is not accelerated")
     print(f"next      python -m engine {path}")

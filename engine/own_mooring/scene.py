@@ -117,8 +117,8 @@ def _head(mooring: Mooring, name: str) -> list[str]:
     rope = mooring.rope
     title = f"Sphere of {mooring.buoy_diameter_m:g} m on {mooring.length_m:g} m of rope of {1e3 * rope.diameter_m:g} mm"
     return [
-        "# Written by `python -m engine --new`. Every value says where it comes from. \"choice\": the programme chose it;",
-        "# vary it, and see whether the answer moves. docs/own_mooring.md goes on from here.",
+        "# Written by `python -m engine --new`. Every value says where it comes from. A choice is that of the",
+        "# programme: vary it, and see whether the answer moves. docs/own_mooring.md goes on from here.",
         f'name = "{name}"',
         f'title = "{title} in {mooring.depth_m:g} m of water"',
     ]
@@ -127,8 +127,8 @@ def _head(mooring: Mooring, name: str) -> list[str]:
 def _tether(mooring: Mooring) -> list[str]:
     rope = mooring.rope
     stiffness = rope.source
-    for other_N, source in rope.others:
-        stiffness += f"; {1e-3 * other_N:.3g} kN: {source}"
+    for alternative_N, source in rope.alternatives:
+        stiffness += f"; {1e-3 * alternative_N:.4g} kN: {source}"
     return [
         "[tether]",
         _line(f"length_m = {float(mooring.length_m)}", "given: unstretched, anchor to buoy"),
@@ -159,14 +159,19 @@ def _buoy(mooring: Mooring) -> list[str]:
     if mooring.wave_height_m > 0.0:
         speed_mps += math.pi * mooring.wave_height_m / mooring.wave_period_s
     reynolds = speed_mps * diameter_m / VISCOSITY_M2PS
-    drag, range_ = (0.2, "above") if reynolds > CRISIS else (0.5, "below")
-    reach = f"on the stretched rope its top reaches {mooring.reach_m:.4g} m, and a trough is at {mooring.trough_m:.4g} m"
+    drag, side = (0.2, "above") if reynolds > CRISIS else (0.5, "below")
+    reach = (
+        f"on the stretched rope its top reaches {mooring.reach_m:.4g} m, and a trough is at {mooring.trough_m:.4g} m"
+    )
     return [
         "[buoy]",
         _line(f"diameter_m = {float(diameter_m)}", "given"),
         _line(f"mass_kg = {mooring.buoy_kg:.5g}", origin),
-        _line(f"added_mass_kg = {0.5 * mooring.displaced_kg:.5g}", "half of the displaced mass: a sphere in potential flow"),
-        _line(f"drag = {drag}", f"smooth sphere {range_} Re = 3e5 (Hoerner 1965), here about {reynolds:.1g}"),
+        _line(
+            f"added_mass_kg = {0.5 * mooring.displaced_kg:.5g}",
+            "half of the displaced mass: a sphere in potential flow",
+        ),
+        _line(f"drag = {drag}", f"smooth sphere {side} Re = 3e5 (Hoerner 1965), here about {reynolds:.1g}"),
         _line(f'submergence = "{submergence}"', f"{why}: {reach}"),
     ]
 
@@ -189,7 +194,12 @@ def _water(mooring: Mooring) -> list[str]:
         ]
     if mooring.current_mps:
         velocity = f"velocity_mps = [{float(mooring.current_mps)}, 0.0, 0.0]"
-        lines += ["", "[current]", _line('law = "uniform"', "choice: the same at every height"), _line(velocity, "given")]
+        lines += [
+            "",
+            "[current]",
+            _line('law = "uniform"', "choice: the same at every height"),
+            _line(velocity, "given"),
+        ]
     return lines
 
 
@@ -200,6 +210,9 @@ def _floor(mooring: Mooring) -> list[str]:
     damping = 2.0 * math.sqrt(stiffness * rope.mass_kgpm / rope.diameter_m)
     return [
         "[floor]",
-        _line(f"stiffness_Npm3 = {stiffness:.3g}", f"choice: the line sinks in by {1e3 * SINK_M:g} mm under its weight in air"),
+        _line(
+            f"stiffness_Npm3 = {stiffness:.3g}",
+            f"choice: the line sinks in by {1e3 * SINK_M:g} mm under its weight in air",
+        ),
         _line(f"damping_Nspm3 = {damping:.3g}", "choice: critical for the mass of the line"),
     ]
