@@ -7,8 +7,6 @@ import ast
 import difflib
 import importlib
 import sys
-from collections.abc import Iterable
-from functools import partial
 from pathlib import Path
 
 from engine.streams import open_streams, printed
@@ -23,59 +21,44 @@ COMMANDS = {  # of `tether`, beside the campaigns: module, words put before thos
 
 def main(argv: list[str] | None = None) -> int:
     """List the campaigns with their first line (exit code 0), or run the one that is named."""
-    argv = sys.argv[1:] if argv is None else argv
-    if argv and argv[0] not in ("-h", "--help"):
-        name = argv[0].removeprefix("campaigns.")
-        if name in _names():
-            return importlib.import_module(f"campaigns.{name}").main(argv[1:])
-        return _refused("python -m campaigns", "campaign", argv[0], _names())
-    print("python -m campaigns NAME ..., or python -m campaigns.NAME ...; --help tells the options of each\n")
-    _list(_names())
-    return 0
+    return _run("python -m campaigns", {}, argv)
 
 
 def tether(argv: list[str] | None = None) -> int:
     """The command `tether`: list what there is, or run a campaign or one of COMMANDS. Returns the exit code."""
+    return _run("tether", COMMANDS, argv)
+
+
+def _run(called: str, commands: dict[str, tuple], argv: list[str] | None) -> int:
     argv = sys.argv[1:] if argv is None else argv
-    names = [*COMMANDS, *_names()]
+    campaigns = sorted(path.parent.name for path in Path(__file__).parent.glob("*/__main__.py"))
     if not argv or argv[0] in ("-h", "--help"):
-        print("tether NAME ...; --help tells the options of each\n")
-        _list(names)
+        print(f"{called} NAME ...; --help tells the options of each\n")
+        for name, (_, _, line) in commands.items():
+            print(f"  {name:<14} {line}")
+        for name in campaigns:
+            text = (Path(__file__).parent / name / "__init__.py").read_text(encoding="utf-8")
+            print(f"  {name:<14} {(ast.get_docstring(ast.parse(text)) or '').partition(chr(10))[0]}")
         return 0
     name, *words = argv
-    if name in COMMANDS:
-        module, before, _ = COMMANDS[name]
+    name = name.removeprefix("campaigns.")
+    if name in commands:
+        module, before, _ = commands[name]
         return importlib.import_module(module).main([*before, *words])
-    if name in names:
+    if name in campaigns:
         return importlib.import_module(f"campaigns.{name}").main(words)
-    return _refused("tether", "command", name, names)
+    names = [*commands, *campaigns]
+    close = difflib.get_close_matches(name, names, n=1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    kind = "command" if commands else "campaign"
+    print(f"{called}: no {kind} {argv[0]!r}{hint}; allowed: {', '.join(names)}", file=sys.stderr)
+    return 2
 
 
 def installed() -> int:
     """The entry point of `tether` (pyproject.toml)."""
     open_streams()
-    return printed(partial(tether, sys.argv[1:]))
-
-
-def _refused(command: str, kind: str, given: str, names: list[str]) -> int:
-    close = difflib.get_close_matches(given.removeprefix("campaigns."), names, n=1)
-    hint = f"; did you mean {close[0]!r}?" if close else ""
-    print(f"{command}: no {kind} {given!r}{hint}; allowed: {', '.join(names)}", file=sys.stderr)
-    return 2
-
-
-def _list(names: Iterable[str]) -> None:
-    for name in names:
-        if name in COMMANDS:
-            line = COMMANDS[name][2]
-        else:
-            text = (Path(__file__).parent / name / "__init__.py").read_text(encoding="utf-8")
-            line = (ast.get_docstring(ast.parse(text)) or "").partition("\n")[0]
-        print(f"  {name:<14} {line}")
-
-
-def _names() -> list[str]:
-    return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__main__.py"))
+    return printed(tether)
 
 
 if __name__ == "__main__":

@@ -11,8 +11,8 @@ from pathlib import Path
 class Rope:
     """A rope of a nominal diameter d.
 
-    area_m2: of the material, mass per length / density, which displaces water. stiffness_N: EA. alternatives: EA by the
-    coefficients of further sources, as (N, source). bending_Nm2: EA A/(4 pi), that of a solid rod of this area, which
+    area_m2: of the material, mass per length / density, which displaces water. stiffness_N: EA. elsewhere: what further
+    sources say of it. bending_Nm2: EA A/(4 pi), that of a solid rod of this area, which
     threads that slide on each other do not reach.
     """
 
@@ -23,7 +23,7 @@ class Rope:
     stiffness_N: float
     breaking_load_N: float
     source: str
-    alternatives: tuple[tuple[float, str], ...] = ()
+    elsewhere: str
 
     @property
     def mass_kgpm(self) -> float:
@@ -61,7 +61,5 @@ def rope_of(material: str, diameter_m: float) -> Rope:
         stiffness_N=stiffness_N,
         breaking_load_N=breaking_N,
         source=row["source"],
-        alternatives=tuple(
-            (alternative["stiffness_per_breaking"] * breaking_N, alternative["source"]) for alternative in row.get("alternatives", ())
-        ),
+        elsewhere=row.get("elsewhere", "no further source"),
     )

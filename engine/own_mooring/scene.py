@@ -6,15 +6,16 @@ if it is below, the buoy stays submerged, and the water acts on the whole sphere
 """
 
 import math
+import re
 from dataclasses import dataclass
+from pathlib import Path
 
 from engine.own_mooring.ropes import Rope
 
 SEA_KGPM3, GRAVITY_MPS2, VISCOSITY_M2PS = 1025.0, 9.81, 1.2e-6
 SURFACE, SUBMERGED = "surface", "submerged"
 CRISIS = 3e5  # Reynolds number above which the drag of a smooth sphere falls from 0.5 to 0.2 (Hoerner 1965)
-RAMP_PERIODS = 5
-SINK_M = 0.01  # of the line into the bed, under its weight in air
+SINK_M = 0.01  # of the rope into the bed, under its weight in air
 MICHE = 0.142  # largest height of a wave / length in deep water (Miche 1944)
 
 
@@ -36,6 +37,34 @@ class Mooring:
     mass_kg: float | None = None
 
     @property
+    def rope_mm(self) -> float:
+        """Diameter of the rope."""
+        return 1e3 * self.rope.diameter_m
+
+    @property
+    def amplitude_m(self) -> float:
+        """Of the waves."""
+        return 0.5 * self.wave_height_m
+
+    @property
+    def ramp_s(self) -> float:
+        """Time in which the waves grow: five periods."""
+        return 5.0 * self.wave_period_s
+
+    @property
+    def reynolds(self) -> float:
+        """Of the sphere: current and motion of the water in the waves, as if it stood still."""
+        speed_mps = abs(self.current_mps)
+        if self.wave_height_m:
+            speed_mps += math.pi * self.wave_height_m / self.wave_period_s
+        return speed_mps * self.buoy_diameter_m / VISCOSITY_M2PS
+
+    @property
+    def drag(self) -> float:
+        """Drag coefficient of a smooth sphere (Hoerner 1965, Fluid-dynamic drag)."""
+        return 0.2 if self.reynolds > CRISIS else 0.5
+
+    @property
     def displaced_kg(self) -> float:
         """Sea water that the whole sphere displaces."""
         return SEA_KGPM3 * math.pi * self.buoy_diameter_m**3 / 6.0
@@ -44,6 +73,11 @@ class Mooring:
     def buoy_kg(self) -> float:
         """Mass of the buoy."""
         return 0.5 * self.displaced_kg if self.mass_kg is None else self.mass_kg
+
+    @property
+    def added_kg(self) -> float:
+        """Added mass of a sphere in potential flow."""
+        return 0.5 * self.displaced_kg
 
     @property
     def lift_N(self) -> float:
@@ -61,6 +95,11 @@ class Mooring:
         return SURFACE if self.reach_m >= self.trough_m else SUBMERGED
 
     @property
+    def submergence(self) -> str:
+        """The value of buoy.submergence."""
+        return "spherical-cap" if self.kind == SURFACE else "full"
+
+    @property
     def trough_m(self) -> float:
         """Height of a trough above the bed."""
         return self.depth_m - 0.5 * self.wave_height_m
@@ -71,19 +110,19 @@ class Mooring:
         stretch = 1.0 + self.lift_N / self.rope.stiffness_N
         return (self.trough_m - 0.5 * self.buoy_diameter_m) / stretch
 
-    def faults(self) -> list[str]:
-        """What cannot be: a buoy that sinks, a rope that it tears, a wave that breaks; a line each, with the option."""
+    def faults(self, kind: str | None = None) -> list[str]:
+        """What cannot be, a line each with its option: a buoy that sinks or is not of this kind, a wave that breaks."""
         lines = []
         if self.buoy_kg >= self.displaced_kg:
             most = f"less than the {self.displaced_kg:.4g} kg of sea water that the sphere displaces, or it sinks"
             lines.append(f"--buoy-mass: given {self.buoy_kg:g}; allowed: {most}")
-        elif self.kind == SUBMERGED and self.lift_N >= self.rope.breaking_load_N:
-            broken = f"a rope that bears the {1e-3 * self.lift_N:.4g} kN with which the buoy can pull"
-            lines.append(f"--rope-mm: given {1e3 * self.rope.diameter_m:g}, which breaks at "
-                         f"{1e-3 * self.rope.breaking_load_N:.4g} kN; allowed: {broken}")  # fmt: skip
+        breaking_N = self.rope.breaking_load_N
+        if self.kind == SUBMERGED and self.lift_N >= breaking_N:
+            bears = f"a rope that bears the {self.lift_N:.4g} N with which the buoy pulls; this one breaks at"
+            lines.append(f"--rope-mm: given {self.rope_mm:g}; allowed: {bears} {breaking_N:.4g} N")
         if self.buoy_diameter_m >= self.depth_m:
             lines.append(f"--buoy-diameter: given {self.buoy_diameter_m:g}; allowed: less than the depth")
-        if self.wave_height_m > 0.0:
+        if self.wave_height_m:
             from engine.physics.waves import wave_number
 
             k = wave_number(self.wave_period_s, self.depth_m, GRAVITY_MPS2)
@@ -91,128 +130,40 @@ class Mooring:
             if self.wave_height_m > highest:
                 breaks = f"at most {highest:.3g}, where a wave of {self.wave_period_s:g} s breaks in this depth"
                 lines.append(f"--wave-height: given {self.wave_height_m:g}; allowed: {breaks}")
+        if kind not in (None, self.kind):
+            bound, place = ("more", "above") if kind == SURFACE else ("less", "below")
+            needs = f"a rope of {self.longest_submerged_m:.4g} m or {bound}, which stretched by the buoy ends {place}"
+            lines.append(f"--kind: given {kind!r} with a rope of {self.length_m:g} m; allowed: {needs} the troughs")
         return lines
 
-    def kind_fault(self, kind: str | None) -> str:
-        """Why the buoy is not of the kind that was asked for, as a fault line; "" where it is, or none was."""
-        if kind in (None, self.kind):
-            return ""
-        bound = f"{self.longest_submerged_m:.4g} m or {'less' if kind == SUBMERGED else 'more'}"
-        needs = f"a rope of {bound}, because stretched by the buoy it has to end "
-        place = "below the troughs" if kind == SUBMERGED else "above the troughs"
-        return f"--kind: given {kind!r} with a rope of {self.length_m:g} m; allowed: {needs}{place}"
+
+@dataclass(frozen=True)
+class Bed:
+    """Springs into which a rope sinks by SINK_M under its weight in air, with critical damping of its mass."""
+
+    rope: Rope
+
+    @property
+    def stiffness_Npm3(self) -> float:
+        """Per area of contact, which is as wide as the rope."""
+        return self.rope.mass_kgpm * GRAVITY_MPS2 / (self.rope.diameter_m * SINK_M)
+
+    @property
+    def damping_Nspm3(self) -> float:
+        """Of a mass m on a spring k: 2 sqrt(k m), both per length of rope, divided by its width."""
+        return 2.0 * math.sqrt(self.stiffness_Npm3 * self.rope.mass_kgpm / self.rope.diameter_m)
 
 
 def scene_text(mooring: Mooring, name: str) -> str:
-    """The scene as TOML, with the origin of every value in a comment."""
-    sections = [_head(mooring, name), _tether(mooring), _buoy(mooring), _water(mooring), _floor(mooring)]
-    return "\n".join(line for section in sections for line in [*section, ""])
-
-
-def _line(text: str, origin: str) -> str:
-    return f"{text:<46} # {origin}"
-
-
-def _head(mooring: Mooring, name: str) -> list[str]:
+    """The scene as TOML by `template.txt`, with the origin of every value in a comment."""
+    template = Path(__file__).with_name("template.txt").read_text(encoding="utf-8")
+    if not mooring.wave_height_m:
+        template = _without("waves", template)
+    if not mooring.current_mps:
+        template = _without("current", template)
     rope = mooring.rope
-    title = f"Sphere of {mooring.buoy_diameter_m:g} m on {mooring.length_m:g} m of rope of {1e3 * rope.diameter_m:g} mm"
-    return [
-        "# Written by `python -m engine --new`. Every value says where it comes from. A choice is that of the",
-        "# programme: vary it, and see whether the answer moves. docs/own_mooring.md goes on from here.",
-        f'name = "{name}"',
-        f'title = "{title} in {mooring.depth_m:g} m of water"',
-    ]
+    return template.format(name=name, m=mooring, rope=rope, bed=Bed(rope))
 
 
-def _tether(mooring: Mooring) -> list[str]:
-    rope = mooring.rope
-    stiffness = rope.source
-    for alternative_N, source in rope.alternatives:
-        stiffness += f"; {1e-3 * alternative_N:.4g} kN: {source}"
-    return [
-        "[tether]",
-        _line(f"length_m = {float(mooring.length_m)}", "given: unstretched, anchor to buoy"),
-        _line(f"area_m2 = {rope.area_m2:.4g}", f"mass per length, {rope.mass_kgpm:.4g} kg/m, divided by the density"),
-        _line(f"density_kgpm3 = {rope.density_kgpm3}", f"{rope.title}: {rope.source}"),
-        _line(f"diameter_m = {rope.diameter_m:g}", "given: nominal, on which the drag acts"),
-        _line(f"breaking_load_N = {rope.breaking_load_N:.4g}", f"{rope.source}; take that of your certificate"),
-        _line(f'tension = {{ law = "linear", stiffness_N = {rope.stiffness_N:.4g} }}', f"EA: {stiffness}"),
-        _line(
-            f"bending_stiffness_Nm2 = {rope.bending_Nm2:.3g}",
-            "EA A/(4 pi): a solid rod. A rope has less; it matters where the rope is slack",
-        ),
-        _line("drag_normal = 1.0", "Tjavaras et al. (1998), section 2.3; more for a fouled or strumming rope"),
-        _line("drag_tangential = 0.1", "Tjavaras et al. (1998), section 2.3"),
-        _line("added_mass = 1.0", "a circular cylinder in potential flow"),
-        _line("nodes = 41", "choice: compare with 81"),
-    ]
-
-
-def _buoy(mooring: Mooring) -> list[str]:
-    diameter_m, origin = mooring.buoy_diameter_m, "given"
-    if mooring.mass_kg is None:
-        origin = "choice: half of what the sphere displaces. Weigh yours"
-    submergence, why = "full", "it stays submerged"
-    if mooring.kind == SURFACE:
-        submergence, why = "spherical-cap", "it floats"
-    speed_mps = abs(mooring.current_mps)
-    if mooring.wave_height_m > 0.0:
-        speed_mps += math.pi * mooring.wave_height_m / mooring.wave_period_s
-    reynolds = speed_mps * diameter_m / VISCOSITY_M2PS
-    drag, side = (0.2, "above") if reynolds > CRISIS else (0.5, "below")
-    reach = (
-        f"on the stretched rope its top reaches {mooring.reach_m:.4g} m, and a trough is at {mooring.trough_m:.4g} m"
-    )
-    return [
-        "[buoy]",
-        _line(f"diameter_m = {float(diameter_m)}", "given"),
-        _line(f"mass_kg = {mooring.buoy_kg:.5g}", origin),
-        _line(
-            f"added_mass_kg = {0.5 * mooring.displaced_kg:.5g}",
-            "half of the displaced mass: a sphere in potential flow",
-        ),
-        _line(f"drag = {drag}", f"smooth sphere {side} Re = 3e5 (Hoerner 1965), here about {reynolds:.1g}"),
-        _line(f'submergence = "{submergence}"', f"{why}: {reach}"),
-    ]
-
-
-def _water(mooring: Mooring) -> list[str]:
-    lines = [
-        "[water]",
-        _line(f"depth_m = {float(mooring.depth_m)}", "given"),
-        _line(f"density_kgpm3 = {SEA_KGPM3}", "sea water"),
-    ]
-    if mooring.wave_height_m > 0.0:
-        period_s, amplitude_m = float(mooring.wave_period_s), 0.5 * mooring.wave_height_m
-        ramp = f"choice: {RAMP_PERIODS} periods, so that the start does not snap the rope"
-        lines += [
-            "",
-            "[waves]",
-            _line(f"period_s = {period_s}", "given"),
-            _line(f"amplitude_m = {amplitude_m}", "half of the given height"),
-            _line(f"ramp_s = {RAMP_PERIODS * period_s}", ramp),
-        ]
-    if mooring.current_mps:
-        velocity = f"velocity_mps = [{float(mooring.current_mps)}, 0.0, 0.0]"
-        lines += [
-            "",
-            "[current]",
-            _line('law = "uniform"', "choice: the same at every height"),
-            _line(velocity, "given"),
-        ]
-    return lines
-
-
-def _floor(mooring: Mooring) -> list[str]:
-    """Springs into which the line sinks by SINK_M under its weight in air, with critical damping of its mass."""
-    rope = mooring.rope
-    stiffness = rope.mass_kgpm * GRAVITY_MPS2 / (rope.diameter_m * SINK_M)
-    damping = 2.0 * math.sqrt(stiffness * rope.mass_kgpm / rope.diameter_m)
-    return [
-        "[floor]",
-        _line(
-            f"stiffness_Npm3 = {stiffness:.3g}",
-            f"choice: the line sinks in by {1e3 * SINK_M:g} mm under its weight in air",
-        ),
-        _line(f"damping_Nspm3 = {damping:.3g}", "choice: critical for the mass of the line"),
-    ]
+def _without(section: str, template: str) -> str:
+    return re.sub(rf"\n\[{section}\]\n.*?(?=\n\[|\Z)", "", template, flags=re.DOTALL)
