@@ -1,31 +1,64 @@
-"""`python -m campaigns` lists the campaigns; `python -m campaigns NAME ...` is `python -m campaigns.NAME ...`."""
+"""`python -m campaigns` lists the campaigns; `python -m campaigns NAME ...` is `python -m campaigns.NAME ...`.
+
+The command `tether` is one name for all commands: `tether NAME ...` runs a campaign, and COMMANDS lists the others.
+"""
 
 import ast
+import difflib
 import importlib
 import sys
 from pathlib import Path
 
 from engine.streams import open_streams, printed
 
+COMMANDS = {  # of `tether`, beside the campaigns: module, words put before those of the user, what it does
+    "new": ("engine.__main__", ["--new"], "Your own mooring: asks for buoy, rope, water and wave, writes a scene."),
+    "run": ("engine.__main__", [], "One scene until its motion is told, with a figure."),
+    "analysis": ("campaigns.time_series", [], "Is a measured column regular or chaotic?"),
+    "report": ("reports.__main__", [], "Make the report of a finished campaign again."),
+}
+
 
 def main(argv: list[str] | None = None) -> int:
     """List the campaigns with their first line (exit code 0), or run the one that is named."""
+    return _run("python -m campaigns", {}, argv)
+
+
+def tether(argv: list[str] | None = None) -> int:
+    """The command `tether`: list what there is, or run a campaign or one of COMMANDS. Returns the exit code."""
+    return _run("tether", COMMANDS, argv)
+
+
+def _run(called: str, commands: dict[str, tuple], argv: list[str] | None) -> int:
     argv = sys.argv[1:] if argv is None else argv
-    if argv and argv[0] not in ("-h", "--help"):
-        name = argv[0].removeprefix("campaigns.")
-        if name in _names():
-            return importlib.import_module(f"campaigns.{name}").main(argv[1:])
-        print(f"python -m campaigns: no campaign {argv[0]!r}; allowed: {', '.join(_names())}", file=sys.stderr)
-        return 2
-    print("python -m campaigns NAME ..., or python -m campaigns.NAME ...; --help tells the options of each\n")
-    for name in _names():
-        text = (Path(__file__).parent / name / "__init__.py").read_text(encoding="utf-8")
-        print(f"  {name:<14} {(ast.get_docstring(ast.parse(text)) or '').partition(chr(10))[0]}")
-    return 0
+    campaigns = sorted(path.parent.name for path in Path(__file__).parent.glob("*/__main__.py"))
+    if not argv or argv[0] in ("-h", "--help"):
+        print(f"{called} NAME ...; --help tells the options of each\n")
+        for name, (_, _, line) in commands.items():
+            print(f"  {name:<14} {line}")
+        for name in campaigns:
+            text = (Path(__file__).parent / name / "__init__.py").read_text(encoding="utf-8")
+            print(f"  {name:<14} {(ast.get_docstring(ast.parse(text)) or '').partition(chr(10))[0]}")
+        return 0
+    name, *words = argv
+    name = name.removeprefix("campaigns.")
+    if name in commands:
+        module, before, _ = commands[name]
+        return importlib.import_module(module).main([*before, *words])
+    if name in campaigns:
+        return importlib.import_module(f"campaigns.{name}").main(words)
+    names = [*commands, *campaigns]
+    close = difflib.get_close_matches(name, names, n=1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    kind = "command" if commands else "campaign"
+    print(f"{called}: no {kind} {argv[0]!r}{hint}; allowed: {', '.join(names)}", file=sys.stderr)
+    return 2
 
 
-def _names() -> list[str]:
-    return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__main__.py"))
+def installed() -> int:
+    """The entry point of `tether` (pyproject.toml)."""
+    open_streams()
+    return printed(tether)
 
 
 if __name__ == "__main__":

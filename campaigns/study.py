@@ -210,8 +210,10 @@ class Study:
         order = Order(how, cli.options_of(self.options, values), faults=faults)
         if self.lengths is not None:
             self.lengths.read(values, order)
+        if values.mistyped and self._scene_as_shipped(values):
+            return order  # answered before anything heavy is loaded
         order.options.read(how.out, faults)
-        if self.cases is None:
+        if self.cases is None or (faults and self._scene_as_shipped(values)):
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
@@ -224,6 +226,10 @@ class Study:
         """`Order.key` of the values of options, but for those that say where it is done, and of `further` ones."""
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
+
+    def _scene_as_shipped(self, values: Namespace) -> bool:
+        """Whether a command line leaves the scene as it is, so that the scene has no faults to tell."""
+        return not self.scene or (not values.set and values.scene == self.scene)
 
     def order(self, how: cli.Running, scene: str, changes: dict[str, object], **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.

@@ -3,18 +3,20 @@
     python -m engine                                           lists the scenes
     python -m engine tethered_buoy --set waves.steepness=0.1   runs one, prints what it did, shows a figure
     python -m engine tethered_buoy --start-from RUN.nc         goes on from the end of a saved run
+    python -m engine --new my.toml                             asks for your own mooring, writes a commented scene
 
 A buoy in regular waves carries a perturbation along, unless `--set output.tangent_vectors=0` says otherwise: its growth
 is the exponent that tells chaos from other motions.
 """
 
 import argparse
-import os
+import difflib
 import sys
 from pathlib import Path
 
 import engine.scene
 from engine import views
+from engine.atomic import can_be_written
 from engine.streams import open_streams, printed
 
 MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
@@ -56,8 +58,7 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     try:
         options = parser().parse_args(argv)
     except ValueError as error:
-        hint = "; keys of the scene are given as --set KEY=VALUE" if "unrecognized" in str(error) else ""
-        faults.append(f"{error}{hint}")
+        faults.append(f"{error}{_hint(str(error))}")
         return None
     name, options.scene, options.start = options.scene, None, None
     changes = {}
@@ -87,6 +88,21 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     return options
 
 
+def _hint(message: str) -> str:
+    """What may have been meant by the first word that argparse does not know."""
+    _, unknown, words = message.partition("unrecognized arguments: ")
+    if not unknown:
+        return ""
+    word = words.split()[0]
+    options = ["--new", *(name for action in parser()._actions for name in action.option_strings)]
+    close = difflib.get_close_matches(word.partition("=")[0], options, n=1, cutoff=0.75)
+    if close:
+        return f"; did you mean {close[0]}?"
+    if "=" in word and not word.startswith("-"):
+        return f"; did you mean --set {word}?"
+    return "; keys of the scene are given as --set KEY=VALUE"
+
+
 def _faults_of_run(options: argparse.Namespace) -> list[str]:
     """What lets no run of these options begin; sets the state that it begins in."""
     from engine.parameters.limits import check_room
@@ -105,7 +121,7 @@ def _faults_of(out: Path) -> list[str]:
     folder = out.parent
     if out.suffix not in KINDS:
         return [f"--out: given {str(out)!r}; allowed: a file whose name ends in {', '.join(KINDS)}"]
-    if out.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
+    if out.is_dir() or not can_be_written(folder):
         return [f"--out: given {str(out)!r}; allowed: a file in a folder that is there and can be written to"]
     return []
 
@@ -118,6 +134,10 @@ def main(argv: list[str] | None = None) -> int:
         for name in engine.list_scenes():
             print(f"  {name:<14} {engine.load_scene(name).title}")
         return 0
+    if argv[0] == "--new":
+        from engine.own_mooring import command
+
+        return command.main(argv[1:])
     faults: list[str] = []
     order = read_order(argv, faults)
     if faults:

@@ -1,9 +1,21 @@
-"""Files that appear whole or not at all."""
+"""Files that appear whole or not at all, and whether a folder takes one."""
 
 import contextlib
 import os
 import secrets
+import tempfile
 from pathlib import Path
+
+
+def can_be_written(folder: str | Path) -> bool:
+    """Whether a file can be made in a folder. One is made, because /proc says yes to root and then makes none."""
+    if not os.path.isdir(folder) or not os.access(folder, os.W_OK):
+        return False
+    try:
+        with tempfile.TemporaryFile(dir=folder):  # without a name, where the file system has such files
+            return True
+    except OSError:
+        return False
 
 
 def write_atomic(path: str | Path, content: bytes) -> None:

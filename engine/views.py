@@ -207,6 +207,10 @@ def facts(run: "Trajectory") -> dict[str, str]:
     if len(run.columns["time_s"]) > 3:
         texts["radius"] = _in_words(run, "radius_m", "m")
         texts["tension"] = _in_words(run, "tension_top_N", "N at the top")
+        breaking_N = run.scene.tether.breaking_load_N
+        if breaking_N is not None:
+            largest_N = run.columns["tension_top_high_N"].max()
+            texts["strength"] = f"largest tension at the top is {largest_N / breaking_N:.2%} of tether.breaking_load_N"
     loops = run.statistics.get("loop_releases")
     if loops:
         texts["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"

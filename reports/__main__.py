@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from pathlib import Path
 
 from engine.streams import open_streams, printed
 
@@ -19,6 +20,12 @@ def main(arguments: list[str] | None = None) -> int:
     folders = "folder of a finished campaign, or of python -m analysis (its --out)"
     parser.add_argument("directory", metavar="DIR", help=folders)
     directory = parser.parse_args(arguments).directory
+
+    if not Path(directory).is_dir():  # answered before anything heavy is loaded
+        found = "it is a file" if Path(directory).exists() else "there is no such folder"
+        give = "give the folder that a campaign wrote (its --out), for instance results/buoy_sweep"
+        print(f"no report can be made of {directory}:\n  - {found}; {give}", file=sys.stderr)
+        return 2
 
     from . import build
     from .parts.folder import FolderError

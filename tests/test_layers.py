@@ -47,7 +47,7 @@ FLOORS = (  # rooms and modules of the engine, from the ground up; of two that h
     {"lanes"},
     {"run"},
     {"animation"},
-    {"views"},
+    {"views", "own_mooring"},
     {"__main__"},
 )
 FORWARDED = ("engine.trajectory", "engine.views")  # the methods of a Trajectory that look at it by `analysis`

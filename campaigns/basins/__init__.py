@@ -82,7 +82,7 @@ def cases(order: Order) -> Iterator[Job]:
 
 def measures(order: Order) -> Measures:
     """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
-    from campaigns.explore.rows import STEEPNESS
+    from campaigns.explore.grid import STEEPNESS
 
     return measures_of(order, columns_of((STEEPNESS,)))
 

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from campaigns.basins.grid import StartGrid
+from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTION, Motion, Motions, Search
-from campaigns.explore.rows import STEEPNESS
 from campaigns.explore.stages import judge, name, propose, run_from_rest
 from campaigns.explore.starts import KICKS, OUTCOME, Ending, Start
 from campaigns.machinery.plan import Job, Plan

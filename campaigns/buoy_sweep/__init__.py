@@ -19,6 +19,7 @@ from pathlib import Path
 
 import engine
 from campaigns.explore import sweep as motions
+from campaigns.explore.grid import STEEPNESS as COLUMN
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
@@ -64,8 +65,6 @@ class Options(motions.Starts):
 
 def grid_of(values) -> Grid:
     """The places of a sweep over the wave steepness, whose column has a short name."""
-    from campaigns.explore.rows import STEEPNESS as COLUMN
-
     return Grid((Varied(SWEPT, SWEPT, None, tuple(values), COLUMN),))
 
 

@@ -16,6 +16,8 @@ from campaigns.machinery.plan import Job
 from campaigns.study import Order
 from tables import Column, Row, names
 
+STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
+
 
 @dataclass(frozen=True)
 class Varied:

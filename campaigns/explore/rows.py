@@ -14,6 +14,7 @@ import numpy as np
 from analysis import detect_period, extremes, slack_fraction, transverse_lyapunov
 from analysis.evidence import evidence_text
 from analysis.snaps import NEAR_ZERO
+from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of
@@ -39,7 +40,6 @@ from tables import (
 if TYPE_CHECKING:
     from campaigns.explore.judgement import Judgement
 
-STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0, PLANE)
 TRANSIENT = Column(
     "transient_periods", "", "transient", "wave periods at the start that are left out of extremes", 0, REGIMES
@@ -111,6 +111,10 @@ HEIGHT = Column(
     "max_buoy_height_above_water_m", "m", "height",
     "highest point of the sphere above still water over the whole run; negative if it stays below", 2,
 )  # fmt: skip
+UTILISATION = Column(
+    "utilisation", "", "T_max/MBL",
+    "largest tension after the transient, divided by tether.breaking_load_N; empty where the scene has none", 3,
+)  # fmt: skip
 COLUMNS = (
     STEEPNESS,
     DIMENSIONS,
@@ -134,6 +138,7 @@ COLUMNS = (
     *TANGENT,
     *MULTIPLIERS,
     *OFFPLANE,
+    UTILISATION,
     HEIGHT,
     *LINE_COUNTS,
     Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3, PLANE),
@@ -185,6 +190,7 @@ def buoy_row(trajectory, judgement: Judgement) -> Row:
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:
         row |= regime_of(judgement)
+    row[UTILISATION.name] = utilisation(scene, row)
     return row
 
 
@@ -244,6 +250,14 @@ def lateral_growth(trajectory, transient_periods: int) -> Row:
 def lasts(columns, step_s: float, length_s: float) -> bool:
     """Whether a record is of that length at least."""
     return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
+
+
+def utilisation(scene, row: Row) -> float | None:
+    """`UTILISATION` of a row: of the tension along the line where the row has it, else of that at the top."""
+    tension_N = row.get("tension_line_max_N", row.get("tension_top_max_N"))
+    if tension_N is None or scene.tether.breaking_load_N is None:
+        return None
+    return tension_N / scene.tether.breaking_load_N
 
 
 def exponents(columns: tuple[Column, Column], exponent) -> Row:

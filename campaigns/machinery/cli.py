@@ -22,7 +22,9 @@ from dataclasses import Field, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
+import engine
 import engine.scene
+from engine.atomic import can_be_written
 
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
@@ -96,11 +98,17 @@ class Option:
     many: bool = False
 
     def add_to(self, group, name: str) -> None:
-        """Add it to a group of a parser; given twice, the words add up (so `--set A --set B` is `--set A B`)."""
+        """Add it to a group of a parser.
+
+        Given twice, many words add up (`--set A --set B` is `--set A B`), and of one value the last one counts.
+        """
         text = self.help
         if self.usual is not None and not self.many:
             text += f" (default: {self.usual})"
-        action = group.add_argument(name, metavar=self.metavar, nargs="*", action="extend", help=text)
+        repeated = "extend"
+        if self.kind is not None and not self.many:
+            repeated = "store"
+        action = group.add_argument(name, metavar=self.metavar, nargs="*", action=repeated, help=text)
         action.option = self
 
     def value(self, name: str, words: list[str] | None, faults: list[str]) -> object:
@@ -179,7 +187,7 @@ class Running:
 
 PLACES = {  # options that say where runs are done
     "jobs": Option(
-        "N", "runs at the same time, but on a cluster of your own", whole(1, MOST_JOBS), min(2, os.cpu_count() or 1)
+        "N", "runs at the same time (ignored with --dask-address)", whole(1, MOST_JOBS), min(2, os.cpu_count() or 1)
     ),
     "backend": Option("|".join(BACKENDS), "processes (loky), threads or a dask cluster", one_of(BACKENDS), BACKENDS[0]),
     "dask_address": Option("ADDRESS", "scheduler of a dask cluster, tcp://HOST:PORT (default: a local one)", SCHEDULER),
@@ -252,7 +260,10 @@ def running(values: argparse.Namespace, places: tuple[str, ...], campaign: str, 
 
 
 def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:
-    """The values of the options, or their words where an option has no kind; what is not allowed becomes faults."""
+    """The values of the options, or their words where an option has no kind; what is not allowed becomes faults.
+
+    `mistyped` of the values: whether a word of the line is no option of the parser and belongs to none.
+    """
     try:
         values, unknown = parser.parse_known_args(argv)
     except ValueError as error:
@@ -262,14 +273,18 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             fault = f"{explicit[1]}: given {explicit[2]}; allowed: the option alone"
         faults.append(fault)
         values, unknown = parser.parse_args([]), []
+    values.mistyped = bool(unknown)
     known = [name for action in parser._actions for name in action.option_strings]
     for word in unknown:
         if not word.startswith("-") and unknown[0].startswith("-"):
             continue  # the value of an unknown option, which has been named
         name = word.partition("=")[0]
-        close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         fault = f"{name}: no such option"
-        if close:
+        meant = _with_option(word, parser)
+        close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
+        if meant:
+            fault = f"{word}: given without its option; did you mean {meant}?"
+        elif close:
             fault += f"; did you mean {close[0]}?"
         faults.append(fault)
     for action in parser._actions:
@@ -277,6 +292,32 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             words = getattr(values, action.dest)
             setattr(values, action.dest, action.option.value(action.option_strings[0], words, faults))
     return values
+
+
+def _with_option(word: str, parser: argparse.ArgumentParser) -> str:
+    """A word with the option that it may belong to: "--steepness 0.05" of 0.05; "" where there is none.
+
+    Of the options that take many values of a kind, the first that allows the word.
+    """
+    named = [action for action in parser._actions if action.option_strings]
+    options = {action.option_strings[0]: getattr(action, "option", None) for action in named}
+    key, equals, value = word.partition("=")
+    if equals and f"--{key}" in options:
+        return f"--{key} {value}"
+    if re.fullmatch(r"[\w.\[\]]+=.+", word) and "--set" in options:
+        return f"--set {word}"
+    shipped = Path(engine.__file__).parent / "scenes" / f"{word}.toml"
+    if "--scene" in options and (word.endswith(".toml") or shipped.exists()):
+        return f"--scene {word}"
+    for name, declared in options.items():
+        if declared is None or declared.kind is None or not declared.many:
+            continue
+        try:
+            declared.kind.convert(word)
+        except ValueError:
+            continue
+        return f"{name} {word}"
+    return ""
 
 
 def _parted(word: str, kind: Kind) -> str:
@@ -340,7 +381,7 @@ def fault_of(out: Path, campaign: str) -> str | None:
     parent = next((path for path in (out, *above) if os.path.exists(path)), out)
     if not os.path.isdir(parent):
         return f"{given}, but {parent} is a file; {A_FOLDER}"
-    if not os.access(parent, os.W_OK):
+    if not can_be_written(parent):
         return f"{given}, but {parent} cannot be written to; allowed: a folder that can"
     held = _held(out)
     if held in ("", campaign):

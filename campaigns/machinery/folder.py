@@ -31,6 +31,14 @@ _NO_SPACE = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 class CampaignStopped(Exception):
     """The campaign cannot go on, for a reason outside its runs; str() is one line for the user."""
 
+    code = 1  # with which its command ends
+
+
+class BadInput(CampaignStopped):
+    """An option is at fault that only the first results can judge."""
+
+    code = 2
+
 
 def trajectory_path(directory: Path, key: str) -> Path:
     """Where the run with this content key is kept."""

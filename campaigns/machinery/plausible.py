@@ -11,6 +11,9 @@ from engine.scene.faults import fault
 
 # Miche (1944): the highest wave that stands is 2A = 0.142 lambda tanh(kH), so kA = 0.142 pi tanh(kH).
 MICHE = 0.142 * math.pi
+# Hedges (1995), Regions of validity of analytical wave theories, Proc. ICE 112: beyond this Ursell number, height x
+# length^2 / depth^3, waves are cnoidal.
+MOST_URSELL = 40.0
 LONGEST_IN_DEPTHS = 20.0
 AREA_RATIO = 100.0
 SLENDER = 10.0
@@ -136,3 +139,15 @@ def _waves(scene) -> Iterator[Odd]:
             percent = " (a share, not per cent?)" if key == "steepness" and given > 1.0 else ""
             most = f"at most {limit / steepness:.3f}"
             yield f"waves.{key}", given, f"{most}, where a wave of {waves.period_s:g} s breaks in this depth{percent}"
+        elif given is not None:
+            yield from _too_long(scene, k, 2.0 * given * steepness / k)
+
+
+def _too_long(scene, k: float, height_m: float) -> Iterator[Odd]:
+    """A wave of wave number k (rad/m) that is too long for its height in this depth to be linear."""
+    ursell = height_m * (2.0 * math.pi / k) ** 2 / scene.water.depth_m**3
+    if ursell > MOST_URSELL:
+        beyond = (
+            f"H L^2/depth^3 = {ursell:.3g} is above {MOST_URSELL:g}, where waves are no longer linear (Hedges 1995)"
+        )
+        yield "waves.period_s", scene.waves.period_s, f"a shorter period or lower waves, because {beyond}"

@@ -25,7 +25,7 @@ from functools import cache
 from pathlib import Path
 
 DRAW_S = 0.25  # between two drawings on a terminal
-FIRST_S, LINE_S = 2.0, 10.0  # before the first line of a file, and between two lines
+FIRST_S, LINE_S = 5.0, 10.0  # before the first line of a file, and between two lines
 REPORT_S = 0.3  # between two reports of a worker
 BAR = "{desc}, {elapsed} since the start |{bar:20}|"
 

@@ -21,7 +21,6 @@ import time
 from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from functools import partial
-from importlib import metadata
 from pathlib import Path
 
 import engine
@@ -73,7 +72,7 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
         rest = f"to go on with the rest: {shlex.join(command_line(module, argv))}"
         return _stopped(f"\ninterrupted; {count} finished runs are in {out}\n{rest}", EXIT_INTERRUPTED)
     except CampaignStopped as reason:
-        return _stopped(f"python -m {module}: {reason}", EXIT_FAILED)
+        return _stopped(f"python -m {module}: {reason}", reason.code)
     except OSError as error:
         return _stopped(f"python -m {module}: {write_failure(out, error)}", EXIT_FAILED)
 
@@ -212,6 +211,8 @@ def versions() -> dict[str, str | None]:
 
 
 def _version(package: str) -> str | None:
+    from importlib import metadata  # 30 ms, which a refusal does not need
+
     with contextlib.suppress(metadata.PackageNotFoundError):
         return metadata.version(package)
 

@@ -13,6 +13,7 @@ steps; that of an event also its change on a finer grid of the line. Where the l
 map, and a branch ends. Nothing is random.
 """
 
+import re
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -24,7 +25,7 @@ from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
 from campaigns.machinery import cli
-from campaigns.machinery.folder import claimed, run_of
+from campaigns.machinery.folder import BadInput, claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
@@ -59,14 +60,18 @@ class Options(cli.Options):
 
     def read(self, out: Path, faults: list[str]) -> None:
         """The key with its values in the words of --vary."""
+        if self.motion is not None and self.start_from is not None:
+            faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
+        elif self.motion is not None and not re.fullmatch("[A-Z]{1,2}", self.motion):
+            faults.append(f"--motion: given {self.motion!r}; allowed: a capital letter, as motions/table.csv has them")
         words = self.vary or USUAL.split()
+        if faults and words == USUAL.split():
+            return
         if len(words) != 3:
             faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
             words = USUAL.split()
         key = varied([*words, str(self.values)], faults)
         self.grid = Grid(() if key is None else (key,))
-        if self.start_from is not None and self.motion is not None:
-            faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -139,6 +144,8 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         how = replace(plan.how, out=plan.how.out / "motions")
         with claimed(how.out):
             timing, _ = motions.every_motion(order, replace(plan, how=how), jobs, 0, motions.SPEED_MPS, 1)
+        if options.motion is not None:
+            _check_letter(options.motion, how.out)
         starts = [*_under_motions(order, how.out)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
@@ -153,6 +160,15 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     rows = tables(tree, key.column)
     timing["run_s"] += time.perf_counter() - began
     return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
+
+
+def _check_letter(letter: str, folder: Path) -> None:
+    """Raises BadInput where no motion in a folder has this letter: a sweep finds them, so it is known late."""
+    (rows,) = motions.tables_of(folder, "").values()
+    letters = sorted({str(row["motion"]) for row in rows if row["motion"]})
+    if letter not in letters:
+        allowed = f"a motion of {folder / 'table.csv'}: {', '.join(letters) or 'there is none'}"
+        raise BadInput(f"--motion: given {letter!r}; allowed: {allowed}")
 
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:

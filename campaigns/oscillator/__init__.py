@@ -48,6 +48,6 @@ STUDY = Study(
     parameters=lambda order: _work().parameters(order.options),
     perform=lambda order: _work().perform(order),
     answer=answer,
-    places=(),
+    places=("jobs",),
 )
 main, read_order = STUDY.main, STUDY.read_order

@@ -7,6 +7,7 @@ the file, so table.csv can be made again from the files.
 
 import json
 import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -182,7 +183,10 @@ def parameters(options: Options) -> dict:
 
 
 def perform(order: Order) -> tuple[dict[str, float], Summary]:
-    """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary."""
+    """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary.
+
+    Parts run beside each other in threads, because the compiled loops that they spend their time in hold no lock.
+    """
     options = order.options
     oscillator, out = SnapOscillator(**options.changes), order.how.out
     numbers = [f"{key} = {value!r}" for key, value in asdict(oscillator).items()]
@@ -202,12 +206,18 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
     if missing:
         timing["compile_s"] = _compile(oscillator)
     begun = time.perf_counter()
-    with stage("parts", len(PARTS), "parts", lambda: len(table.rows)):
-        for part in missing:
-            with stage(part):
-                row = _done(part, oscillator, options, trajectory_path(out, keys[part]))
-            table.rows[keys[part]] = row | {"run_key": keys[part]}
-            table.write()
+    with stage("parts", len(PARTS), "parts", lambda: len(table.rows)), ThreadPoolExecutor(order.how.jobs) as threads:
+        parts = {
+            threads.submit(_done, part, oscillator, options, trajectory_path(out, keys[part])): part for part in missing
+        }
+        try:
+            for done in as_completed(parts):
+                key = keys[parts[done]]
+                table.rows[key] = done.result() | {"run_key": key}
+                table.write()
+        except BaseException:  # Ctrl-C, a full disk: what has not begun is left
+            threads.shutdown(wait=False, cancel_futures=True)
+            raise
     timing |= {"run_s": time.perf_counter() - begun, "analysis_s": 0.0}
     return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
 

@@ -9,8 +9,8 @@ from itertools import product
 from pathlib import Path
 from typing import get_args
 
+from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
-from campaigns.explore.rows import STEEPNESS
 from campaigns.explore.sweep import measures_of
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import claimed

@@ -107,8 +107,8 @@ def measures(order: Order) -> Measures:
     if any(map(in_regular_waves, order.scenes)):
         columns = motions.columns_of(keys)
     else:
-        measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *rows.EXTREMES, *rows.SNAPS, *rows.ALONG_LINE)
-        measured = (*measured, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
+        loads = (*rows.EXTREMES, rows.UTILISATION, *rows.SNAPS, *rows.ALONG_LINE)
+        measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
     waves = order.cases[0].scene.waves
     if waves is not None and waves.irregular:
@@ -124,7 +124,16 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     The upper end of a line without a buoy has a radius and an angle as the buoy has; without waves nothing is left out,
     of an irregular sea its ramp at least.
     """
-    from campaigns.explore.rows import HEIGHT, buoy_row, height_m, settled, snap_columns, sound_part
+    from campaigns.explore.rows import (
+        HEIGHT,
+        UTILISATION,
+        buoy_row,
+        height_m,
+        settled,
+        snap_columns,
+        sound_part,
+        utilisation,
+    )
 
     scene = trajectory.scene
     if judgement is not None:
@@ -137,6 +146,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
         row["transient_periods"] = transient_s / scene.waves.period_s
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
         row |= settled(scene, columns, transient_s) | snap_columns(scene, columns, transient_s)
+        row[UTILISATION.name] = utilisation(scene, row)
     return row
 
 

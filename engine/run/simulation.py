@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from numbers import Real
 from pathlib import Path
 
-from ..parameters.limits import MOST_SAMPLES, check_room
+from ..parameters.limits import check_room
 from ..scene.load import load_scene
 from ..scene.models import Scene
 from ..trajectory import Trajectory

@@ -272,4 +272,7 @@ def _line_of(item: dict, place: _Place, scene_model: type[BaseModel]) -> str:
         return unknown_key(key, value, scene_model)
     if kind in ("missing", "union_tag_not_found") and not too_few:
         return f"{key}: missing; allowed: {allowed}"
-    return fault(key, value, allowed) + (_number_hint(value, key) if "number" in allowed else "")
+    hint = _number_hint(value, key) if "number" in allowed else ""
+    if allowed.startswith("a list of") and isinstance(value, str) and "," in value:
+        hint = f" (written '[{value.strip('()[] ')}]')"
+    return fault(key, value, allowed) + hint

@@ -74,6 +74,9 @@ class Tether(Section):
     )
     added_mass: NonNegative = described("added mass across the line, divided by rho_w pi d^2/4", 1.0, paper="(24)")
     tension: TensionLaw = described("tension as a function of the strain", symbol="T = f(eps)", paper="(20)")
+    breaking_load_N: Positive | None = described(
+        "breaking load; changes no motion: a run tells the share of it that its largest tension is", None
+    )
     compression_barrier_N: NonNegative = described(
         "barrier: T loses P_b (0.5/(1 + eps) - 1)^2 below a strain of -1/2", 0.0, symbol="P_b"
     )

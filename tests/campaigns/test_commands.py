@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
+from campaigns.__main__ import COMMANDS, tether
 from campaigns.__main__ import main as every_campaign
 from campaigns.buoy_sweep import STEEPNESS, STUDY
 from campaigns.machinery.cli import fault_of
@@ -50,6 +51,16 @@ for name in sys.argv[1:]:
     with contextlib.suppress(SystemExit):
         runpy.run_module(name, run_name="__main__")
     print("loaded:", *sys.modules, end="\f")
+"""
+TYPOS = """
+import io, runpy, sys
+for words in sys.argv[1:]:
+    name, *options = words.split()
+    sys.argv, sys.stderr = [name, *options], io.StringIO()
+    try:
+        runpy.run_module(name, run_name="__main__")
+    except SystemExit as end:
+        print(end.code, sys.stderr.getvalue().count("no such option"), "loaded:", *sys.modules, end="\f")
 """
 MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
 ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
@@ -116,6 +127,30 @@ def test_help_tells_every_option_and_loads_nothing_heavy():
         told, loaded = page.split("loaded:")
         assert all(part in told for part in parts.split()) and "[N ...]" not in told
         assert not HEAVY & set(loaded.split())
+
+
+def test_a_typo_is_answered_before_anything_heavy_is_loaded():
+    names = [name for name in HELPS if name.startswith("campaigns.")]
+    pages = python("-c", TYPOS, *(f"{name} --bogus" for name in names)).stdout.split("\f")[:-1]
+    for name, page in zip(names, pages, strict=True):
+        answer, loaded = page.split("loaded:")
+        assert answer.split() == ["2", "1"], name
+        assert not HEAVY & set(loaded.split()), name
+
+
+def test_tether_is_one_name_for_all_commands(capsys):
+    assert tether([]) == 0
+    listed = capsys.readouterr().out
+    assert all(f"  {name} " in listed for name in (*COMMANDS, "sweep", "buoy_sweep"))
+    for words in (["sweep"], ["new"], ["run"], ["analysis"], ["report"]):
+        with pytest.raises(SystemExit) as ended:
+            tether([*words, "--help"])
+        assert ended.value.code == 0 and "usage: python -m" in capsys.readouterr().out
+    assert tether(["bouy_sweep"]) == 2
+    assert "did you mean 'buoy_sweep'?" in capsys.readouterr().err
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["scripts"]
+    module, _, function = declared["tether"].partition(":")
+    assert callable(getattr(importlib.import_module(module), function))
 
 
 def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
@@ -224,3 +259,13 @@ def test_waves_up_to_the_limit_are_run():
     for (key, most), (share, count) in product(heights.items(), ((0.999, 0), (1.001, 1))):
         lines = [*doubts(load_scene("tethered_buoy", {f"waves.{key}": share * most}))]
         assert len(lines) == count and all(line.startswith(f"waves.{key}") for line in lines)
+
+
+def test_a_wave_is_linear_up_to_an_ursell_number_of_40():
+    """In shallow water the length is T sqrt(g H), so that 2 A g T^2/H^2 = 40 gives the highest amplitude."""
+    period_s, depth_m = 200.0, 21.0
+    highest_m = 20.0 * depth_m**2 / (9.81 * period_s**2)
+    for share, count in ((0.97, 0), (1.03, 1)):
+        changes = {"waves.period_s": period_s, "waves.amplitude_m": share * highest_m}
+        lines = [*doubts(load_scene("tethered_buoy", changes))]
+        assert len(lines) == count and all(line.startswith("waves.period_s") for line in lines)

@@ -41,6 +41,14 @@ def test_what_is_there_is_found_and_a_damaged_part_is_computed_again_with_the_sa
     assert {**rows(out)["orbits"], "wall_s": ""} == {**row, "wall_s": ""}
 
 
+def test_parts_beside_each_other_give_the_same_numbers(out, tmp_path):
+    assert oscillator.main([*QUICK, "--jobs", "1", "--out", str(tmp_path / "alone")]) == 0
+    alone = rows(tmp_path / "alone")
+    assert {part: {**row, "wall_s": ""} for part, row in alone.items()} == {
+        part: {**row, "wall_s": ""} for part, row in rows(out).items()
+    }
+
+
 def test_another_range_touches_only_its_diagram(out, capsys):
     assert oscillator.main([*QUICK, "--force-range", "0.2", "0.4", "4", "--out", str(out)]) == 0
     assert "6: 1 computed, 5 found" in capsys.readouterr().out

@@ -1,0 +1,125 @@
+"""A scene from a few lengths: ropes beside catalogues, the choice of floating or submerged, questions on a terminal."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from engine import load_scene
+from engine.__main__ import main
+from engine.own_mooring import ropes
+from engine.own_mooring.scene import SUBMERGED, SURFACE, Mooring, scene_text
+from engine.scene import scene_from_toml
+
+LB_N, LB_PER_100FT_KGPM = 4.4482, 0.45359 / 30.48
+OPTIONS = "--buoy-diameter 3 --depth 60 --rope nylon --rope-mm 50 --length 70 --wave-height 6 --wave-period 9"
+
+
+def mooring(**changes):
+    usual = {"buoy_diameter_m": 3.0, "depth_m": 60.0, "rope": ropes.rope_of("nylon", 0.05), "length_m": 70.0}
+    return Mooring(**(usual | {"wave_height_m": 6.0, "wave_period_s": 9.0} | changes))
+
+
+@pytest.mark.parametrize(
+    ("material", "diameter_mm", "breaking_N", "share"),
+    [  # catalogues that are not among the sources of the table
+        ("nylon", 25.4 * 1.5, 47800 * LB_N, 0.1),  # Industrial Rope Supply, three strands, 1 1/2 in
+        ("nylon", 25.4 * 2.0, 83000 * LB_N, 0.1),
+        ("nylon", 25.4 * 3.0, 180000 * LB_N, 0.1),
+        ("polypropylene", 25.4 * 2.0, 46800 * LB_N, 0.35),
+        ("polyester", 20.0, 70e3, 0.1),  # Robline, Rapallo
+        ("polyester", 24.0, 102e3, 0.1),
+        ("polyester", 28.0, 135e3, 0.1),
+    ],
+)
+def test_breaking_loads_are_those_of_other_catalogues(material, diameter_mm, breaking_N, share):
+    assert ropes.rope_of(material, 1e-3 * diameter_mm).breaking_load_N == pytest.approx(breaking_N, rel=share)
+
+
+@pytest.mark.parametrize(
+    ("material", "diameter_mm", "mass_kgpm"),
+    [
+        ("nylon", 25.4 * 2.0, 95.0 * LB_PER_100FT_KGPM),
+        ("polypropylene", 25.4 * 2.0, 69.0 * LB_PER_100FT_KGPM),
+        ("polyester", 24.0, 0.351),
+    ],
+)
+def test_masses_are_those_of_other_catalogues(material, diameter_mm, mass_kgpm):
+    assert ropes.rope_of(material, 1e-3 * diameter_mm).mass_kgpm == pytest.approx(mass_kgpm, rel=0.35)
+
+
+@pytest.mark.parametrize("material", ropes.materials())
+def test_a_rope_is_lighter_than_a_full_circle_and_bends_like_a_solid_rod(material):
+    rope = ropes.rope_of(material, 0.05)
+    assert 0.4 < rope.area_m2 / (math.pi * 0.05**2 / 4) < 1.0
+    radius_m = math.sqrt(rope.area_m2 / math.pi)
+    assert rope.bending_Nm2 == pytest.approx(rope.stiffness_N / rope.area_m2 * math.pi * radius_m**4 / 4)
+    assert 0.3 < rope.stiffness_N / rope.breaking_load_N < 100
+
+
+def test_every_number_of_the_table_of_ropes_has_its_source():
+    lines = Path(ropes.__file__).with_name("ropes.toml").read_text(encoding="utf-8").splitlines()
+    numbers = [line for line in lines if re.match(r"\w+ = [\d.]", line)]
+    alone = [line for line in numbers if "#" not in line]
+    assert len(numbers) > 20
+    for line in alone:  # its source is the line below
+        assert lines[lines.index(line) + 1].startswith("source = ")
+
+
+@pytest.mark.parametrize("share", [0.999, 1.001])
+def test_a_buoy_floats_where_the_stretched_rope_lets_it_reach_a_trough(share):
+    length_m = share * mooring().longest_submerged_m
+    short = mooring(length_m=length_m)
+    scene = scene_from_toml(scene_text(short, "mine"))
+    floats = share > 1.0
+    assert short.kind == (SURFACE if floats else SUBMERGED)
+    assert scene.buoy.submergence == ("spherical-cap" if floats else "full")
+    # by hand: the rope carries the lift of half a sphere of sea water
+    lift_N = 1025.0 * math.pi * 27.0 / 12.0 * 9.81
+    top_m = length_m * (1.0 + lift_N / (1.18e8 * 0.05**2)) + 1.5
+    assert (top_m > 57.0) == floats
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"wave_height_m": 0.0, "wave_period_s": None}, {"current_mps": -0.5}, {"mass_kg": 5000.0}, {"length_m": 30.0}],
+)
+@pytest.mark.parametrize("material", ropes.materials())
+def test_what_is_written_is_a_scene_of_these_values(material, changes):
+    asked = mooring(rope=ropes.rope_of(material, 0.05), **changes)
+    assert asked.faults() == []
+    text = scene_text(asked, "mine")
+    scene = scene_from_toml(text)
+    assert scene.tether.density_kgpm3 * scene.tether.area_m2 == pytest.approx(asked.rope.mass_kgpm, rel=1e-3)
+    assert scene.buoy.added_mass_kg == pytest.approx(1025.0 * math.pi * 27.0 / 12.0, rel=1e-4)
+    assert (scene.waves is None) == (asked.wave_height_m == 0.0) and scene.floor is not None
+    lines = text.splitlines()
+    values = [line for line in lines if re.match(r"(?!name|title)\w+ = ", line)]
+    assert len(values) > 15
+    assert all(" # " in line or lines[lines.index(line) - 1].startswith("# ") for line in values)
+
+
+def test_options_and_answers_on_a_terminal_write_the_same_scene(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["--new", "mine.toml", *OPTIONS.split()]) == 0
+    by_options = (tmp_path / "mine.toml").read_text()
+    (tmp_path / "mine.toml").unlink()
+    typed = iter("3|half|60|hemp|nylon|50|70|six|6|9|".split("|"))  # two of them are asked again; Enter: no current
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True)
+    monkeypatch.setattr("builtins.input", lambda question: next(typed))
+    assert main(["--new", "mine.toml"]) == 0
+    assert next(typed, None) is None and "given hemp; allowed: one of nylon" in capsys.readouterr().out
+    assert (tmp_path / "mine.toml").read_text() == by_options
+    assert load_scene("mine.toml").tether.breaking_load_N == pytest.approx(1.39357e8 * 0.05**2, rel=1e-3)
+
+
+def test_an_interrupted_question_writes_nothing(tmp_path, monkeypatch):
+    def interrupted(question):
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.stdin.isatty", lambda: True)
+    monkeypatch.setattr("builtins.input", interrupted)
+    assert main(["--new", "mine.toml"]) == 130
+    assert list(tmp_path.iterdir()) == []
