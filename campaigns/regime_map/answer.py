@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
 from operator import itemgetter
 
-from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of
-from campaigns.explore.answer import reasons, use_of
+from campaigns.answers import greatest, kilonewton, numbers_of
+from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO, TENSION
-from tables import CHAOTIC, EMPTY, FAILED, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
+from tables import CHAOTIC, EMPTY, FAILED, OPEN, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
 
 
 def sentences(
@@ -62,7 +62,7 @@ def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Col
         word = str(cell["regime_rest"] or "")
         counts[word] += 1
         periodic += word.startswith(PERIODIC)
-        undecided += word in OPEN_WORDS
+        undecided += word in OPEN
     parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
     shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
     yield f"Rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
