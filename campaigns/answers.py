@@ -30,8 +30,8 @@ def numbers_of(rows: Sequence[Row], name: str) -> list[float]:
 
 
 def line(word: str, text: str) -> str:
-    """A line of an answer, with its word in front: "LOAD:    ...", so that texts stand below each other."""
-    return f"{word + ':':<9}{text}"
+    """A line of an answer, with its word in front; the texts of all lines stand below each other."""
+    return f"{word:<8} {text}"
 
 
 def kilonewton(force_N: float) -> str:

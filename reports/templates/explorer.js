@@ -258,6 +258,15 @@
   list.addEventListener("change", () => choose(list.selectedIndex - 1));
   new ResizeObserver(draw).observe(canvas);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  // a link to a sheet opens it
+  function unfold() {
+    const sheet = document.getElementById(location.hash.slice(1))?.closest("details");
+    if (!sheet || sheet.open) return;
+    sheet.open = true;
+    sheet.scrollIntoView();
+  }
+  addEventListener("hashchange", unfold);
   root.hidden = false;
+  unfold();
   draw();
 })();
