@@ -42,7 +42,6 @@ from tables import (
     number,
     number_of,
     of_kicks,
-    percent,
     ranges,
 )
 
@@ -132,7 +131,7 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
         parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
     slack = [share for share in numbers_of(counted, "slack_fraction") if math.isfinite(share)]
     if slack:
-        parts.append(f"Slack {_span(slack, percent, 2)} of the time.")
+        parts.append(f"Slack {_span([100.0 * share for share in slack], places=0)} % of the time.")
     return " ".join(parts)
 
 

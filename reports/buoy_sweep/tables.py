@@ -28,7 +28,11 @@ from ..parts import (
 from ..sweep.quantities import batched, over_key, series
 from .runs import Run, Sweep
 
-_MOST = 18  # columns of one table
+_MOST = 21  # columns of one table
+_ON_SHEETS = (  # alone, because the table of motions or a figure has them too
+    "share_low", "share_high", "found_by", "periods", "transient_periods", "angle_min_rad", "angle_max_rad",
+    "max_turn_rad",
+)  # fmt: skip
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
     "`campaigns.out_of_plane` compares planar runs that release loops with runs in three dimensions, at kA = 0.13 and "
@@ -62,7 +66,9 @@ def runs_items(sweep: Sweep) -> Items:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = sweep.folder.columns
     names = shown_on(columns, sweep.runs, RUNS, REGIMES, longest=LONGEST_CELL)
-    names = [name for name in names if name not in (sweep.key.name, "motion")]
+    names = [name for name in names if name not in (sweep.key.name, "motion", *_ON_SHEETS)]
+    if len(sweep.good) == len(sweep.runs):
+        names.remove("status")
     if sweep.runs_with(lambda run: run.in_space):
         names.insert(0, "dimensions")
     caption = (
