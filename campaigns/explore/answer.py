@@ -153,7 +153,8 @@ def jump(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> str
                 words.append(_end(end, rows, key, relation))
         if words:
             parts.append(f"{direction} {symbol}: {', '.join(words)}.")
-    return " ".join([*parts, _from_rest(rows, key, symbol, bool(parts))])
+    parts.append(_from_rest(rows, key, symbol, bool(parts)))
+    return " ".join(filter(None, parts))
 
 
 def _end(end: Row, rows: Sequence[Row], key: str, relation: str) -> str:
@@ -304,7 +305,10 @@ def chaos(rows: Sequence[Row], key: str, symbol: str) -> str:
         return ""
     chaotic = [row for row in judged if row["regime"] == CHAOTIC]
     sentences = []
-    for name, error, method in ((TANGENT_EXPONENT, TANGENT_ERROR, ""), (WOLF_EXPONENT, WOLF_ERROR, " by Wolf's method")):
+    for name, error, method in (
+        (TANGENT_EXPONENT, TANGENT_ERROR, ""),
+        (WOLF_EXPONENT, WOLF_ERROR, " by Wolf's method"),
+    ):
         known = known_rows(chaotic, name)
         if not known:
             continue

@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterator, Sequence
 
 from campaigns.answers import greatest, kilonewton, numbers_of
-from campaigns.explore.motions import from_rest
 from engine.natural_frequencies import natural_frequencies
 from engine.views import in_regular_waves
 from tables import (

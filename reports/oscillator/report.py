@@ -16,7 +16,19 @@ from ..figures.oscillator import (
     oscillator_section,
     oscillator_zooms,
 )
-from ..parts import Figure, Heading, Items, Notice, Report, Text, appendix, picture_first, provenance_items, section_items, table_of
+from ..parts import (
+    Figure,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    appendix,
+    picture_first,
+    provenance_items,
+    section_items,
+    table_of,
+)
 from .sections import NUMBERS, Study, attracting_orbit, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
