@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from campaigns.answers import greatest, kilonewton
 from campaigns.basins.grid import COLUMNS, PHASE
-from campaigns.explore.answer import use_of
+from campaigns.explore.load import use_of
 from campaigns.explore.motions import from_rest
 from tables import PEAK, UNSETTLED, Row, listed, number_of, ranges
 

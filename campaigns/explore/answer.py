@@ -1,150 +1,214 @@
-"""What a sweep of wave steepness found: regimes, jumps, chaos, what is undecided, the largest tension and its use.
+"""What a sweep over any key found, in the order in which it is used: a line each, with its word in front.
 
-A jump: between two neighbouring values the largest tension changes by more than a quarter, and by more than three times
-the median change between neighbours. A largest tension is doubted where the model says more than it knows (`reasons`).
+LOAD     the largest tension, and whether one may design for it (`campaigns.explore.load`)
+SNAPS    how often the line snaps, and how hard
+JUMP     where one motion becomes another, as the key rises, as it falls, and from rest
+MOTIONS  the range of each motion, and its regimes
+STARTS   where the start decides
+CHAOS    the largest exponent
+OPEN     what is not decided, why, and what would decide it
+
+A line is left out where the rows know nothing of it. A jump: between two neighbouring values the largest tension changes
+by more than a quarter, and by more than three times the median change between neighbours.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Sequence
 from functools import partial
-from itertools import pairwise
+from itertools import groupby, pairwise
 from operator import itemgetter
 from statistics import median
 
-from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of, regimes
+from campaigns.answers import greatest, kilonewton, known_rows, line, numbers_of
+from campaigns.explore.load import load
 from campaigns.explore.motions import from_rest
-from campaigns.machinery.session import MOST_LINES
-from engine.natural_frequencies import natural_frequencies
-from engine.views import in_regular_waves
+from engine.views import carries_tangents, in_regular_waves
 from tables import (
-    BUOY_HEIGHT,
-    CAPPED,
-    COARSE,
+    CHAOTIC,
     EMPTY,
     OTHER_MOTION,
     PEAK,
-    PEAK_ERROR,
+    PERIODIC,
+    TANGENT_ERROR,
+    TANGENT_EXPONENT,
+    TRANSIENT,
+    UNDECIDED,
+    WOLF_ERROR,
+    WOLF_EXPONENT,
     Row,
+    count,
     listed,
+    number,
     number_of,
     of_kicks,
     ranges,
 )
 
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
-MOST_ENDS = 4  # that are named
-NAMED = 3  # jumps beside the largest that are named
-SMALLER = "Smaller jumps of the largest tension between"
-FLIES = "the sphere flies above still water with all its buoyancy (buoy.submergence)"
-LOOPS = "loops were released (motion.dimensions)"
+NAMED = 3  # jumps that are named
+MOST_STRETCHES = 6  # of a motion that are named; of more each regime says at how many values it is
+LONGER = "a longer run (--budget) decides"
+OPEN_REASONS = {
+    UNDECIDED: f"the tests of the regime disagree ({LONGER})",
+    TRANSIENT: f"the motion still changes when the run ends ({LONGER})",
+}
+BESIDE_A_PERIOD = f"chaos stands beside a period and may be a long transient ({LONGER})"
+ANOTHER_ON_A_FINER_GRID = "smaller elements and steps give another motion (more tether.nodes decide)"
 
 
 def sentences(
     rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row] = (), ends: Sequence[Row] = ()
 ) -> list[str]:
-    """At most eight, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs.
+    """The lines, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs.
 
     companions, ends: rows of its folders of these names.
     """
     good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
     if not good:
-        return ["No run lasts beyond the transient, so nothing can be said of the motion."]
+        return [line("LOAD", "not known, because no run lasts beyond the transient.")]
     good.sort(key=partial(number_of, name=key))
-    first = list(filter(from_rest, good))
-    regular, rest = regimes(first, symbol, numbers_of(first, key), scene)
-    several = [*coexisting(good, key, symbol), *_ends(good, key, ends)]
-    if several and regular:
-        (line,) = regular
-        regular = [f"From rest: {line[:1].lower()}{line[1:]}"]
-    lines = [*regular, *jumps(first, key, symbol), *rest, *several, *use(good, key, symbol, scene, companions)]
-    if len(lines) > MOST_LINES:
-        lines = [line for line in lines if not line.startswith(SMALLER)]
-    return lines
+    lines = {
+        "LOAD": load(good, key, symbol, scene, companions),
+        "SNAPS": snaps(good, key, symbol),
+        "JUMP": jump(good, key, symbol, ends),
+        "MOTIONS": motions(good, key, symbol),
+        "STARTS": starts(good, key, symbol, scene),
+        "CHAOS": chaos(good, key, symbol),
+        "OPEN": undecided(rows, key, symbol, scene),
+    }
+    return [line(word, text) for word, text in lines.items() if text]
 
 
-def jumps(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
-    """The largest jump in numbers, and where the next ones are. rows: sorted."""
+def by_motion(rows: Sequence[Row]) -> dict[str, list[Row]]:
+    """The rows of each motion by its letter, in the order of letters; "" where motions have none."""
+    motions: dict[str, list[Row]] = {}
+    for row in sorted(rows, key=_letter):
+        motions.setdefault(_letter(row), []).append(row)
+    return motions
+
+
+def by_value(rows: Sequence[Row], key: str) -> dict[float, list[Row]]:
+    """The rows at each value."""
+    values: dict[float, list[Row]] = {}
+    for row in rows:
+        values.setdefault(row[key], []).append(row)
+    return values
+
+
+def _letter(row: Row) -> str:
+    return str(row.get("motion") or "")
+
+
+def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
+    """Snaps a wave of each motion, the peaks where they are largest, the speed and the slack; "" where not counted."""
+    counted = known_rows(rows, "snaps_per_wave")
+    if not counted:
+        return ""
+    motions, calm = [], []
+    for letter, members in by_motion(counted).items():
+        snapping = [row for row in members if number_of(row, "snaps_per_wave") > 0.0]
+        if not snapping:
+            calm.append(letter)
+            continue
+        words = f"{_span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
+        if len(snapping) < len(members):
+            words += f" from {symbol} = {snapping[0][key]:.4g} on"
+        largest = greatest(snapping, "snap_peak_max_N")
+        if largest is not None:
+            words += f", up to {kilonewton(number_of(largest, 'snap_peak_max_N'))}"
+        motions.append(f"{letter}: {words}" if letter else words)
+    if not motions:
+        return "none: the tension never comes back from slack."
+    parts = [f"{'; '.join(motions)}."]
+    if any(calm):
+        parts.append(f"None in {listed(calm)}.")
+    hardest = greatest(counted, "snap_peak_max_N")
+    if hardest is not None:
+        middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
+        parts.append(f"At {symbol} = {hardest[key]:.4g} median {middle}, 95 % below {high}, largest {most}.")
+        speed = greatest(counted, "snap_speed_max_mps")
+        parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
+    slack = [share for share in numbers_of(counted, "slack_fraction") if math.isfinite(share)]
+    if slack:
+        parts.append(f"Slack {_span([100.0 * share for share in slack], places=0)} % of the time.")
+    return " ".join(parts)
+
+
+def _span(values: Sequence[float], printed=partial(number, digits=2), places: int = 2) -> str:
+    """ "0.6 to 0.8"; one number where both ends are the same in print."""
+    low, high = printed(round(min(values), places)), printed(round(max(values), places))
+    return low if low == high else f"{low} to {high}"
+
+
+def jump(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> str:
+    """The motion that follows where one ends, as the key rises and as it falls; then from rest. "" for one value."""
+    if len(by_value(rows, key)) < 2:
+        return ""
+    parts = []
+    for side, direction, relation in (("upper", "Rising", "above"), ("lower", "Falling", "below")):
+        words = []
+        for end in ends:
+            if end["end"] == side and end.get("leads_to"):
+                words.append(_end(end, rows, key, relation))
+        if words:
+            parts.append(f"{direction} {symbol}: {', '.join(words)}.")
+    parts.append(_from_rest(rows, key, symbol, bool(parts)))
+    return " ".join(filter(None, parts))
+
+
+def _end(end: Row, rows: Sequence[Row], key: str, relation: str) -> str:
+    """ "A becomes C above 0.118 (4.4 -> 9.4 kN)"."""
+    exact, inside, outside = (number_of(end, f"{key}_{name}") for name in ("end", "with", "without"))
+    place, change = f"{0.5 * (inside + outside):.3g}", ""
+    if math.isfinite(exact):
+        place, change = f"{exact:.3g}", str(end["kind"])
+    motions = by_motion(rows)
+    before, after = (motions.get(str(end[name])) for name in ("motion", "leads_to"))
+    if before and after:
+        nearest = partial(min, key=lambda row: abs(row[key] - outside))
+        change = ", ".join(filter(None, (_change(nearest(before), nearest(after)), change)))
+    words = f"{end['motion']} becomes {end['leads_to']} {relation} {place}"
+    return f"{words} ({change})" if change else words
+
+
+def _from_rest(rows: Sequence[Row], key: str, symbol: str, ended: bool) -> str:
+    """The jumps of runs from rest; ended: whether the ends of motions are known, so that only earlier ones are told."""
+    letters = {value: set(map(_letter, members)) for value, members in by_value(rows, key).items()}
     pairs = []
-    for below, above in pairwise(rows):
+    for below, above in pairwise(filter(from_rest, rows)):
         if below[PEAK] > 0.0 and above[PEAK] > 0.0:
             pairs.append((abs(math.log(above[PEAK] / below[PEAK])), below, above))
     if not pairs:
-        return
+        return ""
     least = max(LEAST_JUMP, TYPICAL * median(map(itemgetter(0), pairs)))
-    large = [pair for pair in pairs if pair[0] > least]
-    large.sort(key=itemgetter(0), reverse=True)
-    for _, below, above in large[:1]:
-        swing_below, swing_above, growth = _swing(below), _swing(above), math.inf
-        if swing_below:
-            growth = swing_above / swing_below
-        slack_below, slack_above = number_of(below, "slack_fraction"), number_of(above, "slack_fraction")
-        yield (
-            f"Between {symbol} = {below[key]:.4g} and {above[key]:.4g} the motion jumps to one "
-            f"{growth:.2g} times as large: peak tension {_change(below, above)}, "
-            f"swing of r {swing_below:.2f} -> {swing_above:.2f} m, time with less than 5 % of the static tension "
-            f"{100.0 * slack_below:.0f} -> {100.0 * slack_above:.0f} %."
-        )
-    smaller = sorted(large[1 : 1 + NAMED], key=lambda pair: pair[1][key])
-    if smaller:
-        places = []
-        for _, below, above in smaller:
-            places.append(f"{below[key]:.4g} and {above[key]:.4g} ({_change(below, above)})")
-        yield f"{SMALLER} {symbol} = {listed(places)}."
-
-
-def _swing(row: Row) -> float:
-    return number_of(row, "radius_max_m") - number_of(row, "radius_min_m")
-
-
-def coexisting(rows: Sequence[Row], key: str, symbol: str) -> Iterator[str]:
-    """Where one value has several motions, and that of them which pulls most beyond the usual one."""
-    by_value: dict[float, list[Row]] = {}
-    for row in rows:
-        by_value.setdefault(row[key], []).append(row)
-    pairs = []
-    for motions in by_value.values():
-        if len(motions) > 1:
-            base = min(motions, key=lambda row: (not from_rest(row), row[PEAK]))
-            pairs.append((greatest(motions, PEAK), base))
-    if not pairs:
-        return
-    worst, usual = max(pairs, key=lambda pair: pair[0][PEAK] / max(pair[1][PEAK], 1e-9))
-    several = ranges([*by_value], [len(motions) > 1 for motions in by_value.values()], 2)
-    sentence = f"One wave has several motions at {symbol} = {several}"
-    if worst is not usual:
-        rest = f"motion {usual['motion']}"
-        if from_rest(usual):
-            rest = "the one from rest"
-        sentence += (
-            f"; at {symbol} = {worst[key]:.4g} motion {worst['motion']} pulls "
-            f"{kilonewton(worst[PEAK])}, {rest} {kilonewton(usual[PEAK])}"
-        )
-        kicks = of_kicks(worst)
-        if kicks != EMPTY:
-            interval = f"{number_of(worst, 'share_low'):.2f} to {number_of(worst, 'share_high'):.2f}"
-            sentence += f", and {kicks} kicks end in it (95 % interval of the share: {interval})"
-    yield f"{sentence}."
-
-
-def _ends(rows: Sequence[Row], key: str, ends: Sequence[Row]) -> Iterator[str]:
-    """Where motions end, if a value has several. ends: rows of ends/table.csv."""
-    if not ends or len(set(numbers_of(rows, key))) == len(rows):
-        return
-    sides = {"upper": "above", "lower": "below"}
+    large = sorted((pair for pair in pairs if pair[0] > least), key=itemgetter(0), reverse=True)
     words = []
-    for end in ends:
-        exact, inside, outside = (number_of(end, f"{key}_{side}") for side in ("end", "with", "without"))
-        value = f"{0.5 * (inside + outside):.3g}"
-        if math.isfinite(exact):
-            value = f"{exact:.4g} ({end['kind']})"
-        sentence = f"{end['motion']} {sides[end['end']]} {value}"
-        if end.get("leads_to"):
-            sentence += f", into {end['leads_to']}"
-        words.append(sentence)
-    sentence = f"Motions end: {listed(words[:MOST_ENDS])}"
-    if len(words) > MOST_ENDS:
-        sentence += f"; {len(words) - MOST_ENDS} more in ends/table.csv"
-    yield f"{sentence}."
+    for _, below, above in sorted(large[:NAMED], key=lambda pair: pair[1][key]):
+        place = f"between {below[key]:.4g} and {above[key]:.4g} ({_change(below, above)})"
+        early = _letter(below) != _letter(above) and _letter(below) in letters[above[key]]
+        if not ended:
+            words.append(place)
+        elif early and above[PEAK] > below[PEAK]:
+            words.append(f"{_letter(below)} becomes {_letter(above)} {place}")
+    if words and ended:
+        return f"From rest already: {', '.join(words)}, because the start-up crosses the border between these motions."
+    if not words:
+        factor = math.exp(max(map(itemgetter(0), pairs)))
+        return "" if ended else f"none: the largest tension changes by a factor of {factor:.2g} between values at most."
+    _, below, above = large[0]
+    place = "There" if len(words) == 1 else "At the largest"
+    return f"From rest, {symbol}: {', '.join(words)}. {place} {_swings(below, above)}."
+
+
+def _swings(below: Row, above: Row) -> str:
+    """What else a jump changes."""
+    swings = [number_of(row, "radius_max_m") - number_of(row, "radius_min_m") for row in (below, above)]
+    slack = [100.0 * number_of(row, "slack_fraction") for row in (below, above)]
+    return (
+        f"the swing of r goes from {swings[0]:.2f} to {swings[1]:.2f} m, and the time with less than 5 % of the static "
+        f"tension from {slack[0]:.0f} to {slack[1]:.0f} %"
+    )
 
 
 def _change(before: Row, after: Row) -> str:
@@ -152,78 +216,166 @@ def _change(before: Row, after: Row) -> str:
     return f"{before[PEAK] / 1e3:.2g} -> {after[PEAK] / 1e3:.2g} kN"
 
 
-def use(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> Iterator[str]:
-    """The largest tension, what it becomes otherwise, whether it may be used, and the largest that may."""
-    peak, modes = greatest(rows, PEAK), scene and natural_frequencies(scene)
-    sentence = f"Largest tension {largest(peak)} at {symbol} = {peak[key]:.4g}"
-    if not from_rest(peak):
-        sentence += f", motion {peak['motion']}"
-    if modes and modes.static_tension_N:  # else there is no closed form
-        sentence += f" ({peak[PEAK] / modes.static_tension_N:.1f} times static)"
-    sound = [row for row in companions if row["status"] == "ok" and row["role"] == CAPPED]
-    for row in sound:
-        if number_of(row, key) == peak[key] and (row.get("motion") or "") == (peak.get("motion") or ""):
-            sentence += f"; with the {CAPPED} {kilonewton(number_of(row, PEAK))}"
-    yield f"{sentence}."
-    if scene is None:
-        return
-    searched = any(map(math.isfinite, numbers_of(rows, "share")))
-    yield use_of(peak, scene, searched)
-    usable = greatest([row for row in [*rows, *sound] if not [*reasons(row, scene)]], PEAK)
-    if usable is None or usable is peak:
-        return
-    head = "Largest tension without that:"
-    if usable in sound:
-        head = f"With the {CAPPED} the largest tension is"
-    yield f"{head} {largest(usable)} at {symbol} = {usable[key]:.4g}. {use_of(usable, scene, searched)}"
+def motions(rows: Sequence[Row], key: str, symbol: str) -> str:
+    """Each motion with its range and its regimes; "" where no run has one."""
+    if not any(row.get("regime") for row in rows):
+        return _repeating(rows, key, symbol)
+    sentences = []
+    for letter, members in by_motion(rows).items():
+        values, words = numbers_of(members, key), [_regime(row) for row in members]
+        head = f"{letter} at {symbol} = {_ends(values)}".lstrip()
+        sentences.append(f"{head[:1].upper()}{head[1:]}: {_stretches(values, words)}.")
+    return " ".join(sentences)
 
 
-def use_of(row: Row, scene, searched: bool) -> str:
-    """The reasons against using the tension of a row; without any, the checks that were made of it, and those not made.
-
-    searched: whether other motions were looked for.
-    """
-    doubts = [*reasons(row, scene)]
-    if doubts:
-        return f"It is no load to design for, because {listed(doubts)}."
-    error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
-    grid = "grid and steps"
-    if math.isfinite(error):
-        grid = f"{grid} (± {100.0 * error:.2g} %)"
-    checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
-    if scene.buoy is not None and waves is not None:
-        wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
-        checks["wetted buoy"] = wetted or math.isfinite(number_of(row, BUOY_HEIGHT))
-    if in_regular_waves(scene):
-        checks["that the motion has settled"] = row.get("regime") not in (None, "", *OPEN_WORDS)
-        checks |= {"other motions": searched, "an irregular sea": False}
-    elif waves is not None:
-        checks[f"a sea longer than its {number_of(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
-    if scene.water is not None:
-        checks["the sea bed"] = scene.floor is not None
-    checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
-    passed, missing = [], []
-    for name, checked in checks.items():
-        (passed if checked else missing).append(name)
-    return f"Checked: {listed(passed)}; not checked: {listed(missing)}."
+def _regime(row: Row) -> str:
+    """ "period 2"."""
+    return str(row.get("regime") or "not judged").replace(PERIODIC, "period ")
 
 
-def largest(row: Row) -> str:
-    """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
-    text, error = kilonewton(number_of(row, PEAK)), number_of(row, PEAK_ERROR)
-    if math.isfinite(error):
-        text += f" (± {error / 1e3:.2g} kN)"
-    return text
+def _ends(values: Sequence[float]) -> str:
+    if values[0] == values[-1]:
+        return f"{values[0]:.4g}"
+    return f"{values[0]:.4g} to {values[-1]:.4g}"
 
 
-def reasons(row: Row, scene) -> Iterator[str]:
-    """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
-    if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
-        if row.get("role") != CAPPED and number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m:
-            yield FLIES
-    if number_of(row, "loop_releases") > 0 and number_of(row, "dimensions") != 3:
-        yield LOOPS
-    if number_of(row, PEAK_ERROR) > COARSE * number_of(row, PEAK):
-        yield f"it holds to {100.0 * number_of(row, PEAK_ERROR) / number_of(row, PEAK):.0f} % only"
-    if OTHER_MOTION in str(row.get("message")):
-        yield f"with smaller elements and steps it {OTHER_MOTION}"
+def _stretches(values: Sequence[float], words: Sequence[str]) -> str:
+    """ "period 1 to 0.04, chaotic at 0.043": the regimes in the order of the values."""
+    stretches = []
+    for word, group in groupby(zip(values, words, strict=True), key=itemgetter(1)):
+        stretches.append((word, [value for value, _ in group]))
+    if len(stretches) == 1:
+        return words[0]
+    if len(stretches) > MOST_STRETCHES:
+        return ", ".join(f"{word} at {count(times, 'value')}" for word, times in Counter(words).most_common())
+    parts = []
+    for place, (word, members) in enumerate(stretches):
+        span = f"at {_ends(members)}"
+        if place == 0 and len(members) > 1:
+            span = f"to {members[-1]:.4g}"
+        parts.append(f"{word} {span}")
+    return ", ".join(parts)
+
+
+def _repeating(rows: Sequence[Row], key: str, symbol: str) -> str:
+    """Where motions repeat of runs that have no verdict."""
+    periods = numbers_of(rows, "strobed_period")
+    known = list(map(math.isfinite, periods))
+    if not any(known):
+        return ""
+    longest = max(filter(math.isfinite, periods))
+    return f"repeat after 1 to {longest:g} wave periods at {symbol} = {ranges(numbers_of(rows, key), known, 2)}."
+
+
+def starts(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
+    """Where one value has several motions, and how many kicks end in the one that pulls most beyond the usual one."""
+    if not any(map(math.isfinite, numbers_of(rows, "share"))):
+        if scene is None or not in_regular_waves(scene):
+            return ""
+        return "each value has one run, so other motions may exist: --starts N kicks the buoy N times at each value."
+    values = by_value(rows, key)
+    pairs = []
+    for members in values.values():
+        if len(members) > 1:
+            usual = min(members, key=lambda row: (not from_rest(row), row[PEAK]))
+            pairs.append((greatest(members, PEAK), usual))
+    if not pairs:
+        kicks = greatest(rows, "kicks")
+        number_of_kicks = f"{number_of(kicks, 'kicks'):.0f} kicks" if kicks else "the kicks"
+        return f"{number_of_kicks} at each value led to no motion but the one from rest."
+    place = ranges([*values], [len(members) > 1 for members in values.values()], 2)
+    sentence = f"at {symbol} = {place} the start decides"
+    worst, usual = max(pairs, key=lambda pair: pair[0][PEAK] / max(pair[1][PEAK], 1e-9))
+    kicks = of_kicks(worst)
+    if worst is usual or kicks == EMPTY:
+        return f"{sentence}."
+    low, high = (100.0 * number_of(worst, f"share_{end}") for end in ("low", "high"))
+    interval = f" (95 % interval {low:.0f} to {high:.0f} %)" if math.isfinite(low) else ""
+    other = "the motion from rest" if from_rest(usual) else f"motion {usual['motion']}"
+    return (
+        f"{sentence}. At {symbol} = {worst[key]:.4g} {kicks} kicks{interval} end in motion {worst['motion']}, which "
+        f"pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
+    )
+
+
+def chaos(rows: Sequence[Row], key: str, symbol: str) -> str:
+    """The exponents of chaotic motions, from tangent dynamics where they carry some, else by Wolf's method."""
+    judged = [row for row in rows if row.get("regime")]
+    if not judged:
+        return ""
+    chaotic = [row for row in judged if row["regime"] == CHAOTIC]
+    sentences = []
+    for name, error, method in (
+        (TANGENT_EXPONENT, TANGENT_ERROR, ""),
+        (WOLF_EXPONENT, WOLF_ERROR, " by Wolf's method"),
+    ):
+        known = known_rows(chaotic, name)
+        if not known:
+            continue
+        exponents = numbers_of(known, name)
+        doubling = sorted(1.0 / exponent for exponent in exponents if exponent > 0.0)
+        sentence = f"largest exponent{method} {_span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
+        if doubling:
+            sentence += f": an error doubles in {_span(doubling, places=0)} waves"
+        sentences.append(f"{sentence}. Chaotic at {symbol} = {_at(chaotic, judged, key)}.")
+        break
+    growing = []
+    for row in judged:
+        if number_of(row, TANGENT_EXPONENT) > 2.0 * number_of(row, TANGENT_ERROR):
+            if number_of(row, "strobed_period") > 0 and row not in chaotic:
+                growing.append(row)
+    if growing:
+        sentences.append(f"Perturbations grow though the buoy repeats at {symbol} = {_at(growing, judged, key)}.")
+    return " ".join(sentences) or f"none: no run of {len(judged)} is chaotic."
+
+
+def _at(chosen: Sequence[Row], rows: Sequence[Row], key: str) -> str:
+    """The values of some of the rows."""
+    values = sorted(by_value(rows, key))
+    wanted = set(numbers_of(chosen, key))
+    return ranges(values, [value in wanted for value in values], 2)
+
+
+def undecided(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
+    """What has no verdict or no result, and what is less sure than its word; each with what would decide it."""
+    rows = sorted(rows, key=partial(number_of, name=key))
+    good, failed = [], []
+    for row in rows:
+        (good if row["status"] == "ok" else failed).append(row)
+    parts = []
+    for status, group in groupby(sorted(failed, key=itemgetter("status")), key=itemgetter("status")):
+        place = _at([*group], rows, key)
+        parts.append(f"no result at {symbol} = {place} ({status}; the column message says what would help)")
+    if not any(row.get("regime") for row in good):
+        parts.append(_unjudged(good, scene))
+    doubts = {}
+    for word, reason in OPEN_REASONS.items():
+        doubts[reason] = [row for row in good if row.get("regime") == word]
+    doubts[BESIDE_A_PERIOD] = _chaos_beside_period(good)
+    doubts[ANOTHER_ON_A_FINER_GRID] = [row for row in good if OTHER_MOTION in str(row.get("message"))]
+    for reason, group in doubts.items():
+        if group:
+            parts.append(f"at {symbol} = {_at(group, good, key)} {reason}")
+    return f"{'; '.join(filter(None, parts)) or 'nothing: every run has a verdict'}."
+
+
+def _chaos_beside_period(rows: Sequence[Row]) -> list[Row]:
+    """Chaotic rows beside a periodic one of the same motion: the period may come late there too."""
+    doubtful = []
+    for members in by_motion(rows).values():
+        for pair in pairwise(members):
+            words = [str(row.get("regime") or "") for row in pair]
+            if CHAOTIC in words and any(word.startswith(PERIODIC) for word in words):
+                doubtful.append(pair[words.index(CHAOTIC)])
+    return doubtful
+
+
+def _unjudged(rows: Sequence[Row], scene) -> str:
+    """Why no run has a verdict, and what a verdict needs; "" where none exists for the scene."""
+    if scene is None or scene.waves is None:
+        return ""
+    if not in_regular_waves(scene):
+        return "no run is judged, because verdicts exist only for a buoy in regular waves"
+    if scene.motion.dimensions == 2 and not carries_tangents(scene):
+        return "no run is judged, because verdicts in a plane need bending stiffness and an implicit integrator"
+    return "no run is judged, because --periods ended them; without --periods each goes on until its regime is known"

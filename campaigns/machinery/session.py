@@ -251,7 +251,7 @@ def print_summary(how: Running, summary: Summary, answer: list[str], timing: dic
     """
     out = how.out
     for head, line in zip(["answer", *[""] * MOST_LINES], answer, strict=False):
-        print(f"{head:<9}{line}")
+        print(line if line[:4].isupper() else f"{head:<9}{line}")
     count = summary.computed + summary.found
     print(f"runs     {count}: {summary.computed} computed, {summary.found} found")
     failed = _failures(summary)

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
 from operator import itemgetter
 
-from campaigns.answers import OPEN_WORDS, greatest, kilonewton, numbers_of
-from campaigns.explore.answer import reasons, use_of
+from campaigns.answers import greatest, kilonewton, numbers_of
+from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO, TENSION
-from tables import CHAOTIC, EMPTY, FAILED, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
+from tables import CHAOTIC, EMPTY, FAILED, OPEN, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
 
 
 def sentences(
@@ -28,7 +28,6 @@ def sentences(
     rest = "none is only screened"
     if screened:
         rest = f"{screened} are only screened with a massless tether"
-    yield f"{len(computed)} cells of the coarse grid and {finer} finer ones are computed; {rest}."
     yield from _regimes(computed, motions, keys)
     peak = greatest(cells, TENSION.name)
     if peak is not None:
@@ -38,7 +37,8 @@ def sentences(
     if several:
         yield f"On {_share(len(several), computed)} of the map the start decides: up to {max(several):.0f} motions."
     cheap = sum(row.get("verdict") == "cheap" for row in motions)
-    yield f"Of {len(motions)} motions {cheap} have a cheap verdict: they repeat at one look."
+    yield f"{cheap} of {len(motions)} motions were classified by one test instead of two: they repeat at one look."
+    yield f"{len(computed)} cells of the coarse grid and {finer} finer ones are computed; {rest}."
     failed = list(map(itemgetter("source"), cells)).count(FAILED)
     if failed:
         yield f"{failed} cells have no result; the column message of cells/table.csv says why."
@@ -49,7 +49,7 @@ def _is_coarse(row: Row) -> bool:
 
 
 def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
-    yield f"Nothing is computed: {len(cells)} cells are screened with a massless tether, which is no result."
+    yield f"Preview only: a massless tether was run in {len(cells)} cells; the cable itself was not."
     peak = greatest(cells, RATIO.name)
     if peak is not None:
         yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
@@ -62,7 +62,7 @@ def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Col
         word = str(cell["regime_rest"] or "")
         counts[word] += 1
         periodic += word.startswith(PERIODIC)
-        undecided += word in OPEN_WORDS
+        undecided += word in OPEN
     parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
     shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
     yield f"Rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."

@@ -64,10 +64,10 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
                 silent.append(error)
     if silent:
         worst = f"{100.0 * max(silent):.2g} %"
-        yield (
-            f"Largest tensions are off by {worst} at most in {len(silent)} runs that say nothing; "
-            f"{warned} more say how far theirs hold."
-        )
+        sentence = f"In the {len(silent)} runs without a warning the largest tension is right to {worst}"
+        if warned:
+            sentence += f"; {warned} more warn, and say how far theirs hold"
+        yield f"{sentence}."
     strange = [str(row["case"]) for row in rows if row["verdict"] == "unexplained"]
     if strange:
         yield f"Unexplained: {'; '.join(strange)[:200]}."

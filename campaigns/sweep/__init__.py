@@ -171,8 +171,9 @@ def beside(order: Order) -> Iterator[Callable]:
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load."""
-    from campaigns.answers import greatest
-    from campaigns.explore.answer import largest, sentences, use_of
+    from campaigns.answers import greatest, line
+    from campaigns.explore.answer import sentences
+    from campaigns.explore.load import largest, use_of
     from tables import PEAK, number_of
 
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
@@ -183,13 +184,14 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         tables = motions.tables_of(order.how.out, *folders)
         return sentences(rows, keys[0], keys[0], scene, **tables)
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
-    lines = [f"{len(rows)} runs: {', '.join(f'{word} {count}' for word, count in counts.most_common())}."]
+    regimes = ", ".join(f"{word} {count}" for word, count in counts.most_common())
+    lines = [line("MOTIONS", f"{len(rows)} runs: {regimes}.")]
     peak = greatest(rows, PEAK)
-    if peak is not None:
-        place = " and ".join(f"{key} = {number_of(peak, key):.4g}" for key in keys)
-        lines.append(f"Largest tension {largest(peak)} at {place}.")
-        lines.append(use_of(peak, scene, searched=False))
-    return lines
+    if peak is None:
+        return lines
+    place = ", ".join(f"{key} = {number_of(peak, key):.4g}" for key in keys)
+    load = f"peak top tension {largest(peak)}, {place}. {use_of(peak, scene, searched=False)}"
+    return [line("LOAD", load), *lines]
 
 
 def sweep(

@@ -10,19 +10,26 @@ from ..parts import Bullets, Heading, Items, Report, Table, Text, heads, report_
 from . import sections
 from .sections import Study, read_study
 
+SNAPPING = ("snap", "violent")  # works whose diagram is on the first page, in this order
+
 
 def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
+    timed = {setting.work for setting in study.settings}
+    drawn = next((name for name in (*SNAPPING, *study.works) if name in timed and study.timed(name)), "")
+    first = []
+    if drawn:
+        first.append(sections.diagram(study, drawn))
     items = [
+        *first,
         *section_items("accuracy"),
         Heading("Error against run time"),
         Text(_protocol(study)),
     ]
-    timed = {setting.work for setting in study.settings}
     for name in study.works:
         if name in timed:
-            items += sections.work_items(study, name)
+            items += sections.work_items(study, name, drawn)
     items += [
         *peer_items(study),
         *sections.order_items(study),

@@ -134,8 +134,8 @@ def within(settings: list[Setting], level: float) -> Setting | None:
     return min(accurate, key=lambda setting: setting.wall_s, default=None)
 
 
-def work_items(study: Study, work: str) -> Items:
-    """Everything on one work."""
+def work_items(study: Study, work: str, drawn: str) -> Items:
+    """Everything on one work; drawn: that whose diagram is on the first page."""
     entry = study.works[work]
     smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
     yield Heading(entry["title"], 2)
@@ -151,7 +151,8 @@ def work_items(study: Study, work: str) -> Items:
     if not study.timed(work):
         yield Text("No timed run ended as asked.")
         return
-    yield _diagram(study, work)
+    if work != drawn:
+        yield diagram(study, work)
     failed = [setting for setting in study.settings if setting.work == work and setting.failed]
     if failed:
         rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
@@ -159,7 +160,8 @@ def work_items(study: Study, work: str) -> Items:
         yield Table(heads("method", "setting", "outcome"), list(rows), caption)
 
 
-def _diagram(study: Study, work: str) -> Figure:
+def diagram(study: Study, work: str) -> Figure:
+    """Error against run time of every setting of a work."""
     (factor, unit), error_unit, timed = per_period(study, work), study.unit(work), study.timed(work)
     names = list(dict.fromkeys(setting.method for setting in timed))
     series = []

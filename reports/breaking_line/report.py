@@ -3,6 +3,8 @@
 from functools import partial
 from pathlib import Path
 
+import xarray
+
 from tables import count, decimals, listed, number, percent
 
 from ..figures.line_panels import named
@@ -15,6 +17,7 @@ from ..parts import (
     Report,
     Text,
     counted,
+    picture_first,
     read_folder,
     read_statements,
     report_page,
@@ -52,14 +55,19 @@ def report(directory: Path) -> Report:
     verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
     of_cases = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
+    exact = read_exact(folder)
+    first = []
+    if exact is not None:
+        first.append(figures.speeds_figure(exact))
     items = [
+        *first,
         *section_items("breaking_line"),
         *_section("The cases", table("cases"), *_warnings(lines), text=ended),
         *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
         *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
         *_section("At the fixed end", figures.folds_figure(lines)),
         *_section("In motion", figures.animation_figure(lines, ANIMATED)),
-        *_section("Fronts and shocks", *_fronts(folder, lines), text=THEORY),
+        *_section("Fronts and shocks", *_fronts(folder, lines, exact), text=THEORY),
         *_section("Energy", figures.energy_figure(lines), table("energies"), text=BUDGET),
         *_section("The paper's statements", statements_table(judged, verdicts)),
         *_section("Bending stiffness", table("stiffness")),
@@ -70,7 +78,7 @@ def report(directory: Path) -> Report:
     varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
     scene = scene_items(folder.scene, "breaking_line", varied)
     made = [*timing_items(folder, table("cost")), *scene, *solved]
-    return report_page(folder, "The breaking synthetic line", items, made)
+    return report_page(folder, "The breaking synthetic line", picture_first(items), made)
 
 
 def _section(heading: str, *items: Item | None, text: str = "") -> Items:
@@ -109,14 +117,13 @@ def _run(line: Line) -> str:
     return f"{run}, {number(line['nodes'])} nodes"
 
 
-def _fronts(folder: Folder, lines: list[Line]) -> list[Item | None]:
+def _fronts(folder: Folder, lines: list[Line], exact: xarray.Dataset | None) -> list[Item | None]:
     """Nothing where no case has a theory."""
     if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
     items = []
-    exact = read_exact(folder)
     if exact is not None:
-        items += [figures.plane_figure(lines, exact), figures.speeds_figure(exact)]
+        items.append(figures.plane_figure(lines, exact))
     for kind in ("speeds", "shocks"):
         items.append(table_of_runs(lines, folder.columns, kind))
     return [*items, series_table(lines, folder.columns)]

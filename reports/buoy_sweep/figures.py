@@ -14,7 +14,6 @@ from tables import (
     PAPER_STEEPNESS,
     PEAK,
     PERIODIC,
-    REGIMES,
     TANGENT_ERROR,
     TANGENT_EXPONENT,
     WOLF_ERROR,
@@ -28,12 +27,11 @@ from tables import (
 from ..figures.animations import tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, shown_on
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain
 from ..parts.style import BLUE, INK, REGIME_COLOURS
 from ..sweep.quantities import in_order, series
 from .motions import MARKS, lines, shares_panel, tension_panel
-from .runs import Run, Sweep
-from .tables import sweep_table
+from .runs import STEEPNESS, Run, Sweep
 
 _DEFINED = (
     "A run is looked at after 90, 135, 205, ... wave periods, each time without its first third. A word counts when "
@@ -60,17 +58,19 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
     drawn = [run for run in (*sweep.good, *sweep.between) if len(run.section)]
     if not drawn:
         return None
-    drawn.sort(key=lambda run: (run.steepness, run.motion))
-    columns = [Strobes(run.steepness, run.section[:, 0], run.get("regime") or "", run.motion) for run in drawn]
-    missing = [run.steepness for run in sweep.runs if run not in drawn]
-    first, last = drawn[0].steepness, drawn[-1].steepness
-    marks = [(kA, "paper") for kA in PAPER_STEEPNESS if first <= kA <= last]
+    drawn.sort(key=lambda run: (run.value, run.motion))
+    columns = [Strobes(run.value, run.section[:, 0], run.get("regime") or "", run.motion) for run in drawn]
+    missing = [run.value for run in sweep.runs if run not in drawn]
+    first, last = drawn[0].value, drawn[-1].value
+    marks = []
+    if sweep.key.name == STEEPNESS.name:
+        marks = [(kA, "paper") for kA in PAPER_STEEPNESS if first <= kA <= last]
     static_N, scale, unit = None, 1e-3, "(kN)"
     if sweep.modes and sweep.modes.static_tension_N:
         static_N = sweep.modes.static_tension_N
         scale, unit = 1.0 / static_N, "over static"
     tension, exponent = _tension(sweep, drawn, scale, unit), _exponent_panel(sweep)
-    motions, ranges, labels = {}, {}, ("wave steepness kA (–)", "strobed r (m)")
+    motions, ranges, labels = {}, {}, (axis_of(sweep), "strobed r (m)")
     if sweep.colours:
         below = [tension, *shares_panel(sweep)]
         if exponent is not None:
@@ -79,13 +79,18 @@ def orbit_figure(sweep: Sweep) -> Figure | None:
             if letter:
                 motions[letter] = (colour, _motion_title(sweep, letter))
     else:
-        slack = Curve(series(drawn, "steepness"), 100.0 * series(drawn, "slack_fraction"), colour=INK)
+        slack = Curve(series(drawn, sweep.key.name), 100.0 * series(drawn, "slack_fraction"), colour=INK)
         below = list(filter(None, (Panel([slack], y_label="slack (%)"), exponent, tension)))
         for word, holds in _excursions(sweep, drawn).items():
             ranges[_EXCURSIONS[word]] = holds
     caption = " ".join(filter(None, _caption(sweep, drawn, static_N)))
-    alt = f"Orbit diagram over wave steepness: {_described(sweep, motions)}; see text."
+    alt = f"Orbit diagram over {plain(sweep.key.head)}: {_described(sweep, motions)}; see text."
     return OrbitDiagram(columns, labels, below, ranges, marks, missing, motions).figure(caption, alt)
+
+
+def axis_of(sweep: Sweep) -> str:
+    """The label of what is varied."""
+    return "wave steepness kA (–)" if sweep.key.name == STEEPNESS.name else sweep.key.label
 
 
 def _described(sweep: Sweep, motions: Mapping[str, tuple[str, str]]) -> str:
@@ -120,7 +125,7 @@ def _motion_title(sweep: Sweep, letter: str) -> str:
 
 def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iterator[str]:
     """The caption."""
-    yield f"r at t = k{T_I} after the transient, over wave steepness, in the colour of the"
+    yield f"r at t = k{T_I} after the transient, over {sweep.key.head}, in the colour of the"
     if sweep.colours:
         yield "motion. Each has a bar with its regimes (numbers: periods after which it repeats)."
         words = [f"{word}: {_EXCURSIONS[word]}" for word in _excursions(sweep, drawn)]
@@ -132,16 +137,16 @@ def _caption(sweep: Sweep, drawn: Sequence[Run], static_N: float | None) -> Iter
         yield "regime."
     between = [run for run in drawn if run in sweep.between]
     if between:
-        runs, longest = count(len(between), "run"), number(max(run.periods_done for run in between), 3)
-        colour = ", and have the colour of the motion beside them that is most alike" if sweep.colours else ""
-        yield f"{runs} between those of the table, over {longest} periods, were not judged{colour}."
+        runs, longest = count(len(between), "short run"), number(max(run.periods_done for run in between), 3)
+        colour = ", coloured like the most similar neighbour" if sweep.colours else ""
+        yield f"Thin dashes: {runs} ({longest} periods) between the values of the table{colour}; not judged."
     tension = "largest tension"
     if static_N:
         tension = f"largest tension over the static {T_S} = {number(static_N)} N"
     exponent = "largest exponent with two standard errors, where the regime needs it"
     if sweep.colours:
-        yield f"Below: {tension}, with arrows to the motion that follows where one ends; shares of the fresh starts"
-        yield f"(hatched: not settled); {exponent}."
+        yield f"Below: {tension}, with arrows to the motion that follows where one ends; shares of the kicks, the most"
+        yield f"dangerous motion lowest with its 95 % interval (hatched: not settled); {exponent}."
     else:
         yield f"Below: time with less than 5 % of the static tension; {exponent}; {tension}."
     undecided = sweep.runs_with(lambda run: run["regime"] in OPEN)
@@ -167,7 +172,7 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
         y.append(exponent)
         bars.append(2.0 * error)
         words.append(word)
-    x, y, bars = series(sweep.judged, "steepness"), np.array(y), np.array(bars)
+    x, y, bars = series(sweep.judged, sweep.key.name), np.array(y), np.array(bars)
     known = np.isfinite(y)
     if not known.any():
         return None
@@ -186,16 +191,16 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
 
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
-    label, capped = f"largest T\n{unit}", _capped(sweep)
-    cap_x, cap_y = series(capped, "steepness"), scale * series(capped, PEAK)
+    label, capped, cap_name = f"largest T\n{unit}", _capped(sweep), f"{CAPPED}, on the same scale"
+    cap_x, cap_y = series(capped, sweep.key.name), scale * series(capped, PEAK)
     if not sweep.colours:
-        curves = [Curve(series(drawn, "steepness"), scale * series(drawn, PEAK), "as run", colour=INK)]
+        curves = [Curve(series(drawn, sweep.key.name), scale * series(drawn, PEAK), "as run", colour=INK)]
         if capped:
-            curves.append(Curve(cap_x, cap_y, CAPPED, colour=BLUE))
+            curves.append(Curve(cap_x, cap_y, cap_name, colour=BLUE))
         return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
     curves = lines(sweep, drawn, PEAK, scale)
     if capped:
-        curves.append(Curve(cap_x, cap_y, CAPPED, line="", mark="_", colour=INK))  # of one motion or another
+        curves.append(Curve(cap_x, cap_y, cap_name, line="", mark="_", colour=INK))  # of one motion or another
     return tension_panel(sweep, drawn, curves, scale, label)
 
 
@@ -205,12 +210,12 @@ def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
 
 
 def _capped(sweep: Sweep) -> list[Run]:
-    """The runs with the wetted cap that ended as asked, by steepness."""
+    """The runs with the wetted cap that ended as asked, by value."""
     part = part_of(sweep.folder, "companions")
     if part is None:
         return []
     runs = []
-    for row in in_order(part.completed, ["steepness"]):
+    for row in in_order(part.completed, [sweep.key.name]):
         if row["role"] == CAPPED:
             runs.append(_run(sweep, row))
     return runs
@@ -243,12 +248,10 @@ def close_up_items(sweep: Sweep) -> Items:
 
 
 def regime_items(sweep: Sweep) -> Items:
-    """What the words mean, and the exponents of the runs; nothing where no run has a regime."""
+    """What the words mean; nothing where no run has a regime."""
     if not sweep.judged:
         return []
-    caption = "Regime, and largest exponent with one standard error after the transient, where the regime needs it."
-    names = shown_on(sweep.folder.columns, sweep.judged, REGIMES)
-    return [Heading("Regimes and exponents"), Text(_DEFINED), sweep_table(sweep, names, sweep.judged, caption)]
+    return [Heading("Regimes"), Text(_DEFINED)]
 
 
 def evidence_table(run: Run) -> Table | None:

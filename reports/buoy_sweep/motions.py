@@ -6,12 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from tables import EMPTY, PEAK, PERIODIC, decimals, listed, number, of_kicks, ranges
+from tables import EMPTY, PEAK, PERIODIC, listed, number, of_kicks, ranges
 
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
 from ..parts import Items, Table, heads
-from ..parts.style import SOFT
+from ..parts.style import INK, SOFT
 from ..sweep.motions import ends_of
 from ..sweep.quantities import series
 from .runs import Run, Sweep
@@ -26,9 +26,9 @@ def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list
         values = {}
         for run in drawn:
             if run.motion == letter:
-                values[run.steepness] = scale * run[column]
+                values[run.value] = scale * run[column]
         x = np.array(sorted({*sweep.values, *values}))
-        y = np.array([values.get(kA, np.nan) for kA in x])
+        y = np.array([values.get(value, np.nan) for value in x])
         judged = np.isin(x, sweep.values) & np.isin(x, list(values))
         line, mark = _LINES[place % len(_LINES)], MARKS[place % len(MARKS)]
         curves.append(Curve(x, y, "", line, "", colour, width=1.2))
@@ -38,7 +38,7 @@ def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list
 
 def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale: float, label: str) -> Panel:
     """The largest tension of each motion with its letter, and arrows to the motion that follows where one ends."""
-    peaks = {}  # letter -> steepness and largest tension along its motion
+    peaks = {}  # letter -> value and largest tension along its motion
     largest = {}  # of each motion
     top = 0.0
     for run in drawn:
@@ -47,46 +47,62 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
         peak = scale * run[PEAK]
         top = max(top, peak)
         if run.motion in sweep.colours:
-            peaks.setdefault(run.motion, []).append((run.steepness, peak))
+            peaks.setdefault(run.motion, []).append((run.value, peak))
             largest[run.motion] = max(peak, largest.get(run.motion, 0.0))
     letters = [letter for letter in sweep.colours if letter in peaks]
     calm = min(letters, key=largest.get)
     arrows, texts = [], []
     for letter in letters:
         line = peaks[letter]
-        kA, peak = line[len(line) // 2]
+        middle, peak = line[len(line) // 2]
         offset = -0.12 if letter == calm else 0.26  # nothing stands below the lowest line; numbers stand above others
-        texts.append((kA, peak + offset * top, letter, sweep.colours[letter]))
-    for end in ends_of(sweep.folder, "steepness"):
+        texts.append((middle, peak + offset * top, letter, sweep.colours[letter]))
+    for end in ends_of(sweep.folder, sweep.key.name):
         if end["motion"] not in largest or end["leads_to"] not in largest:
             continue
-        kA = 0.5 * (end["steepness_with"] + end["steepness_without"])
-        start, stop = _nearest(peaks[end["motion"]], kA), _nearest(peaks[end["leads_to"]], kA)
+        place = 0.5 * (end[f"{sweep.key.name}_with"] + end[f"{sweep.key.name}_without"])
+        start, stop = _nearest(peaks[end["motion"]], place), _nearest(peaks[end["leads_to"]], place)
         colour = sweep.colours[end["motion"]]
-        arrows.append((kA, start, stop, colour))
-        texts.append((kA, start + math.copysign(0.12 * top, start - stop), decimals(kA, 3).lstrip("0"), colour))
+        arrows.append((place, start, stop, colour))
+        height = start + math.copysign(0.12 * top, start - stop)
+        texts.append((place, height, number(place, 3).removeprefix("0"), colour))
+    span = sweep.values[-1] - sweep.values[0]
+    texts = _apart(texts, 0.07 * span, 0.15 * top)
     limits = {"ylim": (0.0, 1.35 * top)}
     return Panel(curves, y_label=label, settings=limits, arrows=arrows, texts=texts, height=1.5)
 
 
-def _nearest(line: Sequence[tuple[float, float]], kA: float) -> float:
-    """The value of the point of a line, (steepness, value) each, that is nearest to this steepness."""
-    _, value = min(line, key=lambda point: abs(point[0] - kA))
+def _apart(texts: Sequence[tuple], wide: float, high: float) -> list[tuple]:
+    """The texts (x, y, text, colour), each raised until none before it is nearer than `wide` and `high`."""
+    placed: list[tuple] = []
+    for x, y, text, colour in texts:
+        while any(abs(x - other_x) < wide and abs(y - other_y) < 0.99 * high for other_x, other_y, *_ in placed):
+            y += high
+        placed.append((x, y, text, colour))
+    return placed
+
+
+def _nearest(line: Sequence[tuple[float, float]], place: float) -> float:
+    """The value of the point of a line, (place, value) each, that is nearest to a place."""
+    _, value = min(line, key=lambda point: abs(point[0] - place))
     return value
 
 
 def shares_panel(sweep: Sweep) -> list[Panel]:
-    """The shares of fresh starts that end in each motion, one on the other; hatched: in none. No panel without any."""
-    shares = {}  # steepness -> share of each motion
-    for run in sweep.runs:
+    """The shares of kicks that end in each motion, one on the other; hatched: in none. No panel without any.
+
+    The motion of the largest tension is lowest, with the interval of its share.
+    """
+    shares, lowest = {}, _of_largest_tension(sweep)  # shares: value -> share of each motion
+    for run in sorted(sweep.runs, key=lambda run: (run.motion != lowest, run.motion)):
         if run.known("share"):
-            shares.setdefault(run.steepness, {})[run.motion] = run["share"]
+            shares.setdefault(run.value, {})[run.motion] = run["share"]
     boxes = []
-    for kA, (low, high) in zip(sweep.values, pairwise(cell_edges(np.array(sweep.values))), strict=True):
-        if kA not in shares:
+    for value, (low, high) in zip(sweep.values, pairwise(cell_edges(np.array(sweep.values))), strict=True):
+        if value not in shares:
             continue
         total = 0.0
-        for letter, share in shares[kA].items():
+        for letter, share in shares[value].items():
             boxes.append((low, high, total, total + share, sweep.colours[letter], ""))
             total += share
         if total < 1.0 - 1e-9:
@@ -94,7 +110,18 @@ def shares_panel(sweep: Sweep) -> list[Panel]:
     if not boxes:
         return []
     axis = {"ylim": (0.0, 1.0), "yticks": (0.5,), "yticklabels": ("50",)}
-    return [Panel([], y_label="starts\n(%)", settings=axis, boxes=boxes, height=0.55)]
+    intervals = []
+    for run in sweep.motions[lowest]:
+        if run.known("share_low"):
+            ends = np.array([run["share_low"], run["share_high"]])
+            intervals.append(Curve(np.full(2, run.value), ends, colour=INK, width=0.8))
+    return [Panel(intervals, y_label="kicks\n(%)", settings=axis, boxes=boxes, height=0.75)]
+
+
+def _of_largest_tension(sweep: Sweep) -> str:
+    """The letter of the motion that pulls hardest."""
+    known = sweep.runs_with(lambda run: run.known(PEAK) and run.motion)
+    return max(known, key=lambda run: run[PEAK]).motion
 
 
 def motions_items(sweep: Sweep) -> Items:
@@ -108,15 +135,16 @@ def motions_items(sweep: Sweep) -> Items:
         if not good or not letter:
             continue
         strongest = max(good, key=lambda run: run[PEAK])
-        places = np.isin(sweep.values, series(good, "steepness"))
+        places = np.isin(sweep.values, series(good, sweep.key.name))
         row = [letter, ranges(sweep.values, places), _regimes(good)]
-        row += [number(strongest[PEAK] / 1e3, 3), number(strongest.steepness), _kicks(good)]
+        row += [number(strongest[PEAK] / 1e3, 3), number(strongest.value), _kicks(good)]
         for name in word_columns:
             row.append(_words(good, name))
         rows.append(row)
     if not rows:
         return []
-    titles = ["motion", "kA", "regime", ("largest T", "kN"), ("at kA =", ""), ("kicks", "")]
+    symbol = sweep.key.head
+    titles = ["motion", symbol, "regime", ("largest T", "kN"), (f"at {symbol} =", ""), ("kicks", "")]
     for name in word_columns:
         titles.append(name.replace("_", " "))
     caption = "The motions. Kicks: fewest and most at a value that end in the motion, of all kicks there."

@@ -13,7 +13,7 @@ from ..sweep.snaps import snap_items
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
-from .sheets import sheet_items
+from .sheets import explorer, sheet_items
 from .tables import plane_items, runs_items, scene_and_modes, time_items
 
 _EXTREMES = (
@@ -35,6 +35,7 @@ def report(directory: Path) -> Report:
     items = [
         orbit_figure(sweep) or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
         *motions_items(sweep),
+        explorer(sweep),
         *_question(sweep),
         Heading("Warnings"),
         warnings(sweep),

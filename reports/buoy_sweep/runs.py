@@ -12,12 +12,13 @@ from analysis import Spectrum, spectrum
 from engine import Trajectory
 from engine.natural_frequencies import Modes, natural_frequencies
 from engine.views import strobed_radius
-from tables import PAPER_STEEPNESS, decimals, listed, number, ranges
+from tables import PAPER_STEEPNESS, Column, decimals, listed, number, ranges
 
 from ..figures.run_sheet import NOTHING, run_sheet
-from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, entries, having, part_of, read_folder
-from ..sweep.quantities import colours_of, in_order, series
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, part_of, read_folder
+from ..sweep.quantities import colours_of, in_order
 
+STEEPNESS = Column("steepness", "", "kA")
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 LEAST_POINTS = 16  # strobed points below which no period is looked for
 END_PERIODS = 6.0  # of a record that its sheet shows larger
@@ -26,7 +27,7 @@ _MOST_POINTS = 400  # of a section
 _LEAST_WINDOW = 5  # wave periods: fewer bins than this below the wave frequency say nothing
 # columns without which there is no report; all others may be of a later version
 NEEDED = (
-    "steepness", "dimensions", "status", "regime", "regime_tighter", "regime_reason", "evidence", "strobed_period",
+    "dimensions", "status", "regime", "regime_tighter", "regime_reason", "evidence", "strobed_period",
     "radius_min_m", "radius_max_m", "tension_top_max_N", "slack_fraction", "max_turn_rad", "loop_releases",
     "newton_iterations", "wall_s", "run_key", "message",
 )  # fmt: skip
@@ -38,7 +39,7 @@ class Run(TableRow):
 
     anchor: the place of its sheet in the report. fault: why the trajectory of a run that should have one could not be
     read, else "". transient: wave periods left out of strobed values and extremes. periods_done: its length. section:
-    `strobed`. drawing: of its sheet, "" without a record of one wave period.
+    `strobed`. drawing: of its sheet, "" without a record of one wave period. key: column of what the sweep varies.
     """
 
     anchor: str = ""
@@ -47,6 +48,7 @@ class Run(TableRow):
     periods_done: float = 0.0
     section: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
     drawing: str = ""
+    key: Column = STEEPNESS
 
     @property
     def period(self) -> int | None:
@@ -56,8 +58,9 @@ class Run(TableRow):
         return int(self["strobed_period"]) if self.known("strobed_period") else 0
 
     @property
-    def steepness(self) -> float:
-        return self["steepness"]
+    def value(self) -> float:
+        """Its value of what the sweep varies."""
+        return self[self.key.name]
 
     @property
     def motion(self) -> str:
@@ -68,8 +71,8 @@ class Run(TableRow):
     def named(self) -> str:
         """ "kA = 0.13", "kA = 0.13, motion B"."""
         if self.motion:
-            return f"kA = {number(self.steepness)}, motion {self.motion}"
-        return f"kA = {number(self.steepness)}"
+            return f"{self.key.head} = {number(self.value)}, motion {self.motion}"
+        return f"{self.key.head} = {number(self.value)}"
 
     @property
     def in_space(self) -> bool:
@@ -80,9 +83,9 @@ class Run(TableRow):
 class Sweep:
     """The folder and all facts that more than one section of the report uses.
 
-    runs: by steepness, then by motion. between: those between the values of the table, which nobody judged. tolerance:
+    runs: by value, then by motion. between: those between the values of the table, which nobody judged. tolerance:
     of its range, within which a motion repeats. longest: largest number of wave periods tried. modes: natural
-    frequencies, None where there are none.
+    frequencies, None where there are none. key: column of what is varied.
     """
 
     folder: Folder
@@ -91,6 +94,7 @@ class Sweep:
     tolerance: float
     longest: int
     modes: Modes | None
+    key: Column = STEEPNESS
 
     @cached_property
     def good(self) -> list[Run]:
@@ -104,8 +108,8 @@ class Sweep:
 
     @cached_property
     def values(self) -> list[float]:
-        """The steepnesses, each once."""
-        return sorted({run.steepness for run in self.runs})
+        """The values of what is varied, each once."""
+        return sorted({run.value for run in self.runs})
 
     @cached_property
     def motions(self) -> dict[str, list[Run]]:
@@ -122,13 +126,18 @@ class Sweep:
 
     @cached_property
     def chosen(self) -> list[Run]:
-        """The runs whose sheets are printed: nearest the paper's two steepnesses, and the first of several points."""
+        """The runs whose sheets are printed: nearest the paper's two steepnesses, else the first and the last; and the
+        first of several points.
+        """
         drawable = self.runs_with(lambda run: run.drawing)
         good = having(drawable, status="ok") or drawable
         chosen = [run for run in good if (run.period or 0) > 1][:1]
-        for kA in PAPER_STEEPNESS:
-            nearest = min(entries(good, "steepness"), key=lambda steepness: abs(steepness - kA), default=None)
-            chosen += having(good, steepness=nearest)
+        wanted = PAPER_STEEPNESS
+        if self.key.name != STEEPNESS.name:
+            wanted = [*self.values[:1], *self.values[-1:]]
+        for value in wanted:
+            nearest = min((run.value for run in good), key=lambda given, value=value: abs(given - value), default=None)
+            chosen += [run for run in good if run.value == nearest]
         return chosen
 
     def runs_with(self, condition: Callable[[Run], object]) -> list[Run]:
@@ -139,20 +148,21 @@ class Sweep:
         """ "kA = 0.01 to 0.03 and 0.05": the chosen of the runs, neighbours joined; " (A)" behind those of a motion."""
         places = {}
         for run in sorted(chosen, key=lambda run: run.motion):
-            places.setdefault(run.motion, set()).add(run.steepness)
+            places.setdefault(run.motion, set()).add(run.value)
         parts = []
-        for letter, steepness in places.items():
-            text = f"kA = {ranges(self.values, np.isin(self.values, list(steepness)))}"
+        for letter, values in places.items():
+            text = f"{self.key.head} = {ranges(self.values, np.isin(self.values, list(values)))}"
             parts.append(f"{text} ({letter})" if letter else text)
         return listed(parts)
 
 
-def read_sweep(directory: Path) -> Sweep:
-    """The facts of a sweep's folder, runs by steepness; a trajectory that cannot be read leaves a run with a `fault`.
+def read_sweep(directory: Path, key: Column = STEEPNESS) -> Sweep:
+    """The facts of a sweep's folder, runs by the column `key`.
 
+    A trajectory that cannot be read leaves a run with a `fault`.
     Raises FolderError for a folder that is no finished sweep.
     """
-    folder = read_folder(directory, NEEDED)
+    folder = read_folder(directory, (key.name, *NEEDED))
     provenance = folder.provenance  # an older one may be silent: then these are the values of `campaigns.judge`
     tolerance = float(provenance.get("strobe_tolerance") or 0.01)
     longest = int(provenance.get("longest_period") or 16)
@@ -163,22 +173,22 @@ def read_sweep(directory: Path) -> Sweep:
     if not colours_of(rows):
         rows = [{**row, "motion": ""} for row in rows]
     runs = []
-    for place, row in enumerate(in_order(rows, ["steepness"]), 1):
-        runs.append(_read_run(folder, row, f"run-{place}", draw))
+    for place, row in enumerate(in_order(rows, [key.name]), 1):
+        runs.append(_read_run(folder, row, key, f"run-{place}", draw))
     between, part = [], part_of(folder, "between")
     if part is not None:
         for row in part.completed:
-            between.append(_named(_read_run(part, row), runs))
-    return Sweep(folder, runs, between, tolerance, longest, modes)
+            between.append(_named(_read_run(part, row, key), runs))
+    return Sweep(folder, runs, between, tolerance, longest, modes, key)
 
 
 def _named(run: Run, judged: Sequence[Run]) -> Run:
     """A run between the values of others as one of the motion, of those beside it, whose range of r is nearest its."""
-    values = series(judged, "steepness")
-    low, high = values[values < run.steepness].max(initial=-np.inf), values[values > run.steepness].min(initial=np.inf)
+    values = np.array([neighbour.value for neighbour in judged])
+    low, high = values[values < run.value].max(initial=-np.inf), values[values > run.value].min(initial=np.inf)
     nearest, least = run, math.inf
     for neighbour in judged:
-        if neighbour.steepness not in (low, high) or not neighbour.ok:
+        if neighbour.value not in (low, high) or not neighbour.ok:
             continue
         distance_m = abs(run["radius_min_m"] - neighbour["radius_min_m"])
         distance_m += abs(run["radius_max_m"] - neighbour["radius_max_m"])
@@ -187,16 +197,16 @@ def _named(run: Run, judged: Sequence[Run]) -> Run:
     return replace(run, row={**run.row, "motion": nearest.motion})
 
 
-def _read_run(folder: Folder, row: dict, anchor: str = "", draw: Callable | None = None) -> Run:
+def _read_run(folder: Folder, row: dict, key: Column, anchor: str = "", draw: Callable | None = None) -> Run:
     """A row with what its trajectory adds. draw: makes the drawing of its sheet, None for a run that gets none."""
     left_out = row.get("transient_periods", folder.provenance.get("transient"))
     transient = int(left_out) if left_out and math.isfinite(left_out) else 0
     trajectory, fault = folder.trajectory(row)
     if trajectory is None or len(trajectory.columns["time_s"]) < 2:
-        return Run(row, anchor, fault, transient)
+        return Run(row, anchor, fault, transient, key=key)
     section = strobed_radius(trajectory, transient)
     periods_done = float(trajectory.columns["time_s"][-1]) / trajectory.scene.waves.period_s
-    run = Run(row, anchor, fault, transient, periods_done, section)
+    run = Run(row, anchor, fault, transient, periods_done, section, key=key)
     if draw is None or periods_done < 1.0:
         return run
     return replace(run, drawing=draw(run, trajectory))

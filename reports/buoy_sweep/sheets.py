@@ -3,15 +3,15 @@
 import math
 from collections.abc import Sequence
 
-from tables import EMPTY, count, number
+from tables import EMPTY, PEAK, PEAK_ERROR, count, number
 
 from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, shown_on
 from ..sweep.quantities import series
-from .figures import evidence_table, exponents
-from .runs import END_PERIODS, Run, Sweep
+from .figures import axis_of, evidence_table, exponents
+from .runs import END_PERIODS, STEEPNESS, Run, Sweep
 
 # columns that a sheet shows in its title, its drawing, its table or its message
-_ELSEWHERE = ("steepness", "motion", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
+_ELSEWHERE = ("motion", "status", "strobed_period", "regime_reason", "evidence", "run_key", "message")
 
 
 def explorer(sweep: Sweep) -> Explorer:
@@ -20,24 +20,31 @@ def explorer(sweep: Sweep) -> Explorer:
     for run in sweep.runs:
         points = tuple(run.section[:, 0]) if run.ok else ()
         colour = sweep.colours.get(run.motion, "")
-        columns.append(ExplorerColumn(run.steepness, points, _name(run), run.anchor, colour))
+        columns.append(ExplorerColumn(run.value, points, _name(run), run.anchor, colour))
     rows = sweep.runs
-    lower = [("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(rows))]
+    peak_kN, error_kN = (1e-3 * series(rows, name) for name in (PEAK, PEAK_ERROR))
+    lower = [
+        ("peak tension (kN)", tuple(peak_kN), tuple(error_kN)),
+        ("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(rows)),
+    ]
     for column, error in exponents(sweep)[:1]:
         lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))
-    return Explorer("wave steepness kA (–)", "strobed r (m)", tuple(columns), tuple(lower))
+    return Explorer(axis_of(sweep), "strobed r (m)", tuple(columns), tuple(lower))
 
 
 def sheet_items(sweep: Sweep) -> Items:
-    """The section with the sheets, and on the page what chooses one of them."""
+    """The section with the sheets, which the explorer opens too."""
+    printed = "the first and the last value"
+    if sweep.key.name == STEEPNESS.name:
+        printed = "the paper's kA = 0.016 and 0.13"
     introduction = (
         "One sheet for each row of the table of runs. Left: top tension (with its extremes between samples), r and θ "
         f"over the whole record and its last {number(END_PERIODS)} wave periods; right: strobed section after the "
         "transient, spectrum of r (eq. (31)), and the exponent of the tangent dynamics found up to each time, where "
-        "perturbations were carried. The PDF has those nearest the paper's kA = 0.016 and 0.13, and the first of a "
-        "motion that repeats after several periods."
+        f"perturbations were carried. The PDF has those nearest {printed}, and the first of a motion that repeats "
+        "after several periods."
     )
-    items = [Heading("Every run"), Text(introduction), explorer(sweep)]
+    items = [Heading("Every run"), Text(introduction)]
     for run in sweep.runs:
         items.append(_sheet(sweep, run))
     return items
@@ -53,9 +60,9 @@ def _sheet(sweep: Sweep, run: Run) -> Sheet:
     neighbours = motion[max(place - 1, 0) : place] + motion[place + 1 : place + 2]
     if neighbours:
         lines.append(f"Next to it: {_links(neighbours)}.")
-    rivals = sweep.runs_with(lambda rival: rival.steepness == run.steepness and rival is not run)
+    rivals = sweep.runs_with(lambda rival: rival.value == run.value and rival is not run)
     if rivals:
-        lines.append(f"At the same kA: {_links(rivals)}.")
+        lines.append(f"At the same {sweep.key.head}: {_links(rivals)}.")
     return Sheet(
         run.anchor, _name(run), _facts(sweep, run), tuple(lines), run.drawing, evidence_table(run), run in sweep.chosen
     )
@@ -90,6 +97,6 @@ def _facts(sweep: Sweep, run: Run) -> tuple[tuple[str, str], ...]:
     columns = sweep.folder.columns
     cells = printed_cells(columns)
     for name in shown_on(columns, [run]):
-        if name not in _ELSEWHERE:
+        if name not in (sweep.key.name, *_ELSEWHERE):
             facts.append((columns[name].head, f"{cells[name](run)} {columns[name].unit}".strip()))
     return (*facts, ("file", f"`trajectories/{run['run_key'][:12]}….nc`"))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from tables import EMPTY, PLANE, RUNS, decimals, listed, number, of_kicks, percent, ranges
+from tables import EMPTY, PLANE, REGIMES, RUNS, decimals, listed, number, of_kicks, percent, ranges
 
 from ..parts import (
     LONGEST_CELL,
@@ -19,6 +19,7 @@ from ..parts import (
     Text,
     heads,
     link,
+    plain,
     scene_items,
     shown_on,
     table_of,
@@ -27,7 +28,11 @@ from ..parts import (
 from ..sweep.quantities import batched, over_key, series
 from .runs import Run, Sweep
 
-_MOST = 18  # columns of one table
+_MOST = 21  # columns of one table
+_ON_SHEETS = (  # alone, because the table of motions or a figure has them too
+    "share_low", "share_high", "found_by", "periods", "transient_periods", "angle_min_rad", "angle_max_rad",
+    "max_turn_rad",
+)  # fmt: skip
 # What `campaigns.out_of_plane` finds, and tests/reports/test_regimes.py holds it to.
 COMPARED = (
     "`campaigns.out_of_plane` compares planar runs that release loops with runs in three dimensions, at kA = 0.13 and "
@@ -37,15 +42,15 @@ COMPARED = (
 
 
 def sweep_table(sweep: Sweep, names: Sequence[str], runs: Sequence[Run], caption: str) -> Table:
-    """A table of runs: their steepness, a link to the sheet of the run, their motion and the columns of these names.
+    """A table of runs: their value, a link to the sheet of the run, their motion and the columns of these names.
 
     A period of 0 reads "none". Columns without an entry in any of the runs are left out.
     """
-    columns = sweep.folder.columns
+    columns, key = sweep.folder.columns, sweep.key.name
     filled = shown_on(columns, runs)
-    shown = [name for name in dict.fromkeys(("steepness", "motion", *names)) if name in filled]
+    shown = [name for name in dict.fromkeys((key, "motion", *names)) if name in filled]
     own_cells = {
-        "steepness": lambda run: link(number(run.steepness), run.anchor),
+        key: lambda run: link(number(run.value), run.anchor),
         "share": of_kicks,
         "strobed_period": _period,
     }
@@ -60,14 +65,16 @@ def _period(run: Run) -> str:
 def runs_items(sweep: Sweep) -> Items:
     """All rows of table.csv in the columns a reader asks for first."""
     columns = sweep.folder.columns
-    names = shown_on(columns, sweep.runs, RUNS, longest=LONGEST_CELL)
-    names = [name for name in names if name not in ("steepness", "motion")]
+    names = shown_on(columns, sweep.runs, RUNS, REGIMES, longest=LONGEST_CELL)
+    names = [name for name in names if name not in (sweep.key.name, "motion", *_ON_SHEETS)]
+    if len(sweep.good) == len(sweep.runs):
+        names.remove("status")
     if sweep.runs_with(lambda run: run.in_space):
         names.insert(0, "dimensions")
     caption = (
         f"Every run of `table.csv`. A motion repeats after N wave periods if it does to {percent(sweep.tolerance)} of "
-        f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page kA "
-        "leads to the sheet of the run."
+        f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page "
+        f"{sweep.key.head} leads to the sheet of the run."
     )
     return [
         Heading("Table of runs"),
@@ -95,12 +102,12 @@ def plane_items(sweep: Sweep) -> Items:
     items = [Heading("Out of the plane"), Text(words)]
     if across:
         growth, error = columns[growth_name], columns[error_name]
-        picture = over_key(across, columns["steepness"], [((growth, error),)], sweep.colours)
+        picture = over_key(across, columns[sweep.key.name], [((growth, error),)], sweep.colours)
         caption = (
             "Exponent of an infinitesimal perturbation across the plane, with one standard error, in planar runs that "
             f"released no loop: below zero the planar motion is stable. From `{growth.name}` and `{error.name}`."
         )
-        items.append(Figure(picture, caption, "Exponent across the plane over wave steepness, with standard errors."))
+        items.append(Figure(picture, caption, "Exponent across the plane, with standard errors."))
     if shown:
         caption = (
             "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). Columns called planar are of "
@@ -135,9 +142,9 @@ def _cost_figure(sweep: Sweep) -> Figure | None:
         f"Newton iterations a wave period, {number(1e6 * total_s / max(newton, 1.0), 3)} µs an iteration"
     )
     caption = f"Cost of each run: {costs}. Crosses: runs that ended early. From `table.csv`."
-    alt = f"Wall time and Newton iterations of each run over wave steepness: {costs}."
+    alt = f"Wall time and Newton iterations of each run over {plain(sweep.key.head)}: {costs}."
     shown = [((columns["wall_s"], None),), ((columns["newton_iterations"], None),)]
-    return Figure(over_key(rows, columns["steepness"], shown, sweep.colours), caption, alt)
+    return Figure(over_key(rows, columns[sweep.key.name], shown, sweep.colours), caption, alt)
 
 
 def scene_and_modes(sweep: Sweep) -> Items:

@@ -16,7 +16,19 @@ from ..figures.oscillator import (
     oscillator_section,
     oscillator_zooms,
 )
-from ..parts import Figure, Heading, Items, Notice, Report, Text, appendix, provenance_items, section_items, table_of
+from ..parts import (
+    Figure,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    appendix,
+    picture_first,
+    provenance_items,
+    section_items,
+    table_of,
+)
 from .sections import NUMBERS, Study, attracting_orbit, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
@@ -41,7 +53,7 @@ def report(directory: Path) -> Report:
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
     method = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
-    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*items, *method))
+    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*picture_first(items), *method))
 
 
 def _section(study: Study, arrays: dict) -> Items:

@@ -12,6 +12,7 @@ from ..parts import (
     Notice,
     Report,
     entries,
+    picture_first,
     report_page,
     scene_items,
     section_items,
@@ -40,6 +41,7 @@ def report(directory: Path) -> Report:
         Heading("Table of runs"),
         *_runs_tables(study),
     ]
+    items = picture_first(items)
     return report_page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
 
 

@@ -13,26 +13,24 @@ Cells = Mapping[str, Callable[[Row], str]]  # name of a column -> the function o
 
 
 def table_of(
-    columns: Columns, names: Iterable[str], rows: Iterable[Row], caption: str, own_cells: Cells | None = None
+    columns: Columns, names: Iterable[str], rows: Iterable[Row | str], caption: str, own_cells: Cells | None = None
 ) -> Table:
     """A table of the named columns; `columns` has their heads, units, digits and meanings.
 
-    If a column of errors belongs to a value, the value is printed with its error. caption: the subject of the table;
-    the meanings of the columns follow it. own_cells: cells of some columns that replace the printed values. Raises
-    KeyError for a name that `columns` does not have.
+    If a column of errors belongs to a value, the value is printed with its error. The meanings of the columns go with
+    their heads. rows: a word in place of a row is the title of those that follow. own_cells: cells of some columns that
+    replace the printed values. Raises KeyError for a name that `columns` does not have.
     """
     cells = printed_cells(columns) | (own_cells or {})
     shown = [columns[name] for name in names]
-    heads, meanings = [], {}
+    heads = []
     for column in shown:
-        heads.append(Head(column.head, column.unit, "left" if column.digits is None else "right"))
-        if column.meaning:
-            meanings[f"{column.head}: {column.meaning}"] = None  # a dictionary: each meaning once, in order
+        align = "left" if column.digits is None else "right"
+        heads.append(Head(column.head, column.unit, align, meaning=column.meaning))
     body = []
     for row in rows:
-        body.append([cells[column.name](row) for column in shown])
-    explained = f"{'; '.join(meanings)}." if meanings else ""
-    return Table(heads, body, f"{caption} {explained}".strip())
+        body.append([row] if isinstance(row, str) else [cells[column.name](row) for column in shown])
+    return Table(heads, body, caption)
 
 
 def printed_cells(columns: Columns) -> dict[str, Callable[[Row], str]]:

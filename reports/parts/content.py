@@ -1,9 +1,9 @@
 """What a report says, before anyone decides what it looks like.
 
-A report is one flat list of the frozen records below. `html` and `pdf` each walk the same list, so the
-page and the PDF cannot drift apart. Text is plain text: the renderers escape it. Two marks are understood (`spans`): a
-pair of backquotes for a file, column or key name, because captions name their columns all the time, and what `sub` and
-`link` make: subscripts, because the symbols of the paper have them, and links within the page.
+A report is one flat list of the frozen records below. `html` and `pdf` each walk the same list, so the page and the PDF
+cannot drift apart. Text is plain text: the renderers escape it. They understand some marks (`spans`): a pair of
+backquotes for a file, column or key name, because captions name their columns all the time, and what `sub`, `strong`
+and `link` make: subscripts, because the symbols of the paper have them, bold words, and links within the page.
 """
 
 from __future__ import annotations
@@ -90,13 +90,15 @@ class Figure:
 class Head:
     """A table column: its title, the unit shown under the title ("" for none), and how its cells are set.
 
-    `share`: of the width that the columns of sentences divide among themselves, in the PDF.
+    `share`: of the width that the columns of sentences divide among themselves, in the PDF. `meaning`: of the title;
+    the list of symbols at the end of a report has it, and the page shows it where the mouse rests on the title.
     """
 
     title: str
     unit: str = ""
     align: Literal["left", "right"] = "right"
     share: int = 1
+    meaning: str = ""
 
 
 def heads(*titles: str | tuple[str, str]) -> list[Head]:
@@ -114,7 +116,8 @@ def heads(*titles: str | tuple[str, str]) -> list[Head]:
 class Table:
     """A table of strings. `small`: in the smaller type that many columns need.
 
-    Raises ValueError when a row has not one cell for every column.
+    A row of one cell is the title of a group of rows, across all columns. Raises ValueError when another row has not one
+    cell for every column.
     """
 
     columns: Sequence[Head]
@@ -123,7 +126,7 @@ class Table:
     small: bool = True
 
     def __post_init__(self) -> None:
-        if any(len(row) != len(self.columns) for row in self.rows):
+        if any(len(row) not in (1, len(self.columns)) for row in self.rows):
             raise ValueError("every row of a table needs one cell for every column")
 
 
@@ -233,8 +236,10 @@ class Report:
 
 
 # Characters of Unicode's private area, as those of `sub`: no text from outside carries them.
-_TO, _SAY, _BACK = "\ue002", "\ue003", "\ue004"
-_MARKS = re.compile(f"`([^`\\n]+)`|{DOWN}([^{UP}]*){UP}|{_TO}([^{_SAY}]*){_SAY}([^{_BACK}]*){_BACK}")
+_TO, _SAY, _BACK, _LOUD = "\ue002", "\ue003", "\ue004", "\ue005"
+_MARKS = re.compile(
+    f"`([^`\\n]+)`|{DOWN}([^{UP}]*){UP}|{_TO}([^{_SAY}]*){_SAY}([^{_BACK}]*){_BACK}|{_LOUD}([^{_BACK}]*){_BACK}"
+)
 
 
 def with_subscripts(text: str) -> str:
@@ -247,8 +252,13 @@ def link(text: str, anchor: str) -> str:
     return f"{_TO}{anchor}{_SAY}{text}{_BACK}"
 
 
+def strong(text: str) -> str:
+    """The text in bold type."""
+    return f"{_LOUD}{text}{_BACK}"
+
+
 def spans(text: str) -> list[tuple[str, str]]:
-    """Split text into (style, piece), style being "", "code", "sub" or, for a link, "#" and its anchor.
+    """Split text into (style, piece), style being "", "code", "sub", "strong" or, for a link, "#" and its anchor.
 
     A backquote without a partner stays as written.
 
@@ -258,9 +268,11 @@ def spans(text: str) -> list[tuple[str, str]]:
     pieces, at = [], 0
     for match in _MARKS.finditer(text):
         pieces.append(("", text[at : match.start()]))
-        code, subscript, anchor, link_text = match.groups()
+        code, subscript, anchor, link_text, loud = match.groups()
         if code:
             pieces.append(("code", code))
+        elif loud is not None:
+            pieces.append(("strong", loud))
         elif subscript is not None:
             pieces.append(("sub", subscript))
         else:

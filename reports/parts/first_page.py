@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tables import ANSWER, any_rows, count, number, number_of, printed
 
-from .content import Bullets, Report, Text
+from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
@@ -19,11 +19,33 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
     if path.exists() and "timing" in provenance:
         lines = path.read_text(encoding="utf-8").splitlines()
         if lines:
-            first_page.append(Bullets(tuple(map(printed, lines))))
+            first_page.append(Bullets(tuple(map(_with_its_word, lines))))
     duration = how_long(provenance, any_rows(directory / "table.csv"))
     if duration:
         first_page.append(Text(duration))
-    return replace(report, items=(*first_page, *report.items))
+    return replace(report, items=(*first_page, *report.items, *symbols(report.items)))
+
+
+def symbols(items: Items) -> Items:
+    """The list of what the heads of all tables mean, each once; nothing where no head tells it."""
+    meanings = {}
+    for item in items:
+        if isinstance(item, Table):
+            for head in item.columns:
+                if head.meaning:
+                    meanings[head.title, head.unit, head.meaning] = None  # a dictionary: each once, in order
+    if not meanings:
+        return []
+    columns = heads("symbol", "unit", "meaning")
+    return [Heading("Symbols"), Table(columns, list(meanings), "The heads of the tables, from `columns.csv`.")]
+
+
+def _with_its_word(line: str) -> str:
+    """A line of the answer as print wants it, the word that it begins with in bold type."""
+    word, _, text = line.partition(" ")
+    if word.isupper() and text.startswith(" "):
+        return f"{strong(word)} {printed(text.lstrip())}"
+    return printed(line)
 
 
 def how_long(provenance: Mapping, rows: list[dict[str, str]]) -> str:

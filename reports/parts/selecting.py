@@ -1,6 +1,8 @@
-"""Rows of a table, chosen by their entries, and the entries of a column."""
+"""Rows of a table, chosen by their entries, the entries of a column, and the picture of the first page."""
 
 from collections.abc import Iterable
+
+from .content import Figure, Heading, Items
 
 
 def having(rows: Iterable, **wanted: object) -> list:
@@ -15,3 +17,21 @@ def having(rows: Iterable, **wanted: object) -> list:
 def entries(rows: Iterable, column: str) -> list:
     """A column of the rows, as it stands there."""
     return [row[column] for row in rows]
+
+
+def picture_first(items: Items) -> Items:
+    """The items with their first figure in front of all, so that it is on the first page.
+
+    A heading that has nothing else below it goes.
+    """
+    items = list(items)
+    for place, item in enumerate(items):
+        if isinstance(item, Figure):
+            break
+    else:
+        return items
+    before, after = items[:place], items[place + 1 :]
+    empty = not after or isinstance(after[0], Heading)
+    if before and isinstance(before[-1], Heading) and empty:
+        before.pop()
+    return [item, *before, *after]

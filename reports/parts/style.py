@@ -21,7 +21,7 @@ WIDTH_IN = 6.8  # the text width of the PDF page
 DOTS_PER_INCH = 200
 MOST_VECTOR_POINTS = 6000  # a scatter of more points is smaller, and opens faster, as pixels
 
-GREEN, PURPLE = "#009e73", "#cc79a7"
+GREEN, PURPLE, PLUM, BROWN = "#009e73", "#cc79a7", "#9b3d73", "#7a5200"
 
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from tables import Column, count, number, number_of
 
-from ..figures.stability import stiffness
+from ..figures.stability import case_grid, stiffness
 from ..parts import (
     Figure,
     FolderError,
@@ -34,6 +35,7 @@ def report(directory: Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
+        grid_figure(study),
         *unexplained_items(study),  # before the first heading: on the first page, after the answer
         *section_items("stability"),
         *stiffness_items(study),
@@ -90,15 +92,24 @@ def read_study(directory: Path) -> Study:
 def case_items(study: Study) -> Items:
     """One table of all cases, a row with its title before each group."""
     rows = []
-    for about in dict.fromkeys(entries(study.cases, "about")):
-        rows += [{"case": f"— {about} —"}, *having(study.cases, about=about)]
+    for about, cases in by_group(study).items():
+        rows += [about, *cases]
+    table = table_of(study.columns, SHOWN, rows, "Cases and verdicts, from `table.csv`.")
+    return [Heading("Cases and verdicts"), Text(HOW), table]
 
-    def cell(name: str):
-        return lambda row: study.columns[name].cell(row) if "group" in row else row.get(name, "")
 
-    caption = "Cases and verdicts, from `table.csv`."
-    cells = {name: cell(name) for name in SHOWN}
-    return [Heading("Cases and verdicts"), Text(HOW), table_of(study.columns, SHOWN, rows, caption, cells)]
+def by_group(study: Study) -> dict[str, list[dict[str, str]]]:
+    """The cases of each group, by its title."""
+    return {about: having(study.cases, about=about) for about in dict.fromkeys(entries(study.cases, "about"))}
+
+
+def grid_figure(study: Study) -> Figure:
+    """All cases as cells in the colours of their verdicts, a row for each group."""
+    verdicts = {about: entries(cases, "verdict") for about, cases in by_group(study).items()}
+    counts = Counter(entries(study.cases, "verdict"))
+    words = ", ".join(f"{number_of_cases} {verdict}" for verdict, number_of_cases in counts.most_common())
+    caption = "Every case, a cell each, in the colour of its verdict, in the order of the table of cases."
+    return Figure(case_grid(verdicts), caption, f"A grid of {count(len(study.cases), 'case')}: {words}.")
 
 
 def stiffness_items(study: Study) -> Items:

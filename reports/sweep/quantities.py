@@ -9,10 +9,11 @@ from tables import EMPTY, PEAK, Column, errors_of, number, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..parts import Folder, Picture, Row, Table, heads, shown_on, table_of
-from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION
+from ..parts.style import BLUE, BROWN, GREEN, INK, PLUM, SOFT, VERMILION
 
 PER_ROW = 2
-_CALM = BLUE, GREEN, ORANGE, PURPLE, SKY  # of all motions but that of the largest tension
+# of all motions but that of the largest tension; dark ones, because the page makes dark colours light on a dark screen
+_CALM = BLUE, GREEN, PLUM, BROWN, INK
 Measured = tuple[tuple[Column, Column | None], ...]  # one panel: columns of one unit, each with its errors or None
 
 

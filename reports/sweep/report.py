@@ -7,6 +7,10 @@ import numpy as np
 
 from tables import Column, listed, number
 
+from ..buoy_sweep.figures import orbit_figure
+from ..buoy_sweep.motions import motions_items
+from ..buoy_sweep.runs import NEEDED, read_sweep
+from ..buoy_sweep.sheets import explorer, sheet_items
 from ..figures.maps import Map, maps
 from ..parts import (
     LONGEST_CELL,
@@ -20,6 +24,7 @@ from ..parts import (
     Text,
     having,
     limits,
+    picture_first,
     plain,
     read_folder,
     report_page,
@@ -56,7 +61,7 @@ def report(directory: Path) -> Report:
     run_keys = list(keys)  # what tells one run from another
     if motions:
         run_keys.append(folder.columns["motion"])
-    varied, key_cells = {}, {}
+    varied, key_cells, first, sheets = {}, {}, [], []
     for key in keys:
         varied[key.name] = listed(map(number, np.unique(series(rows, key.name))))
         key_cells[key.name] = lambda row, name=key.name: number(float(row[name]))  # with the digits that it needs
@@ -67,10 +72,14 @@ def report(directory: Path) -> Report:
         question = f"What does the scene `{folder.scene.name}` do as {key_names} varies?"
         figures = _panels(key, rows, shown, motions) + every_motion(folder, key.name, key.head)
         figures += snap_items(folder, key)
+        if set(NEEDED) <= set(folder.columns):  # of a buoy in regular waves
+            sweep = read_sweep(directory, key)
+            first, sheets = [orbit_figure(sweep), *motions_items(sweep), explorer(sweep)], sheet_items(sweep)
     else:
         question = f"What does the scene `{folder.scene.name}` do as {key_names} vary?"
         figures = _maps_of_each(keys, rows, shown, motions)
     items = [
+        *filter(None, first),
         Heading("Question"),
         Text(question),
         *extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
@@ -79,7 +88,10 @@ def report(directory: Path) -> Report:
         _warnings(run_keys, rows),
         Heading("Table of runs"),
         *_tables(folder.columns, key_cells, rows),
+        *sheets,
     ]
+    if not first:
+        items = picture_first(items)
     made = [*timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE)]
     return report_page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
 

@@ -86,7 +86,7 @@
     columns.forEach((column, index) => {
       const x = across(column.at), half = Math.max(0.75, Math.min(0.4 * room[index] * scale, 6));
       if (x < LEFT - 8 || x > width() + 8) return;
-      pen.fillStyle = index === chosen ? colours.mark : column.colour || colours.points;
+      pen.fillStyle = index === chosen ? colours.mark : column.shown || colours.points;
       if (!column.points.length) drawCross(pen, x, index === chosen ? colours.mark : colours.soft);
       for (const point of column.points) {
         pen.fillRect(x - half, down(point) - 0.75, 2 * half, 1.5);
@@ -105,7 +105,7 @@
       curve.values.forEach((value, i) => {
         if (value === null) return;
         const x = across(columns[i].at), error = curve.errors[i];
-        pen.strokeStyle = pen.fillStyle = i === chosen ? colours.mark : columns[i].colour || colours.points;
+        pen.strokeStyle = pen.fillStyle = i === chosen ? colours.mark : columns[i].shown || colours.points;
         pen.beginPath();
         pen.moveTo(x, to(error === null ? 0 : value - error));
         pen.lineTo(x, to(error === null ? value : value + error));
@@ -122,6 +122,10 @@
     const colour = (name) => style.getPropertyValue(name).trim();
     const colours = { ink: colour("--ink"), soft: colour("--soft"), line: colour("--line"), points: colour("--accent"),
                       mark: colour(columns.some((column) => column.colour) ? "--ink" : "--warn") };
+    const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    for (const column of columns) { // dark colours become light on a dark page
+      column.shown = column.colour && dark ? `color-mix(in srgb, ${column.colour}, white 35%)` : column.colour;
+    }
     canvas.width = Math.round(width() * density);
     canvas.height = Math.round(height() * density);
     const pen = canvas.getContext("2d");
@@ -258,6 +262,15 @@
   list.addEventListener("change", () => choose(list.selectedIndex - 1));
   new ResizeObserver(draw).observe(canvas);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  // a link to a sheet opens it
+  function unfold() {
+    const sheet = document.getElementById(location.hash.slice(1))?.closest("details");
+    if (!sheet || sheet.open) return;
+    sheet.open = true;
+    sheet.scrollIntoView();
+  }
+  addEventListener("hashchange", unfold);
   root.hidden = false;
+  unfold();
   draw();
 })();

@@ -6,7 +6,7 @@ from pathlib import Path
 from tables import printed
 
 from ..figures.series_panels import SHOWN, growth_and_dimension, record_and_spectrum, return_map
-from ..parts import Figure, FolderError, Heading, Items, Listing, Report, Table, Text, heads, read_files
+from ..parts import Figure, FolderError, Heading, Items, Listing, Report, Table, Text, heads, picture_first, read_files
 
 CURVES = ("series", "spectrum", "section", "divergence", "dimension")
 PASSED = {True: "yes", False: "no", None: "not asked"}
@@ -32,7 +32,7 @@ def report(directory: Path) -> Report:
     judged = read_judged(directory)
     answer, source = judged["answer.json"], judged["provenance.json"]
     figures = _figures(judged, answer["unit_of_time"], source["column"])
-    items = [*_verdict(answer), *figures, *_evidence(answer), *_origin(source, judged["answer.txt"])]
+    items = [*_verdict(answer), *picture_first(figures), *_evidence(answer), *_origin(source, judged["answer.txt"])]
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
     return Report(title, under, items)
 

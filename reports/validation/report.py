@@ -27,7 +27,7 @@ from ..parts import (
     table_of,
     timing_items,
 )
-from ..parts.style import BLUE, VERMILION
+from ..parts.style import BLUE, SOFT, VERMILION
 
 FILES = {"cases.csv": "cases and verdicts", "curves.csv": "both curves of each case"}
 NUMBERS = ("title", "quantity", "verdict", "ours", "theirs", "error", "bar", "unit")
@@ -61,7 +61,7 @@ def read_study(directory: Path) -> Study:
 def report(directory: Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items = [*section_items("validation"), Heading("All cases"), summary(study)]
+    items = [overview(study), *section_items("validation"), Heading("All cases"), summary(study)]
     for case in study.cases:
         items += case_items(study, case)
     items += [
@@ -70,6 +70,48 @@ def report(directory: Path) -> Report:
     ]
     subtitle = f"{count(len(study.cases), 'case')}, each with its source, a bar and a verdict"
     return report_page(study.folder, "Beside measurements and other codes", items, timing_items(study.folder), subtitle)
+
+
+def overview(study: Study) -> Figure:
+    """All cases: ours over theirs, point by point, and the error of every judged quantity over its bar."""
+    ours, theirs = [], []
+    for pairs in study.points.values():
+        for points in pairs.values():
+            _, our_values, their_values = np.array(points).T
+            scale = np.nanmax(np.abs(their_values))
+            if scale > 0.0:
+                ours.append(our_values / scale)
+                theirs.append(their_values / scale)
+    names, shares, missing = [], [], []
+    for case, rows in study.cases.items():
+        for row in _judged(rows):
+            share = number_of(row, "error") / number_of(row, "bar")
+            if np.isfinite(share):
+                names.append(f"{case}, {row['quantity']}")
+                shares.append(share)
+                missing.append(share > 1.0)
+    places, shares, missing = np.arange(len(names)), np.array(shares), np.array(missing, bool)
+    x, y = (np.concatenate([*curves_of, np.empty(0)]) for curves_of in (theirs, ours))
+    ends = np.array([min(x.min(initial=0.0), 0.0), 1.0])
+    drawn = [
+        Curve(ends, ends, colour=SOFT),
+        Curve(x, y, line="", mark=".", colour=BLUE, size=2.0, alpha=0.5, pixels=True),
+    ]
+    errors = []
+    for chosen, colour in ((~missing, BLUE), (missing, VERMILION)):
+        errors.append(Curve(shares[chosen], places[chosen], line="", mark="o", colour=colour, size=4.5))
+    axis = {"yticks": places, "yticklabels": names, "ylim": (len(names) - 0.5, -0.5)}
+    panels = [
+        Panel(drawn, "theirs, over its largest value", "ours, over the largest of theirs"),
+        Panel(errors, "error over the most it may be", log="x", settings=axis, marks=[(1.0, "")]),
+    ]
+    caption = (
+        "Left: ours over theirs at every point of every case; on the line both agree. Right: the error of each judged "
+        "quantity over its bar, the most that it may be (dashed); beyond it a case misses. From `curves.csv` and "
+        "`cases.csv`."
+    )
+    alt = f"Ours against theirs, and {count(len(names), 'error')} over their bars, {int(missing.sum())} beyond."
+    return Figure(curves([panels], max(2.6, 0.8 + 0.16 * len(names)), widths=(1.0, 0.9)), caption, alt)
 
 
 def summary(study: Study) -> Table:

@@ -56,10 +56,10 @@ def test_heads_units_places_and_caption_come_from_the_dictionary(tmp_path):
 def test_runs_of_a_motion_known_in_advance(folder):
     """Period 1 below kA = 0.06, 2 to 0.1, two incommensurate frequencies above; those at 0.12 and 0.16 failed."""
     sweep = read_sweep(folder)
-    periods = {run.steepness: run.period for run in sweep.runs}
+    periods = {run.value: run.period for run in sweep.runs}
     assert periods == {0.016: 1, 0.03: 1, 0.05: 1, 0.08: 2, 0.1: 0, 0.12: None, 0.13: 0, 0.16: None}
-    assert sorted(run.steepness for run in sweep.chosen) == [0.016, 0.08, 0.13]
-    assert [run.steepness for run in sweep.good] == [0.016, 0.03, 0.05, 0.08, 0.1, 0.13]
+    assert sorted(run.value for run in sweep.chosen) == [0.016, 0.08, 0.13]
+    assert [run.value for run in sweep.good] == [0.016, 0.03, 0.05, 0.08, 0.1, 0.13]
 
 
 def buoy(changes=None):

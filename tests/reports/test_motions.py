@@ -72,7 +72,7 @@ def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
     assert not any(map(crowded, drawn))
     static_N, points = sweep.modes.static_tension_N, points_of(drawn[0].axes[0])
     for letter in "AB":
-        tensions = {run.steepness: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
+        tensions = {run.value: run["tension_top_max_N"] / static_N for run in sweep.motions[letter]}
         assert np.allclose(points[sweep.colours[letter]], sorted(tensions))
         mine = [
             curve
@@ -104,7 +104,7 @@ def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(severa
     panel = panel_of(drawn[0], "largest T")
     ((x, tail), (_, head)) = next((text.xyann, text.xy) for text in panel.texts if hasattr(text, "xyann"))
     first, near = sweep.motions["B"][0], sweep.motions["A"][0]
-    assert x == 0.02 and near.steepness == 0.016 and first.steepness == 0.03
+    assert x == 0.02 and near.value == 0.016 and first.value == 0.03
     assert np.array([tail, head]) * sweep.modes.static_tension_N == pytest.approx(
         [first["tension_top_max_N"], near["tension_top_max_N"]]
     )

@@ -1,0 +1,111 @@
+"""The largest tension of a table: how well it is known, whether one may design for it, and the largest that one may.
+
+A tension is doubted where the model says more than it knows (`reasons`).
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+
+from campaigns.answers import greatest, kilonewton, numbers_of
+from engine.natural_frequencies import natural_frequencies
+from engine.views import in_regular_waves
+from tables import (
+    BUOY_HEIGHT,
+    CAPPED,
+    COARSE,
+    OPEN,
+    OTHER_MOTION,
+    PEAK,
+    PEAK_ERROR,
+    Row,
+    count,
+    listed,
+    number_of,
+)
+
+FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
+
+
+def load(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> str:
+    """The largest tension, its use, that of the largest motion that stays in the water, and what was checked of it."""
+    peak, modes = greatest(rows, PEAK), scene and natural_frequencies(scene)
+    words = [f"peak top tension {largest(peak)}"]
+    if modes and modes.static_tension_N:  # else there is no closed form
+        words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
+    words += [of_motion(peak), f"{symbol} = {peak[key]:.4g}", str(peak.get("regime") or "")]
+    sentences = [f"{', '.join(filter(None, words))}."]
+    if scene is None:
+        return sentences[0]
+    searched = any(map(math.isfinite, numbers_of(rows, "share")))
+    if not any(reasons(peak, scene)):
+        return f"{sentences[0]} {use_of(peak, scene, searched)}"
+    sentences.append(use_of(peak, scene, searched))
+    capped = greatest([row for row in companions if row["status"] == "ok" and row["role"] == CAPPED], PEAK)
+    if capped is not None:
+        sentences.append(f"With the {CAPPED} at most {kilonewton(number_of(capped, PEAK))}.")
+    usable = greatest([row for row in rows if not any(reasons(row, scene))], PEAK)
+    if usable is not None:
+        place = ", ".join(filter(None, (largest(usable), of_motion(usable), f"{symbol} = {usable[key]:.4g}")))
+        kind = "Largest without these faults"
+        if scene.buoy is not None and scene.buoy.submergence == "full":
+            kind = "Largest of the motions that stay in the water"
+        sentences += [f"{kind}: {place}.", use_of(usable, scene, searched)]
+    return " ".join(sentences)
+
+
+def of_motion(row: Row) -> str:
+    """ "motion C"; "" where motions have no letters."""
+    letter = row.get("motion")
+    return f"motion {letter}" if letter else ""
+
+
+def largest(row: Row) -> str:
+    """ "9.45 kN (± 0.12 kN)", without the error where that is not known."""
+    text, error = kilonewton(number_of(row, PEAK)), number_of(row, PEAK_ERROR)
+    if math.isfinite(error):
+        text += f" (± {error / 1e3:.2g} kN)"
+    return text
+
+
+def use_of(row: Row, scene, searched: bool) -> str:
+    """The reasons against using the tension of a row; without any, the checks that were made of it, and those not made.
+
+    searched: whether other motions were looked for.
+    """
+    doubts = [*reasons(row, scene)]
+    if doubts:
+        return f"Not for design: {'; '.join(doubts)}."
+    error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
+    grid = "grid and steps"
+    if math.isfinite(error):
+        grid = f"{grid} (± {100.0 * error:.2g} %)"
+    checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
+    if scene.buoy is not None and waves is not None:
+        wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
+        checks["wetted buoy"] = wetted or math.isfinite(number_of(row, BUOY_HEIGHT))
+    if in_regular_waves(scene):
+        checks["a settled motion"] = row.get("regime") not in (None, "", *OPEN)
+        checks |= {"other motions": searched, "an irregular sea": False}
+    elif waves is not None:
+        checks[f"a sea longer than its {number_of(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
+    if scene.water is not None:
+        checks["the sea bed"] = scene.floor is not None
+    checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
+    passed, missing = [], []
+    for name, checked in checks.items():
+        (passed if checked else missing).append(name)
+    return f"Checked: {listed(passed)}; not checked: {listed(missing)}."
+
+
+def reasons(row: Row, scene) -> Iterator[str]:
+    """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
+    if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
+        if row.get("role") != CAPPED and number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m:
+            yield FLIES
+    loops = number_of(row, "loop_releases")
+    if loops > 0 and number_of(row, "dimensions") != 3:
+        yield f"{count(int(loops), 'loop')} released in a plane (motion.dimensions)"
+    if number_of(row, PEAK_ERROR) > COARSE * number_of(row, PEAK):
+        yield f"its numerical error is {100.0 * number_of(row, PEAK_ERROR) / number_of(row, PEAK):.0f} %"
+    if OTHER_MOTION in str(row.get("message")):
+        yield f"with smaller elements and steps it {OTHER_MOTION}"
