@@ -8,8 +8,8 @@ STARTS   where the start decides
 CHAOS    the largest exponent
 OPEN     what is not decided, why, and what would decide it
 
-A line is left out where the rows know nothing of it. A jump: between two neighbouring values the largest tension changes
-by more than a quarter, and by more than three times the median change between neighbours.
+A line is left out where the rows know nothing of it. A jump: between two neighbouring values the largest tension
+changes by more than a quarter, and by more than three times the median change between neighbours.
 """
 
 import math
@@ -135,9 +135,9 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
     return " ".join(parts)
 
 
-def _span(values: Sequence[float], printed=partial(number, digits=2), places: int = 2) -> str:
+def _span(values: Sequence[float], places: int = 2) -> str:
     """ "0.6 to 0.8"; one number where both ends are the same in print."""
-    low, high = printed(round(min(values), places)), printed(round(max(values), places))
+    low, high = (number(round(end(values), places), 3) for end in (min, max))
     return low if low == high else f"{low} to {high}"
 
 

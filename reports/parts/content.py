@@ -116,8 +116,8 @@ def heads(*titles: str | tuple[str, str]) -> list[Head]:
 class Table:
     """A table of strings. `small`: in the smaller type that many columns need.
 
-    A row of one cell is the title of a group of rows, across all columns. Raises ValueError when another row has not one
-    cell for every column.
+    A row of one cell is the title of a group of rows, across all columns. Raises ValueError when another row has not
+    one cell for every column.
     """
 
     columns: Sequence[Head]

@@ -7,6 +7,7 @@ from pathlib import Path
 from tables import ANSWER, any_rows, count, number, number_of, printed
 
 from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong
+from .provenance import APPENDIX
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
@@ -23,7 +24,10 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
     duration = how_long(provenance, any_rows(directory / "table.csv"))
     if duration:
         first_page.append(Text(duration))
-    return replace(report, items=(*first_page, *report.items, *symbols(report.items)))
+    titles = [item.text if isinstance(item, Heading) else "" for item in report.items]
+    end = titles.index(APPENDIX) if APPENDIX in titles else len(titles)
+    items = (*first_page, *report.items[:end], *symbols(report.items), *report.items[end:])
+    return replace(report, items=items)
 
 
 def symbols(items: Items) -> Items:

@@ -15,6 +15,7 @@ from .folder import Folder
 if TYPE_CHECKING:
     from engine import Scene
 
+APPENDIX = "Appendix: how this was made"
 _TIMES = {
     "compile_s": "compiling the kernels",
     "run_s": "runs with their analysis",
@@ -134,7 +135,7 @@ def appendix(*items: Item) -> Items:
     """The last section of a report: how it was made; headings among the items divide it."""
     if not items:
         return []
-    section: list[Item] = [Heading("Appendix: how this was made")]
+    section: list[Item] = [Heading(APPENDIX)]
     for item in items:
         if isinstance(item, Heading):
             item = Heading(item.text, 2)

@@ -25,13 +25,12 @@ def picture_first(items: Items) -> Items:
     A heading that has nothing else below it goes.
     """
     items = list(items)
-    for place, item in enumerate(items):
-        if isinstance(item, Figure):
-            break
-    else:
+    figures = [item for item in items if isinstance(item, Figure)]
+    if not figures:
         return items
+    place = items.index(figures[0])
     before, after = items[:place], items[place + 1 :]
     empty = not after or isinstance(after[0], Heading)
     if before and isinstance(before[-1], Heading) and empty:
         before.pop()
-    return [item, *before, *after]
+    return [figures[0], *before, *after]

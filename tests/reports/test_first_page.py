@@ -15,8 +15,7 @@ from reports import build, content_of
 from reports.buoy_sweep.figures import evidence_table, orbit_figure
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Strobes
-from reports.parts import plain
-from reports.parts.content import Bullets, Figure, Heading, Text, plain
+from reports.parts.content import Bullets, Explorer, Figure, Heading, Text, plain
 from reports.parts.first_page import how_long
 from reports.parts.html import render_html
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
@@ -134,7 +133,8 @@ def test_runs_between_and_those_with_the_wetted_cap_are_in_the_figure_and_it_is_
     assert full_count == alone_count + 1
     panel = next(axes for axes in drawn[2].axes if axes.get_ylabel().startswith("largest T"))
     lines = {line.get_label(): line for line in panel.lines}
-    assert np.allclose(lines["wetted cap"].get_ydata(), np.array([2e3, 3e3]) / read.modes.static_tension_N)
+    multiples = np.array([2e3, 3e3]) / read.modes.static_tension_N
+    assert np.allclose(lines["wetted cap, on the same scale"].get_ydata(), multiples)
     (run,) = read.between
     assert run.transient == 30 and len(run.section) == 80 - 30 + 1
 
@@ -152,7 +152,7 @@ def test_answer_figure_and_time_stand_before_the_contents_and_the_making_comes_l
     report, _ = content_of(folder)
     kinds = [type(item) for item in report.items]
     first = kinds.index(Heading)
-    assert kinds[:first] == [Bullets, Text, Figure]
+    assert kinds[:first] == [Bullets, Text, Figure, Explorer]
     answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
     assert [" ".join(plain(line).split()) for line in report.items[0].lines] == [
         " ".join(printed(line).split()) for line in answer

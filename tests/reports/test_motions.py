@@ -89,7 +89,7 @@ def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
 def test_shares_fill_every_value_and_what_did_not_settle_is_hatched(several, drawn):
     orbit_figure(read_sweep(several))
     boxes = [
-        (round(box.get_x(), 6), box.get_height(), bool(box.get_hatch())) for box in panel_of(drawn[0], "starts").patches
+        (round(box.get_x(), 6), box.get_height(), bool(box.get_hatch())) for box in panel_of(drawn[0], "kicks").patches
     ]
     filled = Counter()
     for edge, height, _ in boxes:
@@ -108,7 +108,7 @@ def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(severa
     assert np.array([tail, head]) * sweep.modes.static_tension_N == pytest.approx(
         [first["tension_top_max_N"], near["tension_top_max_N"]]
     )
-    assert ".020" in [text.get_text() for text in panel.texts]
+    assert ".02" in [text.get_text() for text in panel.texts]
 
 
 def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
