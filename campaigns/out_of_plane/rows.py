@@ -10,10 +10,12 @@ from itertools import chain
 import numpy as np
 
 from campaigns.explore.rows import (
+    ALONG_LINE,
     DIMENSIONS,
     EXTREMES,
     OFFPLANE,
     REGIME,
+    SNAPS,
     STEEPNESS,
     STROBED,
     TANGENT,
@@ -150,6 +152,7 @@ COLUMNS = (
         SHEET,
     ),
     *on(PAIRS, *EXTREMES),
+    *on(SHEET, *SNAPS, *ALONG_LINE),
     *on(SHEET, STROBED),
     *on(PAIRS, REGIME, *WOLF, *TANGENT),
     *OFFPLANE,
