@@ -119,7 +119,6 @@ def test_a_click_on_a_steepness_keys_and_the_list_show_the_sheet_of_that_run(win
     for steepness, number in ((0.05, 3), (0.13, 7), (0.016, 1)):
         window.mouse.click(*at(window, (0.03 + (steepness - 0.016) / 0.144) / 1.06))
         assert window.evaluate(SHOWN) == f"run-{number}"
-        assert f"kA = {steepness:g}" in window.locator("#explorer-sheet").inner_text()
         assert window.locator("#explorer-sheet svg.glance").count() == 1
         assert f"kA = {steepness:g}" in window.locator("[role=status]").text_content()
     for key, run in (("ArrowRight", 2), ("ArrowLeft", 1), ("ArrowLeft", 1)):  # before the first there is none
@@ -151,7 +150,9 @@ def test_a_run_without_points_is_seen_too(window):
     """Of the eight runs, those at kA = 0.12 and 0.16 failed: there, and only there, the lower edge has a cross.
 
     The lowest point of all stands a twenty-fifth of the panel above the edge, the arms of a cross end 4 pixels above.
+    The run at 0.16 is chosen, because the broken line of a chosen run reaches the edge.
     """
+    window.locator("#explorer select").select_option(index=8)
     window.locator("#explorer button[value=whole]").click()
     marked = window.evaluate("""() => {
       const canvas = document.querySelector('canvas'), pen = canvas.getContext('2d');
@@ -171,4 +172,5 @@ def test_without_scripts_the_page_has_every_sheet_and_no_empty_explorer(built, b
     with browse(built[0], java_script_enabled=False) as page:
         assert page.locator(".sheet").count() == 8
         assert not page.locator("#explorer").is_visible()
+        page.locator(".sheet summary").nth(6).click()
         assert page.locator("#run-7 svg").bounding_box()["height"] > 100

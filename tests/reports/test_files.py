@@ -60,7 +60,7 @@ def test_four_hundred_runs_with_their_evidence_make_files_of_less_than_ten_megab
     table = pandas.read_csv(place / "table.csv", dtype=str)
     table.assign(evidence=evidence).to_csv(place / "table.csv", index=False)
     html, pdf = build(place)
-    assert html.read_text(encoding="utf-8").count('<section class="sheet"') == 400
+    assert html.read_text(encoding="utf-8").count('<details class="sheet"') == 400
     assert html.stat().st_size < 9e6 and pdf.stat().st_size < 10e6, "room for a moving picture is left"
 
 
@@ -71,7 +71,9 @@ def test_the_pdf_opens_with_the_answer_and_its_figure_and_lists_every_section_af
     first, second = (" ".join(page.split()) for page in everything.split("\f")[:2])
     headings = [plain(item.text) for item in items if isinstance(item, Heading)]
     answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
-    assert all(line.split(":")[0] in first for line in answer) and "It took" in first and "Figure 1:" in first
+    for line in answer:
+        assert " ".join(line.split(":")[0].split()) in first
+    assert "It took" in first and "Figure 1:" in first
     assert everything.index("Figure 1:") < everything.index("Contents") < everything.index(headings[0])
     assert second.startswith("Tethered buoy") and re.search(r"2 ?/ ?\d", second)
     figures = sum(isinstance(item, Figure) for item in items)
