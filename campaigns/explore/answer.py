@@ -111,7 +111,7 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
         if not snapping:
             calm.append(letter)
             continue
-        words = f"{_span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
+        words = f"{span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
         if len(snapping) < len(members):
             words += f" from {symbol} = {snapping[0][key]:.4g} on"
         largest = greatest(snapping, "snap_peak_max_N")
@@ -123,19 +123,26 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
     parts = [f"{'; '.join(motions)}."]
     if any(calm):
         parts.append(f"None in {listed(calm)}.")
-    hardest = greatest(counted, "snap_peak_max_N")
-    if hardest is not None:
-        middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
-        parts.append(f"At {symbol} = {hardest[key]:.4g} median {middle}, 95 % below {high}, largest {most}.")
-        speed = greatest(counted, "snap_speed_max_mps")
-        parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
-    slack = [share for share in numbers_of(counted, "slack_fraction") if math.isfinite(share)]
-    if slack:
-        parts.append(f"Slack {_span([100.0 * share for share in slack], places=0)} % of the time.")
+    parts.append(snap_peaks(counted, (key,), (symbol,)))
     return " ".join(parts)
 
 
-def _span(values: Sequence[float], places: int = 2) -> str:
+def snap_peaks(rows: Sequence[Row], keys: Sequence[str], symbols: Sequence[str] = ()) -> str:
+    """The peaks where they are largest, the speed and the slack; keys: columns of what is varied, in these symbols."""
+    parts, hardest = [], greatest(rows, "snap_peak_max_N")
+    if hardest is not None:
+        place = ", ".join(f"{symbol} = {hardest[key]:.4g}" for key, symbol in zip(keys, symbols or keys, strict=True))
+        middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
+        parts.append(f"At {place} median {middle}, 95 % below {high}, largest {most}.")
+        speed = greatest(rows, "snap_speed_max_mps")
+        parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
+    slack = [share for share in numbers_of(rows, "slack_fraction") if math.isfinite(share)]
+    if slack:
+        parts.append(f"Slack {span([100.0 * share for share in slack], places=0)} % of the time.")
+    return " ".join(parts)
+
+
+def span(values: Sequence[float], places: int = 2) -> str:
     """ "0.6 to 0.8"; one number where both ends are the same in print."""
     low, high = (number(round(end(values), places), 3) for end in (min, max))
     return low if low == high else f"{low} to {high}"
@@ -314,9 +321,9 @@ def chaos(rows: Sequence[Row], key: str, symbol: str) -> str:
             continue
         exponents = numbers_of(known, name)
         doubling = sorted(1.0 / exponent for exponent in exponents if exponent > 0.0)
-        sentence = f"largest exponent{method} {_span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
+        sentence = f"largest exponent{method} {span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
         if doubling:
-            sentence += f": an error doubles in {_span(doubling, places=0)} waves"
+            sentence += f": an error doubles in {span(doubling, places=0)} waves"
         sentences.append(f"{sentence}. Chaotic at {symbol} = {_at(chaotic, judged, key)}.")
         break
     growing = []

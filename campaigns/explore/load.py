@@ -48,9 +48,18 @@ def load(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence
         place = ", ".join(filter(None, (largest(usable), of_motion(usable), f"{symbol} = {usable[key]:.4g}")))
         kind = "Largest without these faults"
         if scene.buoy is not None and scene.buoy.submergence == "full":
-            kind = "Largest of the motions that stay in the water"
+            kind = f"Largest of the {'runs' if scene.waves.irregular else 'motions'} that stay in the water"
         sentences += [f"{kind}: {place}.", use_of(usable, scene, searched)]
     return " ".join(sentences)
+
+
+def peak_at(rows: Sequence[Row], keys: Sequence[str], scene) -> str:
+    """The largest tension of a table over several keys, its place and its use; "" where no row has one."""
+    peak = greatest(rows, PEAK)
+    if peak is None:
+        return ""
+    place = ", ".join(f"{key} = {number_of(peak, key):.4g}" for key in keys)
+    return f"peak top tension {largest(peak)}, {place}. {use_of(peak, scene, searched=False)}"
 
 
 def of_motion(row: Row) -> str:

@@ -27,6 +27,7 @@ from campaigns.judge import job_from
 from campaigns.machinery import cli
 from campaigns.machinery.folder import BadInput, claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plausible import without_waves
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 from tables import number_of, read_table
@@ -99,9 +100,11 @@ def cases(order: Order) -> Iterator[Job]:
 def _jobs(order: Order) -> Iterator[Job]:
     order.options.grid.refuse_set(order)
     base = order.base(tell=True)
-    if base is not None and base.waves is None:
-        order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
-    elif base is not None:
+    if base is None:
+        return
+    refused = list(without_waves(order.name, base))
+    order.tell(refused)
+    if not refused:
         yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 
