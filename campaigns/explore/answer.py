@@ -14,14 +14,14 @@ changes by more than a quarter, and by more than three times the median change b
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import groupby, pairwise
 from operator import itemgetter
 from statistics import median
 
 from campaigns.answers import greatest, kilonewton, known_rows, line, numbers_of
-from campaigns.explore.load import load
+from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
 from engine.views import carries_tangents, in_regular_waves
 from tables import (
@@ -69,7 +69,7 @@ def sentences(
         return [line("LOAD", "not known, because no run lasts beyond the transient.")]
     good.sort(key=partial(number_of, name=key))
     lines = {
-        "LOAD": load(good, key, symbol, scene, companions),
+        "LOAD": load(good, {key: symbol}, scene, companions),
         "SNAPS": snaps(good, key, symbol),
         "JUMP": jump(good, key, symbol, ends),
         "MOTIONS": motions(good, key, symbol),
@@ -123,17 +123,16 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
     parts = [f"{'; '.join(motions)}."]
     if any(calm):
         parts.append(f"None in {listed(calm)}.")
-    parts.append(snap_peaks(counted, (key,), (symbol,)))
+    parts.append(snap_peaks(counted, {key: symbol}))
     return " ".join(parts)
 
 
-def snap_peaks(rows: Sequence[Row], keys: Sequence[str], symbols: Sequence[str] = ()) -> str:
-    """The peaks where they are largest, the speed and the slack; keys: columns of what is varied, in these symbols."""
+def snap_peaks(rows: Sequence[Row], keys: Mapping[str, str]) -> str:
+    """The peaks where they are largest, the speed and the slack; keys: what is varied, by column, with its symbol."""
     parts, hardest = [], greatest(rows, "snap_peak_max_N")
     if hardest is not None:
-        place = ", ".join(f"{symbol} = {hardest[key]:.4g}" for key, symbol in zip(keys, symbols or keys, strict=True))
         middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
-        parts.append(f"At {place} median {middle}, 95 % below {high}, largest {most}.")
+        parts.append(f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}.")
         speed = greatest(rows, "snap_speed_max_mps")
         parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
     slack = [share for share in numbers_of(rows, "slack_fraction") if math.isfinite(share)]

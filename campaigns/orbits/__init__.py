@@ -27,7 +27,6 @@ from campaigns.judge import job_from
 from campaigns.machinery import cli
 from campaigns.machinery.folder import BadInput, claimed, run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.plausible import without_waves
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 from tables import number_of, read_table
@@ -99,12 +98,7 @@ def cases(order: Order) -> Iterator[Job]:
 
 def _jobs(order: Order) -> Iterator[Job]:
     order.options.grid.refuse_set(order)
-    base = order.base(tell=True)
-    if base is None:
-        return
-    refused = list(without_waves(order.name, base))
-    order.tell(refused)
-    if not refused:
+    if order.base(tell=True) is not None:
         yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 

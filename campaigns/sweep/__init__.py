@@ -185,14 +185,15 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
 
     In a sea the statistics of its runs (`seas.sentences`).
     """
-    from campaigns.answers import line
+    from campaigns.answers import known_rows, line
     from campaigns.explore.answer import sentences
-    from campaigns.explore.load import peak_at
+    from campaigns.explore.load import load
     from campaigns.sweep import seas
+    from tables import PEAK
 
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
     if in_sea(scene):
-        return seas.sentences(rows, order.options.grid.columns, scene)
+        return seas.sentences(rows, keys, scene)
     if len(keys) == 1:
         folders = []
         if motions.kicks_of(order) is not None:
@@ -202,8 +203,10 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     regimes = ", ".join(f"{word} {count}" for word, count in counts.most_common())
     lines = [line("MOTIONS", f"{len(rows)} runs: {regimes}.")]
-    peak = peak_at(rows, keys, scene)
-    return [line("LOAD", peak), *lines] if peak else lines
+    good = known_rows(rows, PEAK)
+    if not good:
+        return lines
+    return [line("LOAD", load(good, dict(zip(keys, keys, strict=True)), scene)), *lines]
 
 
 def sweep(

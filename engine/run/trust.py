@@ -24,7 +24,7 @@ NOTED = 0.05  # share of the largest tension: a smaller error is not told
 MUCH = 0.5  # share of the energy of a sea
 MANY = 8  # waves from which on a sea is meant to be random
 STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
-FASTER = 2.0  # times the speed at still water, to which waves are extrapolated
+FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -134,7 +134,7 @@ def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
                 "times as fast as at its level: waves.above_still_water = 'wheeler' or 'zero' bounds them"
             )
     measured = waves.record is not None
-    spacings = len(omega) - 1 if measured else len(omega)  # those of a drawn sea lie anywhere in equal parts of a band
+    spacings = len(omega) - int(measured)  # those of a drawn sea lie anywhere in equal parts of a band
     spacing = (omega[-1] - omega[0]) / spacings if spacings else 0.0
     recurs_s = 2 * math.pi / spacing if spacing else math.inf
     if len(omega) >= MANY and run.duration_s > (1.0 if measured else RECURRENCES) * recurs_s:

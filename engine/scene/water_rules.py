@@ -55,8 +55,8 @@ def sea(sound: Sound) -> Facts:
         most = 2.0 * STEEPEST * sound["water.depth_m"] / k_depth
         rule = f"less than {most:.4g}, k H_s/2 = {STEEPEST:g} at waves.period_s: waves break at 0.44"
         yield height >= most, "waves.jonswap.significant_height_m", rule
-    shortest_s = _shortest_period(sound)
-    short = (listed or drawn or measured) and (sound["waves.period_s"] or math.inf) < shortest_s
+    shortest_s = math.sqrt(2 * math.pi * (sound["buoy.diameter_m"] or 0) / (sound["gravity_mps2"] or math.inf))
+    short = (listed or drawn) and (sound["waves.period_s"] or math.inf) < shortest_s
     yield short, "waves.period_s", f"at least {shortest_s:.3g} s, whose waves are as long as the buoy is wide"
     yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
     yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {because}"
@@ -69,12 +69,6 @@ def _deep_water_number(sound: Sound) -> float | None:
     """k H of waves.period_s in deep water, below that in any; None where a value is missing."""
     period, depth, g = (sound[key] for key in ("waves.period_s", "water.depth_m", "gravity_mps2"))
     return (2 * math.pi / period) ** 2 * depth / g if period and depth and g else None
-
-
-def _shortest_period(sound: Sound) -> float:
-    """Period (s) of waves in deep water as long as the buoy is wide; 0 where a value is missing."""
-    wide, g = sound["buoy.diameter_m"], sound["gravity_mps2"]
-    return math.sqrt(2 * math.pi * wide / g) if wide and g else 0.0
 
 
 def heights(sound: Sound) -> Iterator[str]:

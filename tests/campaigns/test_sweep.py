@@ -11,12 +11,13 @@ from functools import reduce
 from itertools import product
 from operator import getitem
 
+import numpy as np
 import pytest
 
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from campaigns.sweep import read_order
-from engine import load_scene, simulate
+from engine import Trajectory, load_scene, simulate
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
