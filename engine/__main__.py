@@ -87,8 +87,7 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     if not faults and scene.waves is not None and options.start_from is None:  # else the sea of the earlier run goes on
         from engine.physics.sea import enough_waves
 
-        length_s = options.duration or (options.periods or MOST_PERIODS) * scene.waves.period_s
-        more = enough_waves(scene, length_s)
+        more = enough_waves(scene, options.duration or (options.periods or MOST_PERIODS) * scene.waves.period_s)
         if more:
             options.scene = engine.load_scene(name, {**changes, **more})
     if not faults:

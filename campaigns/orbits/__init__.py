@@ -218,6 +218,7 @@ STUDY = Study(
     name="orbits",
     protocol=__doc__,
     scene="tethered_buoy",
+    in_waves=True,
     options=Options,
     cases=cases,
     measures=measures,

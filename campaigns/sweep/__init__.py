@@ -110,12 +110,11 @@ def measures(order: Order) -> Measures:
         columns = motions.columns_of(keys)
     else:
         loads = (*rows.EXTREMES, rows.UTILISATION, *rows.SNAPS, *rows.ALONG_LINE)
-        if any(map(in_sea, order.scenes)):
+        if in_sea(order.cases[0].scene):
             loads = (*seas.COLUMNS, *loads)
+            order = replace(order, transient=order.given_transient)
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
-    if in_sea(order.cases[0].scene):
-        order = replace(order, transient=order.given_transient)
     row = partial(sweep_row, transient_periods=order.transient)
     sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
     return replace(motions.measures_of(order, columns), row=row, sources=sources)
@@ -192,8 +191,9 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     from tables import PEAK
 
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
+    symbols = dict(zip(keys, keys, strict=True))
     if in_sea(scene):
-        return seas.sentences(rows, keys, scene)
+        return seas.sentences(rows, symbols, scene)
     if len(keys) == 1:
         folders = []
         if motions.kicks_of(order) is not None:
@@ -206,7 +206,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     good = known_rows(rows, PEAK)
     if not good:
         return lines
-    return [line("LOAD", load(good, dict(zip(keys, keys, strict=True)), scene)), *lines]
+    return [line("LOAD", load(good, symbols, scene)), *lines]
 
 
 def sweep(

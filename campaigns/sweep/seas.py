@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from operator import itemgetter
 
-from campaigns.answers import known_rows, line, numbers_of
+from campaigns.answers import kilonewton, known_rows, line, numbers_of
 from campaigns.explore.answer import snap_peaks, span
 from campaigns.explore.load import load, place_of
 from campaigns.sea.rows import MEAN, SNAPS
@@ -36,17 +36,18 @@ def statistics(scene, columns, transient_s: float) -> Row:
         snaps = snaps_of(scene, columns, transient_s=transient_s)
     except ValueError:
         return row
-    if snaps.watched_s > 0.0:
-        row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
+    row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
     return row
 
 
-def sentences(rows: Sequence[Row], keys: Sequence[str], scene) -> list[str]:
-    """The lines SEA, LOAD, TENSION, SNAPS and OPEN of a sweep over one key or two; scene: of one of the runs."""
+def sentences(rows: Sequence[Row], symbols: Mapping[str, str], scene) -> list[str]:
+    """The lines SEA, LOAD, TENSION, SNAPS and OPEN of a sweep.
+
+    symbols: of what is varied, by column; scene: of one of the runs.
+    """
     good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
     if not good:
         return [line("LOAD", "not known, because no run lasts beyond the transient.")]
-    symbols = dict(zip(keys, keys, strict=True))
     lines = {
         "SEA": _sea(good, scene),
         "LOAD": load(good, symbols, scene),
@@ -68,9 +69,10 @@ def _sea(rows: Sequence[Row], scene) -> str:
 def _tension(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:
     """The range of the mean, and where the standard deviation is least and largest."""
     ranked = sorted(rows, key=itemgetter(DEVIATION.name))
-    ends = [f"{1e-3 * row[DEVIATION.name]:.2g} kN at {place_of(row, symbols)}" for row in (ranked[0], ranked[-1])]
-    mean_kN = [1e-3 * mean for mean in numbers_of(rows, MEAN.name)]
-    return f"mean {span(mean_kN)} kN; standard deviation {' to '.join(dict.fromkeys(ends))}."
+    ends = [f"{kilonewton(row[DEVIATION.name])} at {place_of(row, symbols)}" for row in (ranked[0], ranked[-1])]
+    means_N = numbers_of(rows, MEAN.name)
+    deviations = " to ".join(dict.fromkeys(ends))
+    return f"mean {kilonewton(min(means_N))} to {kilonewton(max(means_N))}; standard deviation {deviations}."
 
 
 def _snaps(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:

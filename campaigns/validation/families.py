@@ -222,8 +222,7 @@ def taut_buoy(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     buoy, tether, depth = scene.buoy, scene.tether, scene.water.depth_m
     displaced = scene.water.density_kgpm3 * np.pi * buoy.diameter_m**3 / 6.0
     moved, driven, height = buoy.mass_kg + buoy.added_mass_kg, displaced + buoy.added_mass_kg, run["z_m"][0]
-    rows = rows_of(scene)
-    k, omega, *_, amplitude = rows[np.argsort(rows[:, 1])].T
+    k, omega, *_, amplitude = rows_of(scene).T
     drive = driven * amplitude * omega**2 / np.sinh(k * depth)
     along = tether.tension.stiffness_N / tether.length_m
     across = (displaced - buoy.mass_kg) * scene.gravity_mps2 / height

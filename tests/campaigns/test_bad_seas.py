@@ -27,6 +27,11 @@ BAD = {
     ),
     "width below zero": ((GAUSSIAN[0], f"{GAUSSIAN[1]}-0.1"), "waves.relative_width", "from 0"),
     "width missing": (GAUSSIAN[:1], "waves.relative_width", "missing"),
+    "steep component": (
+        ("waves.components=[{period_s=0.1,amplitude_m=1}]",),
+        "waves.components[0].amplitude_m",
+        "waves break",
+    ),
     "no component": (("waves.components=[]",), "waves.components", "a list of 1"),
 }
 RECORDS = {

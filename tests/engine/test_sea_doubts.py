@@ -13,6 +13,9 @@ def message(significant_height_m, periods=2, **changes):
     return simulate(scene, periods=periods).message
 
 
+KICKED = {"start.buoy_velocity_mps": [0.0, 0.0, 4.0]}
+
+
 @pytest.mark.parametrize(
     ("height_m", "changes", "sentence"),
     [
@@ -20,7 +23,7 @@ def message(significant_height_m, periods=2, **changes):
         (0.1, {"waves.period_s": 1.6}, "no diffraction"),
         (
             1.5,
-            {"water.depth_m": 21.0, "waves.above_still_water": "extrapolate", "waves.period_s": 4.0},
+            {"water.depth_m": 21.0, "waves.above_still_water": "extrapolate", "waves.period_s": 4.0} | KICKED,
             "times as fast",
         ),
     ],
