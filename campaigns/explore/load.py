@@ -51,7 +51,7 @@ def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequen
         place = ", ".join(filter(None, (largest(usable), of_motion(usable), place_of(usable, keys))))
         kind = "Largest without these faults"
         if scene.buoy is not None and scene.buoy.submergence == "full":
-            kind = f"Largest of the {'runs' if scene.waves.irregular else 'motions'} that stay in the water"
+            kind = "Largest of the runs that stay in the water"
         sentences += [f"{kind}: {place}.", use_of(usable, scene, searched)]
     return " ".join(sentences)
 

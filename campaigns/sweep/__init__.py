@@ -74,7 +74,8 @@ def cases(order: Order) -> list[Job]:
 def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
     grid.refuse_set(order)
-    base = order.base(tell=True)
+    first = {key.name: key.values[0] for key in grid.keys if key.index is None}
+    base = order.base() or order.base(first, tell=True)  # keys may need each other
     if base is None or not grid.keys:
         return
     duration_s, periods = order.options.duration, order.periods

@@ -10,7 +10,7 @@ from campaigns.explore.load import load, place_of
 from campaigns.sea.rows import MEAN, SNAPS
 from engine.physics.sea import elevation_m
 from engine.views import snaps_of
-from tables import PEAK, Column, Row, count, number_of
+from tables import PEAK, Column, Row, number_of
 
 SURFACE = Column(
     "significant_elevation_m", "m", "4 σ_η", "four standard deviations of the surface at x = 0 after the transient", 2
@@ -59,10 +59,9 @@ def sentences(rows: Sequence[Row], symbols: Mapping[str, str], scene) -> list[st
 
 
 def _sea(rows: Sequence[Row], scene) -> str:
-    left_out = max(numbers_of(rows, "transient_periods"))
     return (
         f"significant elevation {span(numbers_of(rows, SURFACE.name))} m, peak period {scene.waves.period_s:.3g} s; "
-        f"one run for each value, without its first {left_out:.3g} peak periods (--transient)."
+        f"one run for each value, the first {rows[0]['transient_periods']:.3g} peak periods left out (--transient)."
     )
 
 
@@ -88,7 +87,7 @@ def _open(rows: Sequence[Row], scene) -> str:
     parts = ["one run in one sea has its largest tension by chance"]
     failures = sum(row["status"] != "ok" for row in rows)
     if failures:
-        parts.append(f"{count(failures, 'run')} of {len(rows)} ended early (column message)")
+        parts.append(f"runs that ended early (column message): {failures}")
     if scene.end.kind == "buoy":
         parts.append(MANY_SEAS)
     return f"{'; '.join(parts)}."

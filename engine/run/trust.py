@@ -7,7 +7,7 @@ import numpy as np
 
 from ..parameters.limits import longest_step
 from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_beyond
-from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, K, rows_of
+from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
 from ..physics.strains import tension_at
 from ..physics.waves import wave_number
 from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
@@ -125,8 +125,8 @@ def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
             "higher waves would break"
         )
     above_m = scene.anchor.position_m[2] + float(columns["z_m"].max()) - depth
-    if waves.above_still_water == "extrapolate" and above_m > 0.0:
-        speed = rows[:, OMEGA] * rows[:, AMPLITUDE]
+    if waves.above_still_water == "extrapolate":
+        speed = rows[:, SPEED]
         faster = float(np.linalg.norm(speed * np.exp(rows[:, K] * above_m)) / np.linalg.norm(speed))
         if faster > FASTER:
             sentences.append(

@@ -83,6 +83,17 @@ def test_in_a_sea_rows_have_statistics_in_place_of_regimes(second, tmp_path):
     built_twice(tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("varied", "fixed"),
+    [
+        ("waves.relative_width", "waves.significant_steepness=0.1"),
+        ("waves.significant_steepness", "waves.relative_width=0.1"),
+    ],
+)
+def test_a_key_that_another_needs_can_be_varied(varied, fixed):
+    assert len(cases_of("--vary", varied, 0.05, 0.1, 2, "--set", fixed, *SHORT)) == 2
+
+
 def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):
     rows = run(tmp_path, "--vary", "waves.steepness", 0.02, 0.1, 3, *SHORT)
     _, buoy_rows, _ = sweep("--steepness-range", 0.02, 0.1, 3)
