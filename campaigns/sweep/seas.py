@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from operator import itemgetter
 
 from campaigns.answers import kilonewton, known_rows, line, numbers_of
@@ -17,10 +18,6 @@ SURFACE = Column(
 )
 DEVIATION = Column("tension_std_N", "N", "σ_T", "standard deviation of the tension at the top after the transient", 0)
 COLUMNS = SURFACE, MEAN, DEVIATION, SNAPS
-MANY_SEAS = (
-    "campaigns.sea with the same --vary and --set draws several seas, tells whether the start is forgotten, and gives "
-    "the three-hour maximum"
-)
 
 
 def statistics(scene, columns, transient_s: float) -> Row:
@@ -32,11 +29,9 @@ def statistics(scene, columns, transient_s: float) -> Row:
         MEAN.name: float(tension_N.mean()),
         DEVIATION.name: float(tension_N.std()),
     }
-    try:
+    with suppress(ValueError):
         snaps = snaps_of(scene, columns, transient_s=transient_s)
-    except ValueError:
-        return row
-    row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
+        row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
     return row
 
 
@@ -76,10 +71,9 @@ def _tension(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:
 
 def _snaps(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:
     counted = known_rows(rows, SNAPS.name)
-    rates = numbers_of(counted, SNAPS.name)
-    if not any(rates):
-        return "none: the tension never comes back from slack." if counted else ""
-    return f"{span(rates, places=0)} an hour. {snap_peaks(counted, symbols)}"
+    if not counted:
+        return ""
+    return f"{span(numbers_of(counted, SNAPS.name), places=0)} an hour. {snap_peaks(counted, symbols)}"
 
 
 def _open(rows: Sequence[Row], scene) -> str:
@@ -89,5 +83,8 @@ def _open(rows: Sequence[Row], scene) -> str:
     if failures:
         parts.append(f"runs that ended early (column message): {failures}")
     if scene.end.kind == "buoy":
-        parts.append(MANY_SEAS)
+        parts.append(
+            "campaigns.sea with the same --vary and --set draws several seas, tells whether the start is forgotten, "
+            "and gives the three-hour maximum"
+        )
     return f"{'; '.join(parts)}."

@@ -232,8 +232,8 @@ def taut_buoy(case: Case, runs: Sequence[Trajectory]) -> Outcome:
         ("tension", "tension_top_N", along, along * np.sinh(k * height)),
     ):
         theirs = drive * shape / np.abs(spring - moved * omega**2)
-        still_and_ringing = 0.0, np.sqrt(spring / moved)
-        ours = amplitudes(run["time_s"], run[column], np.append(omega, still_and_ringing))[:-2]
+        with_rest_and_ringing = np.append(omega, (0.0, np.sqrt(spring / moved)))
+        ours = amplitudes(run["time_s"], run[column], with_rest_and_ringing)[:-2]
         error = 100.0 * rms(ours - theirs) / rms(theirs)
         numbers[f"{name}, rms"] = Number(f"{rms(ours):.4g}", f"{rms(theirs):.4g}", error)
         curves.append((name, omega, ours / amplitude, theirs / amplitude))

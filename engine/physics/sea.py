@@ -64,7 +64,6 @@ STILL = 3.0  # change of the water's velocity, over the tolerance of Newton's me
 LOWEST, HIGHEST = 0.5, 3.0  # of the peak frequency
 REACH = 4.0  # of a Gaussian spectrum, in its widths
 RECURRENCES = 10  # mean times after which groups of a sea nearly recur, in a run
-MORE = 64  # by which the number of waves rises
 _POINTS = 200  # over which the energy of one part is summed
 
 
@@ -152,7 +151,7 @@ def enough_waves(scene: Scene, duration_s: float) -> dict[str, int]:
     needed = duration_s / waves.period_s * band / RECURRENCES
     if name in section.model_fields_set or needed <= getattr(section, name):
         return {}
-    return {key: min(MORE * math.ceil(needed / MORE), MOST_COMPONENTS)}
+    return {key: min(64 * math.ceil(needed / 64), MOST_COMPONENTS)}
 
 
 def direction_of(angle: float) -> tuple[float, float]:

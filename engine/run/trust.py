@@ -127,7 +127,7 @@ def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
     above_m = scene.anchor.position_m[2] + float(columns["z_m"].max()) - depth
     if waves.above_still_water == "extrapolate":
         speed = rows[:, SPEED]
-        faster = float(np.linalg.norm(speed * np.exp(rows[:, K] * above_m)) / np.linalg.norm(speed))
+        faster = np.linalg.norm(speed * np.exp(rows[:, K] * above_m)) / np.linalg.norm(speed)
         if faster > FASTER:
             sentences.append(
                 f"{above_m:.2g} m above still water, where the upper end was, extrapolated waves are {faster:.2g} "
