@@ -124,7 +124,7 @@ def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
             f"k H_s/2 = {steepness:.2g} of the sea is above {STEEPEST:.2g}, that of the steepest seas in nature: its "
             "higher waves would break"
         )
-    above_m = scene.anchor.position_m[2] + float(columns["z_m"].max()) - depth
+    above_m = scene.anchor.position_m[2] + columns["z_m"].max() - depth
     if waves.above_still_water == "extrapolate":
         speed = rows[:, SPEED]
         faster = np.linalg.norm(speed * np.exp(rows[:, K] * above_m)) / np.linalg.norm(speed)
