@@ -117,16 +117,22 @@ class Order:
     def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "engine.Scene | None":
         """As `base`, and every fault is added, with doubts about the size or the length of such a run.
 
+        A sea that is drawn has as many waves as the length needs, unless a key says how many.
+
         duration_s: length of the run where it is not `periods`.
         """
         from campaigns.machinery.plausible import doubts
+        from engine.physics.sea import enough_waves
 
         scene = self.base(changes, tell=True)
         if scene is not None:
             if duration_s is None and scene.waves is not None:
                 duration_s = self.periods * scene.waves.period_s
             self.tell(doubts(scene, duration_s))
-        return scene
+        if scene is None or scene.waves is None:
+            return scene
+        more = enough_waves(scene, duration_s)
+        return self.base({**changes, **more}) if more else scene
 
     def case(self, labels: Mapping[str, object], changes: Mapping[str, object]) -> Job | None:
         """A case of the usual length; None where its scene cannot be."""

@@ -76,13 +76,20 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     scene = options.scene
     if scene is not None and scene.waves is None and options.duration is None:
         faults.append(f"--duration: not given for {name!r}, a scene without waves; allowed: seconds, above 0")
-    elif scene is not None and options.periods is options.duration is None and not scene.output.tangent_vectors:
-        options.periods = PERIODS
+    elif scene is not None and options.periods is options.duration is None:
+        if not (views.in_regular_waves(scene) and scene.output.tangent_vectors):
+            options.periods = PERIODS
     for option, length in (("--periods", options.periods), ("--duration", options.duration)):
         if length is not None and not 0.0 < length < float("inf"):
             faults.append(f"{option}: given {length:g}; allowed: a finite number above 0")
     if options.out is not None:
         faults += _faults_of(options.out)
+    if not faults and scene.waves is not None and options.start_from is None:  # else the sea of the earlier run goes on
+        from engine.physics.sea import enough_waves
+
+        more = enough_waves(scene, options.duration or (options.periods or MOST_PERIODS) * scene.waves.period_s)
+        if more:
+            options.scene = engine.load_scene(name, {**changes, **more})
     if not faults:
         faults += _faults_of_run(options)
     return options

@@ -14,14 +14,14 @@ changes by more than a quarter, and by more than three times the median change b
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import groupby, pairwise
 from operator import itemgetter
 from statistics import median
 
 from campaigns.answers import greatest, kilonewton, known_rows, line, numbers_of
-from campaigns.explore.load import load
+from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
 from engine.views import carries_tangents, in_regular_waves
 from tables import (
@@ -69,7 +69,7 @@ def sentences(
         return [line("LOAD", "not known, because no run lasts beyond the transient.")]
     good.sort(key=partial(number_of, name=key))
     lines = {
-        "LOAD": load(good, key, symbol, scene, companions),
+        "LOAD": load(good, {key: symbol}, scene, companions),
         "SNAPS": snaps(good, key, symbol),
         "JUMP": jump(good, key, symbol, ends),
         "MOTIONS": motions(good, key, symbol),
@@ -111,7 +111,7 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
         if not snapping:
             calm.append(letter)
             continue
-        words = f"{_span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
+        words = f"{span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
         if len(snapping) < len(members):
             words += f" from {symbol} = {snapping[0][key]:.4g} on"
         largest = greatest(snapping, "snap_peak_max_N")
@@ -123,19 +123,25 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
     parts = [f"{'; '.join(motions)}."]
     if any(calm):
         parts.append(f"None in {listed(calm)}.")
-    hardest = greatest(counted, "snap_peak_max_N")
-    if hardest is not None:
-        middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
-        parts.append(f"At {symbol} = {hardest[key]:.4g} median {middle}, 95 % below {high}, largest {most}.")
-        speed = greatest(counted, "snap_speed_max_mps")
-        parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
-    slack = [share for share in numbers_of(counted, "slack_fraction") if math.isfinite(share)]
-    if slack:
-        parts.append(f"Slack {_span([100.0 * share for share in slack], places=0)} % of the time.")
+    parts.append(snap_peaks(counted, {key: symbol}))
     return " ".join(parts)
 
 
-def _span(values: Sequence[float], places: int = 2) -> str:
+def snap_peaks(rows: Sequence[Row], keys: Mapping[str, str]) -> str:
+    """The peaks where they are largest, the speed and the slack; keys: what is varied, by column, with its symbol."""
+    parts, hardest = [], greatest(rows, "snap_peak_max_N")
+    if hardest is not None:
+        middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
+        parts.append(f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}.")
+        speed = greatest(rows, "snap_speed_max_mps")
+        parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
+    slack = [share for share in numbers_of(rows, "slack_fraction") if math.isfinite(share)]
+    if slack:
+        parts.append(f"Slack {span([100.0 * share for share in slack], places=0)} % of the time.")
+    return " ".join(parts)
+
+
+def span(values: Sequence[float], places: int = 2) -> str:
     """ "0.6 to 0.8"; one number where both ends are the same in print."""
     low, high = (number(round(end(values), places), 3) for end in (min, max))
     return low if low == high else f"{low} to {high}"
@@ -314,9 +320,9 @@ def chaos(rows: Sequence[Row], key: str, symbol: str) -> str:
             continue
         exponents = numbers_of(known, name)
         doubling = sorted(1.0 / exponent for exponent in exponents if exponent > 0.0)
-        sentence = f"largest exponent{method} {_span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
+        sentence = f"largest exponent{method} {span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
         if doubling:
-            sentence += f": an error doubles in {_span(doubling, places=0)} waves"
+            sentence += f": an error doubles in {span(doubling, places=0)} waves"
         sentences.append(f"{sentence}. Chaotic at {symbol} = {_at(chaotic, judged, key)}.")
         break
     growing = []

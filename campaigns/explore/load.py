@@ -4,7 +4,7 @@ A tension is doubted where the model says more than it knows (`reasons`).
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from campaigns.answers import greatest, kilonewton, numbers_of
 from engine.natural_frequencies import natural_frequencies
@@ -26,13 +26,16 @@ from tables import (
 FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
-def load(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row]) -> str:
-    """The largest tension, its use, that of the largest motion that stays in the water, and what was checked of it."""
+def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequence[Row] = ()) -> str:
+    """The largest tension, its use, that of the largest motion that stays in the water, and what was checked of it.
+
+    keys: columns of what is varied, with their symbols.
+    """
     peak, modes = greatest(rows, PEAK), scene and natural_frequencies(scene)
     words = [f"peak top tension {largest(peak)}"]
     if modes and modes.static_tension_N:  # else there is no closed form
         words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
-    words += [of_motion(peak), f"{symbol} = {peak[key]:.4g}", str(peak.get("regime") or "")]
+    words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:
         return sentences[0]
@@ -45,12 +48,17 @@ def load(rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence
         sentences.append(f"With the {CAPPED} at most {kilonewton(number_of(capped, PEAK))}.")
     usable = greatest([row for row in rows if not any(reasons(row, scene))], PEAK)
     if usable is not None:
-        place = ", ".join(filter(None, (largest(usable), of_motion(usable), f"{symbol} = {usable[key]:.4g}")))
+        place = ", ".join(filter(None, (largest(usable), of_motion(usable), place_of(usable, keys))))
         kind = "Largest without these faults"
         if scene.buoy is not None and scene.buoy.submergence == "full":
-            kind = "Largest of the motions that stay in the water"
+            kind = "Largest of the runs that stay in the water"
         sentences += [f"{kind}: {place}.", use_of(usable, scene, searched)]
     return " ".join(sentences)
+
+
+def place_of(row: Row, keys: Mapping[str, str]) -> str:
+    """ "kA = 0.1, H = 22": the values of the varied columns, which keys gives with their symbols."""
+    return ", ".join(f"{symbol} = {number_of(row, key):.4g}" for key, symbol in keys.items())
 
 
 def of_motion(row: Row) -> str:

@@ -64,11 +64,12 @@ def without_waves(name: str, scene) -> Iterator[str]:
     elif scene.end.kind != "buoy":
         yield fault("end.kind", scene.end.kind, "'buoy' in this campaign")
     elif waves.irregular:
-        seas = "components", "jonswap", "significant_steepness"
+        seas = "record", "components", "jonswap", "significant_steepness"
         key = next(f"waves.{name}" for name in seas if getattr(waves, name) is not None)
         yield (
             f"{key}: given; allowed: one regular wave in this campaign, which strobes and judges motions once per wave "
-            "period; campaigns.sea answers for a sea, and engine.simulate runs irregular waves (docs/scenes.md#waves)"
+            "period; campaigns.sea answers for a sea, campaigns.sweep varies a key in one, and engine.simulate runs "
+            "irregular waves (docs/scenes.md#waves)"
         )
 
 

@@ -98,10 +98,7 @@ def cases(order: Order) -> Iterator[Job]:
 
 def _jobs(order: Order) -> Iterator[Job]:
     order.options.grid.refuse_set(order)
-    base = order.base(tell=True)
-    if base is not None and base.waves is None:
-        order.tell([f"campaigns.orbits: given {order.name!r} without waves; allowed: a buoy in regular waves"])
-    elif base is not None:
+    if order.base(tell=True) is not None:
         yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 
@@ -221,6 +218,7 @@ STUDY = Study(
     name="orbits",
     protocol=__doc__,
     scene="tethered_buoy",
+    in_waves=True,
     options=Options,
     cases=cases,
     measures=measures,

@@ -7,7 +7,8 @@
 Protocol: the same scene, start and length for every value of the keys; the transient is left out of all that is
 measured. A buoy in regular waves gets the rows of `campaigns.buoy_sweep`, with regime and exponents where the run is
 long enough, and over one key how far each largest tension holds; any other line gets extremes, tension and the solver's
-counts. Of an irregular sea only the ramp is left out, and of a run without waves nothing. Nothing is random.
+counts. In an irregular sea rows have statistics: significant elevation, mean and standard deviation of the tension,
+snaps an hour. Of a sea only the ramp is left out, and of a run without waves nothing. Nothing is random.
 """
 
 from __future__ import annotations
@@ -73,7 +74,8 @@ def cases(order: Order) -> list[Job]:
 def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
     grid.refuse_set(order)
-    base = order.base(tell=True)
+    first = {key.name: key.values[0] for key in grid.keys if key.index is None}
+    base = order.base() or order.base(first, tell=True)  # keys may need each other
     if base is None or not grid.keys:
         return
     duration_s, periods = order.options.duration, order.periods
@@ -102,20 +104,26 @@ def _jobs(order: Order) -> Iterator[Job]:
 def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
     from campaigns.explore import rows
+    from campaigns.sweep import seas
 
     keys = order.options.grid.columns
     if any(map(in_regular_waves, order.scenes)):
         columns = motions.columns_of(keys)
     else:
         loads = (*rows.EXTREMES, rows.UTILISATION, *rows.SNAPS, *rows.ALONG_LINE)
+        if in_sea(order.cases[0].scene):
+            loads = (*seas.COLUMNS, *loads)
+            order = replace(order, transient=order.given_transient)
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
-    waves = order.cases[0].scene.waves
-    if waves is not None and waves.irregular:
-        order = replace(order, transient=order.given_transient)
     row = partial(sweep_row, transient_periods=order.transient)
     sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
     return replace(motions.measures_of(order, columns), row=row, sources=sources)
+
+
+def in_sea(scene) -> bool:
+    """Whether a scene has irregular waves."""
+    return scene.waves is not None and scene.waves.irregular
 
 
 def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
@@ -134,6 +142,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
         sound_part,
         utilisation,
     )
+    from campaigns.sweep import seas
 
     scene = trajectory.scene
     if judgement is not None:
@@ -146,6 +155,8 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
         row["transient_periods"] = transient_s / scene.waves.period_s
     if len(columns["time_s"]) > 1 and columns["time_s"][-1] > transient_s:
         row |= settled(scene, columns, transient_s) | snap_columns(scene, columns, transient_s)
+        if in_sea(scene):
+            row |= seas.statistics(scene, columns, transient_s)
         row[UTILISATION.name] = utilisation(scene, row)
     return row
 
@@ -170,13 +181,20 @@ def beside(order: Order) -> Iterator[Callable]:
 
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
-    """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load."""
-    from campaigns.answers import greatest, line
+    """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load.
+
+    In a sea the statistics of its runs (`seas.sentences`).
+    """
+    from campaigns.answers import known_rows, line
     from campaigns.explore.answer import sentences
-    from campaigns.explore.load import largest, use_of
-    from tables import PEAK, number_of
+    from campaigns.explore.load import load
+    from campaigns.sweep import seas
+    from tables import PEAK
 
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
+    symbols = dict(zip(keys, keys, strict=True))
+    if in_sea(scene):
+        return seas.sentences(rows, symbols, scene)
     if len(keys) == 1:
         folders = []
         if motions.kicks_of(order) is not None:
@@ -186,12 +204,10 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     regimes = ", ".join(f"{word} {count}" for word, count in counts.most_common())
     lines = [line("MOTIONS", f"{len(rows)} runs: {regimes}.")]
-    peak = greatest(rows, PEAK)
-    if peak is None:
+    good = known_rows(rows, PEAK)
+    if not good:
         return lines
-    place = ", ".join(f"{key} = {number_of(peak, key):.4g}" for key in keys)
-    load = f"peak top tension {largest(peak)}, {place}. {use_of(peak, scene, searched=False)}"
-    return [line("LOAD", load), *lines]
+    return [line("LOAD", load(good, symbols, scene)), *lines]
 
 
 def sweep(

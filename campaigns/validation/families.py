@@ -8,6 +8,7 @@ import numpy as np
 from campaigns.validation.cases import DATA, Case, period_of
 from campaigns.validation.exact import catenary, frequencies
 from engine import Trajectory
+from engine.physics.sea import rows_of
 
 PHASES, SHIFTS = 1000, 2000  # samples of a period that is averaged; time shifts that are tried
 POUND_N = 4.4482216152605
@@ -209,6 +210,41 @@ def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     ours, theirs = f"{strain.min():.4f} to {strain.max():.4f}", f"{exact.min():.4f} to {exact.max():.4f}"
     numbers = {"strain, mean": Number(ours, theirs, strain_error(runs[0]))}
     return Outcome(numbers, [("", lines.s_m, strain, exact)])
+
+
+def taut_buoy(case: Case, runs: Sequence[Trajectory]) -> Outcome:
+    """Surge and top tension of a taut buoy in a low sea, wave by wave, against its two linear oscillators.
+
+    The sphere of mass M + M_a is driven by (rho V + M_a) dU/dt of a wave at its place, on a spring: across the line
+    P/L, its pull over its length, along it EA/l_0. Nothing damps it, and the line has no mass.
+    """
+    run, scene = runs[0], runs[0].scene
+    buoy, tether, depth = scene.buoy, scene.tether, scene.water.depth_m
+    displaced = scene.water.density_kgpm3 * np.pi * buoy.diameter_m**3 / 6.0
+    moved, driven, height = buoy.mass_kg + buoy.added_mass_kg, displaced + buoy.added_mass_kg, run["z_m"][0]
+    k, omega, *_, amplitude = rows_of(scene).T
+    drive = driven * amplitude * omega**2 / np.sinh(k * depth)
+    along = tether.tension.stiffness_N / tether.length_m
+    across = (displaced - buoy.mass_kg) * scene.gravity_mps2 / height
+    numbers, curves = {}, []
+    for name, column, spring, shape in (
+        ("surge", "x_m", across, np.cosh(k * height)),
+        ("tension", "tension_top_N", along, along * np.sinh(k * height)),
+    ):
+        theirs = drive * shape / np.abs(spring - moved * omega**2)
+        with_rest_and_ringing = np.append(omega, (0.0, np.sqrt(spring / moved)))
+        ours = amplitudes(run["time_s"], run[column], with_rest_and_ringing)[:-2]
+        error = 100.0 * rms(ours - theirs) / rms(theirs)
+        numbers[f"{name}, rms"] = Number(f"{rms(ours):.4g}", f"{rms(theirs):.4g}", error)
+        curves.append((name, omega, ours / amplitude, theirs / amplitude))
+    return Outcome(numbers, curves)
+
+
+def amplitudes(time_s: np.ndarray, values: np.ndarray, omega: np.ndarray) -> np.ndarray:
+    """Amplitudes (n,) of oscillations of angular frequencies omega (n,), rad/s, whose sum is nearest to a record."""
+    angle = omega * time_s[:, None]
+    parts = np.linalg.lstsq(np.hstack([np.cos(angle), np.sin(angle)]), values, rcond=None)[0]
+    return np.hypot(*parts.reshape(2, -1))
 
 
 def peer(case: Case, runs: Sequence[Trajectory]) -> Outcome:

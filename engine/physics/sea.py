@@ -46,6 +46,7 @@ import numpy as np
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
 from ..scene.models import Scene
+from ..scene.values import MOST_COMPONENTS
 from ..simd.access import eight_of, in_lane, lane_of, power_of_two, read_eight, total, write_eight
 from ..simd.elementary import PIO2_A, PIO2_B, PIO2_C, TWO_OVER_PI, sincos, smooth_start
 from ..simd.select import larger, smaller, where
@@ -62,6 +63,7 @@ LN2_B = 1.6465949582897082e-12
 STILL = 3.0  # change of the water's velocity, over the tolerance of Newton's method, that is left out
 LOWEST, HIGHEST = 0.5, 3.0  # of the peak frequency
 REACH = 4.0  # of a Gaussian spectrum, in its widths
+RECURRENCES = 10  # mean times after which groups of a sea nearly recur, in a run
 _POINTS = 200  # over which the energy of one part is summed
 
 
@@ -131,6 +133,25 @@ def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
         return periods, amplitudes, phases - k * waves.record_x_m, np.zeros(len(periods))
     listed = [(wave.period_s, wave.amplitude_m, wave.phase_rad, wave.direction_rad) for wave in waves.components]
     return tuple(np.array(listed).T)
+
+
+def enough_waves(scene: Scene, duration_s: float) -> dict[str, int]:
+    """The change by which a sea has enough waves for a run of this length; {} where it has, or a key says how many.
+
+    n waves in a band of B/T_p nearly recur after n T_p/B; a run lasts RECURRENCES of these times at most.
+    """
+    waves = scene.waves
+    if waves.jonswap is not None:
+        key, section, band = "waves.jonswap.components", waves.jonswap, HIGHEST - LOWEST
+    elif waves.significant_steepness is not None:
+        key, section, band = "waves.component_count", waves, 2.0 * REACH * waves.relative_width
+    else:
+        return {}
+    name = key.rpartition(".")[2]
+    needed = duration_s / waves.period_s * band / RECURRENCES
+    if name in section.model_fields_set or needed <= getattr(section, name):
+        return {}
+    return {key: min(64 * math.ceil(needed / 64), MOST_COMPONENTS)}
 
 
 def direction_of(angle: float) -> tuple[float, float]:

@@ -7,8 +7,9 @@ import numpy as np
 
 from ..parameters.limits import longest_step
 from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_beyond
-from ..physics.sea import AMPLITUDE, OMEGA, K, rows_of
+from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
 from ..physics.strains import tension_at
+from ..physics.waves import wave_number
 from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
 from ..scene.models import Scene
 from ..time.folds import words_of_folds
@@ -21,7 +22,9 @@ if TYPE_CHECKING:
 
 NOTED = 0.05  # share of the largest tension: a smaller error is not told
 MUCH = 0.5  # share of the energy of a sea
-MANY, RECURRENCES = 8, 10  # waves from which on a sea is meant to be random; mean times of recurrence in a run
+MANY = 8  # waves from which on a sea is meant to be random
+STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
+FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -39,7 +42,7 @@ def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
         unresolved(record, run.tables, scene, columns),
         _waves_on_element(run),
         _out_at_rest(run),
-        _sea(run),
+        _sea(run, columns),
     ]
     if record["end"] == HELD:
         doubts.append(words_of_folds(scene, run.state, columns))
@@ -100,8 +103,8 @@ def _out_at_rest(run: "Run") -> str:
     return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
 
-def _sea(run: "Run") -> str:
-    """Says that a sea is of waves too short for eq. (30), or that a long run meets too few waves, or nothing."""
+def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
+    """Says of a sea what its laws do not cover: short or steep waves, extrapolated ones, too few for a long run."""
     scene = run.scene
     if not run.record["sea_n"]:
         return ""
@@ -114,9 +117,26 @@ def _sea(run: "Run") -> str:
                 f"{100 * short:.0f} % of the energy of the sea is in waves with k D > 1, shorter than six diameters of "
                 "the sphere: eq. (30) has no diffraction, and overstates their force"
             )
-    spacing = (omega[-1] - omega[0]) / (len(omega) - 1) if len(omega) > 1 else 0.0
+    waves, depth = scene.waves, scene.water.depth_m
+    steepness = wave_number(waves.period_s, depth, scene.gravity_mps2) * math.sqrt(2.0 * energy.sum())
+    if steepness > STEEPEST:
+        sentences.append(
+            f"k H_s/2 = {steepness:.2g} of the sea is above {STEEPEST:.2g}, that of the steepest seas in nature: its "
+            "higher waves would break"
+        )
+    above_m = scene.anchor.position_m[2] + columns["z_m"].max() - depth
+    if waves.above_still_water == "extrapolate":
+        speed = rows[:, SPEED]
+        faster = np.linalg.norm(speed * np.exp(rows[:, K] * above_m)) / np.linalg.norm(speed)
+        if faster > FASTER:
+            sentences.append(
+                f"{above_m:.2g} m above still water, where the upper end was, extrapolated waves are {faster:.2g} "
+                "times as fast as at its level: waves.above_still_water = 'wheeler' or 'zero' bounds them"
+            )
+    measured = waves.record is not None
+    spacings = len(omega) - int(measured)  # those of a drawn sea lie anywhere in equal parts of a band
+    spacing = (omega[-1] - omega[0]) / spacings if spacings else 0.0
     recurs_s = 2 * math.pi / spacing if spacing else math.inf
-    measured = scene.waves.record is not None
     if len(omega) >= MANY and run.duration_s > (1.0 if measured else RECURRENCES) * recurs_s:
         sentences.append(
             f"the sea has {len(omega)} waves and {'repeats' if measured else 'nearly repeats its groups'} after some "

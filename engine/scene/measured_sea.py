@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from engine.scene.faults import fault
+from engine.scene.faults import fault, shown
 from engine.scene.values import MOST_COMPONENTS
 
 COLUMNS = "time_s", "elevation_m"
@@ -53,10 +53,13 @@ def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
     allowed = "a CSV file with the columns time_s and elevation_m"
     try:
         with Path(path).open(newline="", encoding="utf-8-sig") as file:
-            rows = list(csv.DictReader(file))
+            reader = csv.DictReader(file)
+            rows, heads = list(reader), reader.fieldnames or ()
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         return [fault(KEY, path, f"{allowed} ({getattr(error, 'strerror', None) or 'not readable as text'})")], None
-    if not rows or any(name not in rows[0] for name in COLUMNS):
+    if any(name not in heads for name in COLUMNS):
+        return [fault(KEY, path, f"{allowed}: the first line is {shown(','.join(heads))}")], None
+    if not rows:
         return [fault(KEY, path, f"{allowed}, and at least one row of numbers")], None
     columns = []
     for name in COLUMNS:
@@ -82,7 +85,7 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
     step = float(np.median(steps))
     if np.abs(steps - step).max() > EVEN * step:
         gap = int(np.argmax(np.abs(steps - step)))
-        between = f"from {time_s[gap]:.6g} to {time_s[gap + 1]:.6g} s is a gap"
+        between = f"from {time_s[gap]:.6g} to {time_s[gap + 1]:.6g} s is a gap or an uneven step (interpolate it)"
         yield fault(KEY, path, f"even steps of {step:.6g} s: {between}")
         return
     length_s = step * len(time_s)

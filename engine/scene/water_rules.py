@@ -55,6 +55,9 @@ def sea(sound: Sound) -> Facts:
         most = 2.0 * STEEPEST * sound["water.depth_m"] / k_depth
         rule = f"less than {most:.4g}, k H_s/2 = {STEEPEST:g} at waves.period_s: waves break at 0.44"
         yield height >= most, "waves.jonswap.significant_height_m", rule
+    shortest_s = math.sqrt(2 * math.pi * (sound["buoy.diameter_m"] or 0) / (sound["gravity_mps2"] or math.inf))
+    short = (listed or drawn) and (sound["waves.period_s"] or math.inf) < shortest_s
+    yield short, "waves.period_s", f"at least {shortest_s:.3g} s, whose waves are as long as the buoy is wide"
     yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
     yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {because}"
     key = "tether.submergence"
@@ -84,10 +87,14 @@ def heights(sound: Sound) -> Iterator[str]:
     total_m = sum(component["amplitude_m"] for component in components)
     if total_m >= depth:
         yield f"waves.components: given amplitudes of {total_m:.6g} m in all; allowed: less than water.depth_m, {depth}"
-    if sound["motion.dimensions"] == 2:
-        for index, component in enumerate(components):
-            if _aslant(component.get("direction_rad")):
-                yield fault(f"waves.components[{index}].direction_rad", component["direction_rad"], _ALONG)
+    highest = STEEPEST * (sound["gravity_mps2"] or math.inf)
+    for index, component in enumerate(components):
+        key, height = f"waves.components[{index}]", component["amplitude_m"]
+        most = highest * (component["period_s"] / (2 * math.pi)) ** 2
+        if height >= most:
+            yield fault(f"{key}.amplitude_m", height, f"less than {most:.4g}, k A = 1: waves break at 0.44")
+        if sound["motion.dimensions"] == 2 and _aslant(component.get("direction_rad")):
+            yield fault(f"{key}.direction_rad", component["direction_rad"], _ALONG)
 
 
 def current(sound: Sound) -> Iterator[str]:

@@ -11,12 +11,13 @@ from functools import reduce
 from itertools import product
 from operator import getitem
 
+import numpy as np
 import pytest
 
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from campaigns.sweep import read_order
-from engine import load_scene, simulate
+from engine import Trajectory, load_scene, simulate
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
@@ -59,6 +60,38 @@ def test_of_an_irregular_sea_the_ramp_is_left_out_or_what_is_asked_for(words, le
     rows = run(tmp_path, "--vary", "water.depth_m", 22, 23, 2, *sea, *words)
     assert [float(row["transient_periods"]) for row in rows] == [left_out] * 2
     assert all(row["tension_top_max_N"] for row in rows)
+
+
+@pytest.mark.parametrize("second", [(), ("--vary", "waves.jonswap.seed", 1, 2, 2)], ids=["one key", "two keys"])
+def test_in_a_sea_rows_have_statistics_in_place_of_regimes(second, tmp_path):
+    """Against the plain moments of the trajectory and of the waves."""
+    sea = ("--set", "waves.jonswap.significant_height_m=1.6", "buoy.submergence=spherical-cap", "tether.nodes=5")
+    vary = ("--vary", "water.depth_m", 22.5, 23, 2, *second)
+    rows = run(tmp_path, *vary, *sea, "--periods", 60, "--transient", 10)
+    assert "regime" not in rows[0] and len(rows) == 2 ** (1 + bool(second))
+    for row in rows:
+        trajectory = Trajectory.load(tmp_path / "trajectories" / f"{row['run_key']}.nc")
+        tension_N = trajectory["tension_top_N"][1000:]
+        assert float(row["tension_mean_N"]) == pytest.approx(np.mean(tension_N))
+        assert float(row["tension_std_N"]) == pytest.approx(np.std(tension_N))
+        snaps = trajectory.snaps(transient_s=50.0)
+        assert float(row["snaps_per_hour"]) == pytest.approx(len(snaps) / 250.0 * 3600.0, rel=1e-3)
+        assert float(row["significant_elevation_m"]) == pytest.approx(1.6, rel=0.1)
+    answer = (tmp_path / "answer.txt").read_text()
+    words = [text.split()[0] for text in answer.splitlines() if text[:1].isupper()]
+    assert words == ["SEA", "LOAD", "TENSION", "SNAPS", "OPEN"]
+    built_twice(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("varied", "fixed"),
+    [
+        ("waves.relative_width", "waves.significant_steepness=0.1"),
+        ("waves.significant_steepness", "waves.relative_width=0.1"),
+    ],
+)
+def test_a_key_that_another_needs_can_be_varied(varied, fixed):
+    assert len(cases_of("--vary", varied, 0.05, 0.1, 2, "--set", fixed, *SHORT)) == 2
 
 
 def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):

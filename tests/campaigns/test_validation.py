@@ -147,3 +147,9 @@ def test_a_run_that_ends_early_misses_its_bar_and_a_folder_without_cases_is_refu
     (tmp_path / "cases.csv").write_text("case\n")
     with pytest.raises(FolderError, match=r"cases\.csv"):
         build(tmp_path)
+
+
+def test_amplitudes_of_a_sum_of_oscillations_are_found():
+    t, omega = np.arange(0.0, 300.0, 0.1), np.array([0.7, 1.1, 1.2, 0.0])
+    record = 0.3 * np.cos(0.7 * t + 1.0) + 0.02 * np.sin(1.1 * t) + 1.5 * np.cos(1.2 * t) - 4.0
+    assert families.amplitudes(t, record, omega) == pytest.approx([0.3, 0.02, 1.5, 4.0])

@@ -42,6 +42,7 @@ BROKEN = {
     "coarse": (TIME_S[::8], ELEVATION[::8], "steps of at most 0.625 s"),
     "hole": (TIME_S, np.where(TIME_S == TIME_S[5], np.nan, ELEVATION), "elevation_m in line 7 is 'nan'"),
     "empty": (TIME_S[:0], ELEVATION[:0], "at least one row"),
+    "uneven": (TIME_S + 0.05 * np.sin(TIME_S), ELEVATION, "uneven step"),
     "still": (TIME_S, 0.0 * ELEVATION, "not constant"),
     "slow": (TIME_S, np.sin(0.06 * TIME_S), "of its energy lies outside"),
 }
