@@ -210,7 +210,7 @@ class _Follower:
             changes, rates = self.plane(maps, orbit, rows[::-1])
             way = changes[0], rates[0]  # across, orthogonal to `along`
             rows = np.array([self.row(along), self.system.row(changes[0, 0], rates[0])])
-            orbit, sigma, taken = self.secants(maps, orbit, way, rows, step)
+            orbit, _, taken = self.secants(maps, orbit, way, rows, step)
             moved = np.linalg.norm(orbit.points - guess[0], axis=1).max()
             if self.system.frozen is None or refined or moved < MOVED:
                 break
