@@ -6,7 +6,8 @@
 The map is two functions, its image and the product of its derivative with vectors; no matrix is ever formed, so that
 maps with hundreds of coordinates serve as well as those with two. `maps` states what a map is, `spaces` has its
 derivative on few directions, `finding` Newton's method, `branches` follows an orbit, `events` locates folds, flips and
-torus points and begins the orbit of twice the period, `curves` follows events over two parameters. Names are imported on first use.
+torus points and begins the orbit of twice the period, `curves` follows events over two parameters. Names
+are imported on first use.
 """
 
 import lazy_loader

@@ -171,11 +171,15 @@ class _Follower:
         """The point nearest to a start, the direction (n + 2,) of the curve there, and that across it."""
         maps = self.system.near(points, parameters)
         fixed = np.hstack([np.zeros((2, points.shape[1])), np.eye(2)])
-        orbit = described(corrected(maps, points, parameters, NEAR_ORBITS), self.count)[0]
-        vector = orbit.vectors[:, np.argmin(np.abs(orbit.multipliers - 1.0))].real
+        shots = shoot(maps, points, parameters)
+        multipliers, _, vectors = Space(shots.linearised, np.empty((points.shape[1], 0)), maps[0].abreast).multipliers(
+            self.count
+        )
         rows = fixed
         if self.kind == "fold":  # there the surface is upright over the first parameter
+            vector = vectors[:, np.argmin(np.abs(multipliers - 1.0))].real
             rows = np.array([self.system.row(vector, np.zeros(2)), fixed[1]])
+        orbit = self.orbit_at(maps, (points, parameters), rows, real_span(vectors))
         for _ in range(2):
             changes, rates = self.plane(maps, orbit, rows)
             rows = np.array([self.system.row(c[0], r) for c, r in zip(changes, rates, strict=True)])
