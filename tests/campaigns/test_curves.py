@@ -43,7 +43,7 @@ def test_events_of_one_key_lie_on_their_curves_which_are_kept_and_drawn(tmp_path
     write_curves(tree, HenonPlane())
     assert tree.computed == computed, "a curve is computed once"
     items = list(curve_items(Folder(tmp_path, {}, (), None, {})))
-    assert [type(item) for item in items if isinstance(item, Figure | Table)] == [Figure, Table, Table]
+    assert [type(item) for item in items if isinstance(item, Figure | Table)] == [Figure, Table]
 
 
 @pytest.mark.parametrize(
