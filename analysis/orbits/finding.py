@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.orbits.maps import NoImage, OrbitMap, Shots, shoot, slopes_of
+from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, Shots, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
@@ -192,7 +192,7 @@ def corrected(
     shots, taken = shoot(maps, points, parameter), 0
     while shots.residual > enough:
         if taken == newton.iterations:
-            raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
+            raise NotSolved(f"{taken} Newton steps leave {shots.residual:.1e}")
         if fresh := space is None:
             first = directions
             if row is not None:
@@ -216,7 +216,8 @@ def corrected(
                 break
         else:
             if fresh:
-                raise NoImage(f"{reason}; {shots.residual:.1e} is left")
+                failure = NotSolved if isinstance(reason, str) else NoImage
+                raise failure(f"{reason}; {shots.residual:.1e} is left")
             space = slopes = None
     parameter = np.asarray(parameter, float)
     return Solved(points, parameter if parameter.ndim else float(parameter), maps, shots, taken, directions, last)

@@ -18,6 +18,10 @@ class NoImage(ArithmeticError):
     """A state has no image; the message says why, as the end of a sentence. Any ArithmeticError is taken so."""
 
 
+class NotSolved(NoImage):
+    """There may be an image or an orbit, but the computation does not come to it."""
+
+
 @dataclass(frozen=True, eq=False)
 class OrbitMap:
     """A map P(z, parameter) of states z (n,), in coordinates of which |z| is a measure of distance.
