@@ -277,10 +277,10 @@ class _Follower:
         for taken in range(1, SECANTS + 1):
             by = float(np.clip(-value / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
             sides[value > 0.0] = sigma
-            if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
-                by = 0.5 * sum(sides.values()) - sigma
             if abs(by) < self.tolerance * step and taken > 1:
                 break
+            if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
+                by = 0.5 * sum(sides.values()) - sigma
             sigma += by
             if abs(sigma) > NEAR * step:
                 raise NotSolved("the curve turns too sharply")

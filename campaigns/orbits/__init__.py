@@ -196,9 +196,10 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
             tree.refine()
     rows = tables(tree, key.column)
     if options.second is not None:
-        from campaigns.orbits.curves import Plane, write_curves
+        from campaigns.orbits.curves import FOLDER, Plane, write_curves
 
-        write_curves(tree, Plane(line, options.second, options.second.of(line.scenes.base)))
+        points = None if plan.how.backend == "dask" else plan.how.out.absolute() / FOLDER / "points"
+        write_curves(tree, Plane(line, options.second, options.second.of(line.scenes.base), points))
     timing["run_s"] += time.perf_counter() - began
     return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
 

@@ -1,9 +1,10 @@
 """Curves of events over two keys: each fold, flip and torus point that was found along the first key is followed over
-the second (`analysis.orbits.curves`). A curve is one task, whose result is kept."""
+the second (`analysis.orbits.curves`). A curve is one task, whose result is kept, and so is each point of it as it is found."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from campaigns.explore.motions import subfolder
 from campaigns.explore.multipliers import COUNT, cable_map
 from campaigns.explore.tracing import SOURCES, Line, Solved, line_task
 from campaigns.machinery.folder import made_by
-from campaigns.machinery.store import key_of
+from campaigns.machinery.store import Store, key_of
 from campaigns.orbits.tables import ANGLE, KIND, PERIOD
 from campaigns.orbits.tree import Tree
 from engine.scene import SceneError, scene_from_toml
@@ -40,11 +41,13 @@ class Plane:
     """The scenes of a line over a second key.
 
     line: of the first key. key: the second one; its first and last values are the range. value: of it on the line.
+    points: folder of finished points; None where a worker does not see it.
     """
 
     line: Line
     key: Varied
     value: float
+    points: Path | None = None
 
     @property
     def low(self) -> np.ndarray:
@@ -96,7 +99,13 @@ def _of_array(image):
 def curve(plane: Plane, kind: str, value: float, points: np.ndarray, most: int) -> Solved:
     """The curve of an event that was found at a value of the first key, with the points (N, 8 n) of its orbit."""
     place = np.array([value, plane.value])
-    followed = follow_curve(plane.maps, kind, points, place, plane.low, plane.high, **STEPS, most=most, count=COUNT)
+    store, digest = Store(plane.points, ".point.json"), plane.digest()
+
+    def kept(arguments, compute):
+        return store.finished(key_of(digest, kind, *arguments), compute)
+
+    settings = STEPS | {"most": most, "count": COUNT, "kept": kept}
+    followed = follow_curve(plane.maps, kind, points, place, plane.low, plane.high, **settings)
     rows = [[_point(point) for point in part] for part in (followed.points, followed.special)]
     result = {"reason": "", "points": rows[0], "special": rows[1]}
     return result | {"closed": followed.closed, "begins": followed.ends[0], "ends": followed.ends[1]}, []
@@ -108,6 +117,8 @@ def _point(point) -> dict:
         "errors": [finite(error) for error in point.errors],
         "angle_rad": point.angle_rad,
         "special": point.kind,
+        "found": point.found,
+        "reason": point.reason,
     }
 
 
@@ -143,31 +154,38 @@ def _lies_on(event: dict, first: dict, result: dict, plane: Plane) -> bool:
 
 
 def _rows(label: Row, result: dict, event: dict, plane: Plane) -> Iterator[Row]:
-    """The points of a curve. Errors of the first key are no smaller than what a finer grid changes of its event."""
+    """The points of a curve. Errors of the first key are no smaller than that of its event, which has what a finer grid
+    changes, and those of the second key grow in proportion."""
     first, second = plane.line.scenes.key.column, plane.key.column
     floor = event["error"] or 0.0
-    label = label | {"begins": result["begins"], "ends": result["ends"], "status": "ok"}
+    label = label | {"begins": result["begins"], "ends": result["ends"]}
     for part in ("points", "special"):
         for place, point in enumerate(result[part]):
             error, other = point["errors"]
+            scale = max(1.0, floor / error) if error and point["found"] else 1.0
             yield label | {
                 PLACE.name: place if part == "points" else None,
                 first.name: point["values"][0],
                 second.name: point["values"][1],
-                "error_1": None if error is None else max(error, floor),
-                "error_2": other,
+                "error_1": None if error is None else scale * error,
+                "error_2": None if other is None else scale * other,
                 "angle_rad": point["angle_rad"],
                 "special": point["special"],
+                "status": "ok" if point["found"] else "not-found",
+                "message": point["reason"],
             }
 
 
 def write_curves(tree: Tree, plane: Plane) -> None:
     """Write curves/table.csv, with its columns. Raises OSError and CampaignStopped."""
+    folder = subfolder(tree.plan, FOLDER)
     first, second = (replace(key.column, digits=5) for key in (plane.line.scenes.key, plane.key))
-    meaning = "largest change over three sequences of steps where the other key is held; empty where it cannot be"
+    meaning = (
+        "largest change over three sequences of steps where the other key is held; empty for the reason in message"
+    )
     errors = [
-        Column("error_1", first.unit, f"± {first.symbol}", f"{meaning}; at least the error of its event", 6),
+        Column("error_1", first.unit, f"± {first.symbol}", f"{meaning}; at least that of its event", 6),
         Column("error_2", second.unit, f"± {second.symbol}", meaning, 6),
     ]
     columns = CURVE, PLACE, OF, PERIOD, KIND, SPECIAL, first, second, *errors, ANGLE, BEGINS, ENDS, STATUS, MESSAGE
-    write_table(subfolder(tree.plan, FOLDER) / "table.csv", columns, [*curves_of(tree, plane)])
+    write_table(folder / "table.csv", columns, [*curves_of(tree, plane)])

@@ -38,6 +38,10 @@ def drawn_curves(part: Folder, keys: Sequence[Column], colour: str = "") -> Iter
         if special:
             x, y = (series(special, key.name) for key in keys)
             yield Curve(x, y, "", "", "o", INK, size=4.0)
+    lost = having(part.table, status="not-found")
+    if lost:
+        x, y = (series(lost, key.name) for key in keys)
+        yield Curve(x, y, "special point not found", "", "x", INK, size=6.0)
 
 
 def curve_items(folder: Folder) -> Items:
@@ -52,11 +56,12 @@ def curve_items(folder: Folder) -> Items:
         texts = []
         for row in part.table:
             if row["special"]:
-                texts.append((row[keys[0].name], row[keys[1].name], row["special"], INK))
+                doubt = "?" if row["status"] == "not-found" else ""
+                texts.append((row[keys[0].name], row[keys[1].name], row["special"] + doubt, INK))
         panel = Panel(lines, keys[0].label, keys[1].label, texts=texts)
         caption = (
             "Where events are: folds solid, flips dashed, torus points dotted; dots: special points "
-            "(`curves/table.csv`). Between the curves the number and the stability of the orbits do not change, except "
+            "(`curves/table.csv`), crosses with a question mark where its search failed. Between the curves the number and the stability of the orbits do not change, except "
             "at curves of orbits that are not followed."
         )
         yield Figure(
@@ -65,10 +70,11 @@ def curve_items(folder: Folder) -> Items:
     special, firsts = [], []
     for _, group in groupby(part.table, key=itemgetter("curve")):
         rows = list(group)
-        firsts.append(rows[0])
+        message = "" if rows[0]["status"] == "ok" else rows[0]["message"]
+        firsts.append(rows[0] | {"message": message})
         special += [row for row in rows if row["special"]]
     if special:
-        names = ("curve", "kind", "special", keys[0].name, "error_1", keys[1].name, "error_2")
+        names = ("curve", "kind", "special", keys[0].name, "error_1", keys[1].name, "error_2", "status", "message")
         yield from filled_table(part._replace(table=tuple(special)), "Special points of the curves.", names)
     names = ("curve", "branch", "period", "kind", "begins", "ends", "message")
     yield from filled_table(part._replace(table=tuple(firsts)), "The curves, and why each ends both ways.", names)
