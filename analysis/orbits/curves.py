@@ -13,13 +13,11 @@ system that is computed in steps takes one set of them for all orbits of one poi
 is the error of the point. The first direction comes from differences of g in two directions of the surface.
 
 Special points are zeros of functions of the multipliers, smooth along the curve, and extremes of the second parameter.
-Where the search between two points of the curve fails, they are followed by shorter steps, and searched again there.
+Where the search between two points of the curve fails, that is told as a point which was not found.
 """
 
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass, fields, replace
-from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
@@ -37,7 +35,6 @@ ROUGH = 1e-3  # the same of a system that is computed in steps, and to how much 
 CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
 LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
-SHORTER = 0.2  # of a chord, on which the search for a special point has failed
 COMPLEX = "multipliers", "vectors"  # of an orbit
 Kept = Callable[[tuple, Callable[[], dict]], dict]
 
@@ -430,7 +427,7 @@ class _Follower:
         parameters = begin.parameters + share * (end.parameters - begin.parameters)
         return self.on_curve((points, parameters), chord / length, begin, length)[0]
 
-    def _zero(self, name, function, begin, end, shorter=True):
+    def _zero(self, name, function, begin, end):
         """The special point between two points."""
         looked = {0.0: begin, 1.0: end}
         least = min(abs(function(point.orbit)) for point in looked.values())
@@ -446,23 +443,7 @@ class _Follower:
                 raise NotSolved("its test function leaps")
             return replace(looked[share], kind=name)
         except ArithmeticError as why:
-            if shorter:
-                for pair in pairwise(self._refined(begin, end)):
-                    if function(pair[0].orbit) * function(pair[1].orbit) < 0.0:
-                        return self._zero(name, function, *pair, shorter=False)
             return _lost(name, begin, end, why)
-
-    def _refined(self, begin, end):
-        """Points of the curve from one to another by shorter steps, as far as these succeed."""
-        points, chord = [begin], end.place - begin.place
-        length = self.length(chord)
-        tangent = chord / length
-        with suppress(ArithmeticError):
-            while self.row(chord) @ (points[-1].place - begin.place) < (1.0 - SHORTER) * length**2:
-                points.append(self._next(points[-1], tangent, SHORTER * length)[0])
-                way = points[-1].place - points[-2].place
-                tangent = way / self.length(way)
-        return [*points, end]
 
     def _extremum(self, before, middle, after):
         """The cusp or the extremum of the second parameter between three points."""

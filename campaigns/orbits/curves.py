@@ -13,12 +13,11 @@ from analysis.orbits import OrbitMap, follow_curve
 from campaigns.explore.grid import Varied
 from campaigns.explore.motions import subfolder
 from campaigns.explore.multipliers import COUNT, cable_map
-from campaigns.explore.tracing import SOURCES, Line, Solved, line_task
+from campaigns.explore.tracing import SOURCES, Line, Scenes, Solved, line_task
 from campaigns.machinery.folder import made_by
 from campaigns.machinery.store import Store, key_of
 from campaigns.orbits.tables import ANGLE, KIND, PERIOD
 from campaigns.orbits.tree import Tree
-from engine.scene import SceneError, scene_from_toml
 from tables import MESSAGE, STATUS, Column, Row, finite, write_table
 
 FOLDER = "curves"
@@ -82,13 +81,10 @@ class Plane:
 
 def scene_at(scene, key: Varied, value: float):
     """A scene with another value of a key. Raises ArithmeticError where there is none."""
-    changes: dict = {}
-    if not any(key.put(value, scene, changes)):
-        try:
-            return scene_from_toml(scene.to_toml(), changes)
-        except SceneError:
-            pass
-    raise ArithmeticError(f"no scene can have {key.key} = {value:.4g}")
+    changed = Scenes(scene, key)(value)
+    if changed is None:
+        raise ArithmeticError(f"no scene can have {key.key} = {value:.4g}")
+    return changed
 
 
 def _of_array(image):

@@ -70,8 +70,7 @@ def curve_items(folder: Folder) -> Items:
     special, firsts = [], []
     for _, group in groupby(part.table, key=itemgetter("curve")):
         rows = list(group)
-        message = "" if rows[0]["status"] == "ok" else rows[0]["message"]
-        firsts.append(rows[0] | {"message": message})
+        firsts.append(rows[0])
         special += [row for row in rows if row["special"]]
     if special:
         names = ("curve", "kind", "special", keys[0].name, "error_1", keys[1].name, "error_2", "status", "message")
