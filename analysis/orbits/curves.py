@@ -345,9 +345,8 @@ class _Follower:
                     step = max(0.5 * step, self.least)
                     continue
                 place = " and ".join(f"{value:.6g}" for value in last.parameters)
-                if isinstance(why, NotSolved):
-                    return points, f"numerical failure beyond {place}, with steps down to {self.least:g}: {why}", False
-                return points, f"ends at {place}, within a step of {self.least:g}: {why}", False
+                words = "numerical failure beyond" if isinstance(why, NotSolved) else "ends at"
+                return points, f"{words} {place}, with steps down to {self.least:g}: {why}", False
             chord = point.place - last.place
             if len(points) > 3 and self._passes(first, last, chord):
                 return [*points, first], "comes back to its beginning", True

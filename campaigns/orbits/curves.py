@@ -1,5 +1,5 @@
 """Curves of events over two keys: each fold, flip and torus point that was found along the first key is followed over
-the second (`analysis.orbits.curves`). A curve is one task, whose result is kept, and so is each point of it as it is found."""
+the second (`analysis.orbits.curves`). A curve is one task, whose result is kept, and so is each of its points."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

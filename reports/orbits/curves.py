@@ -38,10 +38,6 @@ def drawn_curves(part: Folder, keys: Sequence[Column], colour: str = "") -> Iter
         if special:
             x, y = (series(special, key.name) for key in keys)
             yield Curve(x, y, "", "", "o", INK, size=4.0)
-    lost = having(part.table, status="not-found")
-    if lost:
-        x, y = (series(lost, key.name) for key in keys)
-        yield Curve(x, y, "special point not found", "", "x", INK, size=6.0)
 
 
 def curve_items(folder: Folder) -> Items:
@@ -56,12 +52,13 @@ def curve_items(folder: Folder) -> Items:
         texts = []
         for row in part.table:
             if row["special"]:
-                doubt = "?" if row["status"] == "not-found" else ""
-                texts.append((row[keys[0].name], row[keys[1].name], row["special"] + doubt, INK))
+                words = row["special"] + "?" * (row["status"] == "not-found")
+                texts.append((row[keys[0].name], row[keys[1].name], words, INK))
         panel = Panel(lines, keys[0].label, keys[1].label, texts=texts)
         caption = (
             "Where events are: folds solid, flips dashed, torus points dotted; dots: special points "
-            "(`curves/table.csv`), crosses with a question mark where its search failed. Between the curves the number and the stability of the orbits do not change, except "
+            ""(`curves/table.csv`), a question mark where the search for one failed. "
+            "Between the curves the number and the stability of the orbits do not change, except "
             "at curves of orbits that are not followed."
         )
         yield Figure(
