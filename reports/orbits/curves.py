@@ -23,9 +23,9 @@ def keys_of(part: Folder) -> tuple[Column, Column]:
     return columns[place - 2], columns[place - 1]
 
 
-def drawn_curves(part: Folder, keys: Sequence[Column], colour: str = "") -> Iterator[Curve]:
-    """Each curve over two keys, and its special points; in one colour, or each in its own."""
-    colours = cycle([colour] if colour else COLOURS)
+def drawn_curves(part: Folder, keys: Sequence[Column]) -> Iterator[Curve]:
+    """Each curve over two keys, and its special points."""
+    colours = cycle(COLOURS)
     sound = having(part.table, status="ok")
     for number, group in groupby(sound, key=itemgetter("curve")):
         rows = list(group)
@@ -57,7 +57,7 @@ def curve_items(folder: Folder) -> Items:
         panel = Panel(lines, keys[0].label, keys[1].label, texts=texts)
         caption = (
             "Where events are: folds solid, flips dashed, torus points dotted; dots: special points "
-            ""(`curves/table.csv`), a question mark where the search for one failed. "
+            "(`curves/table.csv`), a question mark where the search for one failed. "
             "Between the curves the number and the stability of the orbits do not change, except "
             "at curves of orbits that are not followed."
         )
