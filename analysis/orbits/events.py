@@ -165,7 +165,7 @@ class _Chord:
             leap = " to ".join(f"{np.abs(side.multipliers).max():.3g}" for side in sides)
             parameter = f"{orbit.parameter:.6g}, where the map is not smooth"
             raise NoImage(f"the largest multiplier leaps from {leap} in modulus at {parameter}")
-        angle = _angle(kind, orbit.multipliers)
+        angle = angle_of(kind, orbit.multipliers)
         if angle is None or not orbit.settled or (kind == "fold" and not self.turns(orbit)):
             return None
         if self.maps is None:
@@ -205,7 +205,7 @@ def _unstable(orbit):
     return int((np.abs(orbit.multipliers) > 1.0).sum())
 
 
-def _angle(kind, multipliers):
+def angle_of(kind: str, multipliers: np.ndarray) -> float | None:
     """Of the multiplier that crosses the unit circle there; None where none does, as two reals with mu_i mu_j = 1."""
     if kind != "torus":
         return {"fold": 0.0, "flip": np.pi}[kind]

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.orbits.maps import NoImage, OrbitMap, Shots, shoot, slopes_of
+from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, Shots, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
@@ -178,7 +178,8 @@ def corrected(
     slopes: np.ndarray | None = None,
     space: Space | None = None,
 ) -> Solved:
-    """Newton's method on the gaps: at a fixed parameter, or with corrections orthogonal to a row (n + 1,).
+    """Newton's method on the gaps: at a fixed parameter, or with corrections orthogonal to a row (n + 1,), and of m
+    parameters (m,) to m rows (m, n + m).
 
     directions (n, k): with which the spaces begin; slopes (N, n) and space: approximate ones. Raises NoImage where it
     fails.
@@ -191,9 +192,12 @@ def corrected(
     shots, taken = shoot(maps, points, parameter), 0
     while shots.residual > enough:
         if taken == newton.iterations:
-            raise NoImage(f"{taken} Newton steps leave {shots.residual:.1e}")
+            raise NotSolved(f"{taken} Newton steps leave {shots.residual:.1e}")
         if fresh := space is None:
-            space = Space(shots.linearised, directions if row is None else np.c_[directions, row[:n]], maps[0].abreast)
+            first = directions
+            if row is not None:
+                first = np.hstack([directions, np.atleast_2d(row)[:, :n].T])
+            space = Space(shots.linearised, first, maps[0].abreast)
         if row is not None and slopes is None:
             slopes = slopes_of(maps, shots, points, parameter)
         change, delta = space.solve(shots.gaps, slopes, row)
@@ -212,9 +216,11 @@ def corrected(
                 break
         else:
             if fresh:
-                raise NoImage(f"{reason}; {shots.residual:.1e} is left")
+                failure = NotSolved if isinstance(reason, str) else NoImage
+                raise failure(f"{reason}; {shots.residual:.1e} is left")
             space = slopes = None
-    return Solved(points, float(parameter), maps, shots, taken, directions, last)
+    parameter = np.asarray(parameter, float)
+    return Solved(points, parameter if parameter.ndim else float(parameter), maps, shots, taken, directions, last)
 
 
 def solved_near(

@@ -18,6 +18,10 @@ class NoImage(ArithmeticError):
     """A state has no image; the message says why, as the end of a sentence. Any ArithmeticError is taken so."""
 
 
+class NotSolved(NoImage):
+    """There may be an image or an orbit, but the computation does not come to it."""
+
+
 @dataclass(frozen=True, eq=False)
 class OrbitMap:
     """A map P(z, parameter) of states z (n,), in coordinates of which |z| is a measure of distance.
@@ -31,7 +35,8 @@ class OrbitMap:
     frozen           (points (N, n), parameter, mesh) -> N functions as `step`, one for each point, that are smooth
                      near these points: for a map that is computed in steps, with the steps of that orbit; mesh 0 ...
                      meshes - 1 chooses among steps of the same accuracy. None: the map is smooth as it is
-    parameter_size   the change of the parameter that counts as 1
+    parameter_size   the change of the parameter that counts as 1; (m,) where `parameter` is an array (m,) of several,
+                     and `along` then gives (n, m)
     meshes           how many there are: the differences between them are the errors of an orbit
     abreast          directions that `linearised` carries at the cost of one
     seen             (n, m): seen.T @ z is what distances along a branch are measured in; None: all of z
@@ -63,7 +68,12 @@ class OrbitMap:
         """Derivative (n,) of the image by the parameter in units of `parameter_size`."""
         if self.along is not None:
             return self.along(z, parameter) * self.parameter_size
-        return (self.step(z, parameter + DIFFERENCE * self.parameter_size)[0] - image) / DIFFERENCE
+        if not np.ndim(parameter):
+            return (self.step(z, parameter + DIFFERENCE * self.parameter_size)[0] - image) / DIFFERENCE
+        slopes = []
+        for change in np.diag(DIFFERENCE * np.ones(len(parameter)) * self.parameter_size):
+            slopes.append((self.step(z, parameter + change)[0] - image) / DIFFERENCE)
+        return np.stack(slopes, axis=1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -65,32 +65,41 @@ class Space:
         return axes[:, sizes > NEW_DIRECTION][:, :room]
 
     def solve(
-        self, known: np.ndarray, slopes: np.ndarray | None = None, tangent: np.ndarray | None = None, along: float = 0.0
-    ) -> tuple[np.ndarray, float]:
-        """(b) for known parts r (N, n) and a = along: d (N, n) and delta; slopes b (N, n) and tangent (n + 1,)."""
-        free, n = tangent is not None, known.shape[1]
+        self,
+        known: np.ndarray,
+        slopes: np.ndarray | None = None,
+        tangent: np.ndarray | None = None,
+        along: float | np.ndarray = 0.0,
+    ) -> tuple[np.ndarray, float | np.ndarray]:
+        """(b) for known parts r (N, n) and a = along: d (N, n) and delta; slopes b (N, n) and tangent (n + 1,).
+
+        Of m parameters: slopes (N, n, m), m tangents (m, n + m), a and delta (m,).
+        """
+        n = known.shape[1]
+        rows = np.empty((0, n)) if tangent is None else np.atleast_2d(tangent)
+        free = len(rows)
         parts = [np.zeros((n, 1 + free))]
         for i, linear in enumerate(self.linearised):
-            part = np.stack([known[i], slopes[i]] if free else [known[i]], axis=1)
+            part = np.column_stack([known[i], slopes[i]]) if free else known[i][:, None]
             parts.append(part + linear(parts[-1]) if parts[-1].any() else part)
-        right = np.append(parts[-1][:, 0], along if free else [])
+        right = np.append(parts[-1][:, 0], np.broadcast_to(along, free))
         while True:
             basis, image = self.ways[0], self.ways[-1]
             matrix = basis - image
             if free:
-                matrix = np.block([[matrix, -parts[-1][:, 1:]], [tangent[:n] @ basis, tangent[n:]]])
+                matrix = np.block([[matrix, -parts[-1][:, 1:]], [rows[:, :n] @ basis, rows[:, n:]]])
             solution = np.linalg.lstsq(matrix, right, rcond=None)[0]
             rest = right - matrix @ solution
             settled = np.linalg.norm(rest) <= LINEAR * np.linalg.norm(right)
             if settled or basis.shape[1] >= MOST_DIRECTIONS or not self.grow(rest[:n, None]):
                 break
-        delta = 0.0
-        if free:
-            solution, delta = solution[:-1], float(solution[-1])
-        shares, update = np.array([1.0, delta])[: 1 + free], []
+        basis_shares, deltas = np.split(solution, [len(solution) - free])
+        shares, update = np.append(1.0, deltas), []
         for way, part in zip(self.ways[:-1], parts, strict=False):
-            update.append(way @ solution + part @ shares)
-        return np.array(update), delta
+            update.append(way @ basis_shares + part @ shares)
+        if np.ndim(tangent) == 2:
+            return np.array(update), deltas
+        return np.array(update), float(deltas[0]) if free else 0.0
 
     def strongest(self) -> np.ndarray:
         """Directions (n, k) that are left after a period."""

@@ -3,6 +3,7 @@
     python -m campaigns.orbits                                     over the paper's range of steepness
     python -m campaigns.orbits --set water.depth_m=25 --vary waves.steepness 0.1 0.17
     python -m campaigns.orbits --vary water.depth_m 22 25 --start-from results/buoy_sweep/trajectories/KEY.nc
+    python -m campaigns.orbits --curves water.depth_m 22 25        its folds, flips and torus points over the depth
 
 Protocol: the motions of a few values of the key are found as in `campaigns.sweep` (from rest, from motions of a
 massless tether, carried to their neighbours); --start-from takes the motion of one run in their place. Under each
@@ -55,7 +56,11 @@ class Options(cli.Options):
     )
     orbits: int = cli.option("N", "orbits of a branch at most, each way", cli.whole(1, 10_000), ORBITS)
     branches: int = cli.option("N", "branches that are followed at most", cli.whole(1, 1000), BRANCHES)
+    curves: list = cli.option(
+        "KEY2 LO HI", "a second key over which each fold, flip and torus point is followed; its value is within LO HI"
+    )
     no_accuracy: bool = cli.flag("do not find folds, flips and torus points again on a finer grid of the line")
+    second: object = None  # the key of --curves
     grid: Grid = field(default_factory=Grid)  # the key with its values, read from --vary and --values
 
     def read(self, out: Path, faults: list[str]) -> None:
@@ -72,6 +77,15 @@ class Options(cli.Options):
             words = USUAL.split()
         key = varied([*words, str(self.values)], faults)
         self.grid = Grid(() if key is None else (key,))
+        if self.curves is None:
+            return
+        if len(self.curves) != 3:
+            given = " ".join(self.curves)
+            faults.append(f"--curves: given {given}; allowed: KEY2 LO HI, for instance water.depth_m 22 25")
+            return
+        self.second = varied([*self.curves, "2"], faults, "--curves")
+        if key is not None and self.second is not None and self.second.key == key.key:
+            faults.append(f"--curves {key.key}: is the key of --vary; allowed: another one")
 
 
 def cases(order: Order) -> Iterator[Job]:
@@ -93,7 +107,30 @@ def cases(order: Order) -> Iterator[Job]:
     if len(grids) > 1:
         key = order.options.grid.keys[0].key
         order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
+    if order.options.second is not None and jobs:
+        _check_second(order, jobs[0].scene)
     yield from jobs
+
+
+def _check_second(order: Order, scene) -> None:
+    """Tell what is wrong with the key of --curves in a scene."""
+    from campaigns.orbits.curves import scene_at
+
+    key = order.options.second
+    value, (low, high) = key.of(scene), (key.values[0], key.values[-1])
+    if value is None or not low <= value <= high:
+        order.tell([f"--curves {key.key}: given {low:g} to {high:g}; allowed: a range with the value of the scene, "
+                    f"{value}"])  # fmt: skip
+        return
+    try:
+        grids = {scene_at(scene, key, end).tether.nodes for end in (low, high)}
+    except ArithmeticError as why:
+        order.tell([f"--curves {key.key}: given {low:g} to {high:g}; {why}"])
+        return
+    if all(isinstance(end, int) for end in (low, high)):
+        order.tell([f"--curves {key.key}: holds a whole number; allowed: a key that holds any number"])
+    elif grids != {scene.tether.nodes}:
+        order.tell([f"--curves {key.key}: changes the grid of the line; allowed: a key that does not"])
 
 
 def _jobs(order: Order) -> Iterator[Job]:
@@ -155,6 +192,11 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         if not options.no_accuracy:
             tree.refine()
     rows = tables(tree, key.column)
+    if options.second is not None:
+        from campaigns.orbits.curves import FOLDER, Plane, write_curves
+
+        points = None if plan.how.backend == "dask" else plan.how.out.absolute() / FOLDER / "points"
+        write_curves(tree, Plane(line, options.second, options.second.of(line.scenes.base), points))
     timing["run_s"] += time.perf_counter() - began
     return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
 
@@ -203,7 +245,7 @@ def parameters(order: Order) -> dict:
         "tolerance": TOLERANCE,
         "orbits": options.orbits,
         "branches": options.branches,
-    }
+    } | ({} if options.second is None else {"curves": options.curves})
 
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:

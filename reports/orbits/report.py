@@ -36,6 +36,7 @@ from ..parts import (
 from ..parts.style import INK, SOFT
 from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
+from .curves import curve_items
 
 _NEEDED = ("branch", "place", "period", "unstable", MODULUS, PEAK, "status", "message")
 _ACCURATE = 2e-4  # of an event, and of its value where that is above 1
@@ -60,6 +61,7 @@ def report(directory: Path) -> Report:
         items.append(_diagram(folder, key, branches, motions))
     located = {key.name: partial(_located, key=key.name)}
     items += filled_table(part_of(folder, "events"), _EVENTS, ("branch", _EVENT[0], key.name, *_EVENT[1:]), located)
+    items += [*curve_items(folder)]
     items += [*section_items("orbits"), Heading("Warnings"), _warnings(folder, key, branches)]
     items += _chosen(folder, key, branches)
     if branches:

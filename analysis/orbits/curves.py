@@ -1,0 +1,484 @@
+"""Folds, flips and torus points of orbits followed over two parameters.
+
+Orbits over two parameters p = (p_1, p_2) are a smooth surface in (z_0, p), round folds too. On it a curve is followed
+on which the test function g of the event (`events.FACTORS`) is zero. Lengths are those of `OrbitMap.row`.
+
+    predict    a step h along the last chord t of the curve
+    correct    orbits at the prediction + sigma s, with corrections orthogonal to t and to s, where s is the direction
+               of the surface orthogonal to t; secants in sigma lead to g = 0
+    accept     where |sigma| is below h/2 and the chord turns by less than 26 degrees; else h is halved
+
+A cusp needs no care, because the curve is smooth in (z_0, p): there only its shadow on the plane of p turns back. A
+system that is computed in steps takes one set of them for all orbits of one point; what its other sets change of sigma
+is the error of the point. The first direction comes from differences of g in two directions of the surface.
+
+Special points are zeros of functions of the multipliers, smooth along the curve, and extremes of the second parameter.
+Where the search between two points of the curve fails, that is told as a point which was not found.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from scipy.optimize import brentq, minimize_scalar
+
+from analysis.orbits.branches import FEW, GROW, NEAR, ON_CHORD, STRAIGHT
+from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of
+from analysis.orbits.finding import MOVED, Orbit, corrected, described, real_span
+from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
+from analysis.orbits.spaces import Space
+
+SECANTS = 10
+PROBE = 0.1  # of a step: differences of g for the first direction
+ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
+ROUGH = 1e-3  # the same of a system that is computed in steps, and to how much of a chord its special points are sought
+CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
+RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
+LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
+COMPLEX = "multipliers", "vectors"  # of an orbit
+Kept = Callable[[tuple, Callable[[], dict]], dict]
+
+
+@dataclass(frozen=True, eq=False)
+class CurvePoint:
+    """A fold, flip or torus point at two parameters.
+
+    parameters (2,)
+    errors (2,)       of each where the other is held; inf: not known, for the `reason`
+    orbit             there; its parameter is the array (2,)
+    angle_rad         of the multiplier that crosses the unit circle
+    place (n + 2,)    z_0 and the parameters in their sizes
+    across (n + 2,)   direction of the surface across the curve
+    slope             of the test function g along it
+    kind              "", or of a special point: "cusp", "extremum" of the second parameter, "1:1", "fold-flip", "1:2",
+                      "1:3", "1:4"
+    found             whether it is: a special point whose search failed is the middle of the interval between its
+                      neighbours, its errors are half of that, and its orbit is that of the first neighbour
+    reason            why an error is not known, or why the search failed
+    """
+
+    parameters: np.ndarray
+    errors: np.ndarray
+    orbit: Orbit
+    angle_rad: float
+    place: np.ndarray
+    across: np.ndarray
+    slope: float
+    kind: str = ""
+    found: bool = True
+    reason: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A curve of one kind of event.
+
+    points    tuple of CurvePoint, in order
+    closed    whether its last point is the first again
+    ends      why it ends where it begins, and where it ends: "ends at" where the event does, as at a released loop,
+              "numerical failure" where only the computation does
+    special   tuple of CurvePoint, in order: points with a `kind`, those that were not found included
+    """
+
+    kind: str
+    points: tuple[CurvePoint, ...]
+    closed: bool
+    ends: tuple[str, str]
+    special: tuple[CurvePoint, ...]
+
+    @property
+    def parameters(self) -> np.ndarray:
+        """(m, 2) of the points."""
+        return np.array([point.parameters for point in self.points])
+
+
+def follow_curve(
+    system: OrbitMap,
+    kind: str,
+    points: np.ndarray,
+    parameters: np.ndarray,
+    low: np.ndarray,
+    high: np.ndarray,
+    *,
+    step: float = 0.05,
+    least: float = 1e-3,
+    longest: float = 0.2,
+    most: int = 100,
+    count: int = 6,
+    kept: Kept = lambda _, compute: compute(),
+) -> Curve:
+    """The curve of an event, both ways.
+
+    system                 its `step` takes an array (2,) of parameters; `parameter_size` (2,)
+    kind                   "fold", "flip" or "torus"
+    points, parameters     of the orbit at or near the event: (N, n) and (2,)
+    low, high              (2,) of the parameters: the curve ends with points on this border
+    step, least, longest   from one point to the next, as in `follow_branch`
+    most                   points each way
+    count                  multipliers that are looked at
+    kept                   (arguments, compute) -> compute(), or what it gave for equal arguments before: numbers, words
+                           and arrays of a point. With a store of them a curve that was stopped goes on
+    Returns a Curve. Where it cannot be followed farther, its ends say why.
+    Raises NoImage where there is no such event near the start.
+    """
+    follower = _Follower(
+        system, kind, np.asarray(low, float), np.asarray(high, float), least, longest, most, count, kept
+    )
+    first, tangent = follower.first(np.asarray(points, float), np.asarray(parameters, float), step)
+    along, end, closed = follower.one_way(first, tangent, step)
+    begin = end
+    if not closed:
+        behind, begin, _ = follower.one_way(first, -tangent, step)
+        along = [*behind[:0:-1], *along]
+    return Curve(kind, tuple(along), closed, (begin, end), tuple(follower.special(along, closed)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Follower:
+    """What stays the same along a curve."""
+
+    system: OrbitMap
+    kind: str
+    low: np.ndarray
+    high: np.ndarray
+    least: float
+    longest: float
+    most: int
+    count: int
+    kept: Kept
+
+    @property
+    def tolerance(self):
+        return ON_CURVE if self.system.frozen is None else ROUGH
+
+    @property
+    def size(self):
+        """(2,) of the parameters."""
+        return self.system.parameter_size * np.ones(2)
+
+    def test(self, orbit):
+        """g: with the multipliers that are known."""
+        return float(np.prod(FACTORS[self.kind](orbit.multipliers)).real)
+
+    def row(self, direction):
+        """Row (n + 2,) of the inner product with a direction (n + 2,)."""
+        return self.system.row(direction[:-2], direction[-2:])
+
+    def length(self, direction):
+        return self.system.length(direction[:-2], direction[-2:])
+
+    def orbit_at(self, maps, guess, rows, directions, slopes=None):
+        """The orbit at a guess (points (N, n), parameters (2,)), corrected orthogonally to two rows."""
+        solved = corrected(maps, *guess, NEAR_ORBITS, rows, directions, slopes)
+        orbit, _ = described(solved, self.count)
+        if not orbit.settled:
+            raise NotSolved("the multipliers of the orbit are not known well")
+        return orbit
+
+    def plane(self, maps, orbit, rows):
+        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal; rows (2, n + 2) that
+        tell them apart. The first is orthogonal to the second row."""
+        shots = shoot(maps, orbit.points, orbit.parameter)
+        slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
+        space = Space(shots.linearised, real_span(orbit.vectors), maps[0].abreast)
+        changes, rates = [], []
+        for right in np.eye(2):
+            change, rate = space.solve(np.zeros_like(orbit.points), slopes, rows, right)
+            for known_change, known_rate in zip(changes, rates, strict=True):
+                share = self.system.row(change[0], rate) @ np.append(known_change[0], known_rate)
+                change, rate = change - share * known_change, rate - share * known_rate
+            length = self.system.length(change[0], rate)
+            changes.append(change / length)
+            rates.append(rate / length)
+        return np.array(changes), np.array(rates)
+
+    def first(self, points, parameters, step):
+        """The point nearest to a start, and the direction (n + 2,) of the curve there."""
+        maps = self.system.near(points, parameters)
+        fixed = np.hstack([np.zeros((2, points.shape[1])), np.eye(2)])
+        shots = shoot(maps, points, parameters)
+        multipliers, _, vectors = Space(shots.linearised, np.empty((points.shape[1], 0)), maps[0].abreast).multipliers(
+            self.count
+        )
+        rows = fixed
+        if self.kind == "fold":  # there the surface is upright over the first parameter
+            vector = vectors[:, np.argmin(np.abs(multipliers - 1.0))].real
+            rows = np.array([self.system.row(vector, np.zeros(2)), fixed[1]])
+        orbit = self.orbit_at(maps, (points, parameters), rows, real_span(vectors))
+        for _ in range(2):
+            changes, rates = self.plane(maps, orbit, rows)
+            rows = np.array([self.system.row(c[0], r) for c, r in zip(changes, rates, strict=True)])
+        value, slopes = self.test(orbit), []
+        for change, rate in zip(changes, rates, strict=True):
+            by = PROBE * step
+            guess = orbit.points + by * change, orbit.parameter + by * rate * self.size
+            beside = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
+            slopes.append((self.test(beside) - value) / by)
+        slope = float(np.hypot(*slopes))
+        if not slope > 0.0:
+            raise NoImage("the test function does not change near the event")
+        directions = np.hstack([changes[:, 0], rates])
+        tangent = np.array([-slopes[1], slopes[0]]) / slope @ directions
+        across = np.array(slopes) / slope @ directions
+        start = CurvePoint(orbit.parameter, np.zeros(2), orbit, 0.0, tangent, across, slope)
+        point, _ = self.on_curve((orbit.points, orbit.parameter), tangent, start, step)
+        return point, tangent if tangent[-1] >= 0.0 else -tangent
+
+    def on_curve(self, guess, along, last, step, tangent=None):
+        """The point of the curve orthogonal to a direction `along`, near a guess, and how many orbits it took.
+
+        last: the point before. tangent: of the curve, where that is not `along`.
+        """
+        if tangent is None:
+            tangent = along
+        arguments = (*guess, along, last.across, last.slope, last.orbit.vectors, step, tangent)
+        record = self.kept(arguments, lambda: self._record(*arguments))
+        if record["failure"]:
+            raise (NotSolved if record["numerical"] else NoImage)(record["failure"])
+        return _point_of(record), record["taken"]
+
+    def _record(self, *arguments):
+        """The point as `kept` has it, or why there is none."""
+        try:
+            point, taken = self._solved(*arguments)
+        except ArithmeticError as why:
+            return {"failure": str(why), "numerical": isinstance(why, NotSolved)}
+        orbit = vars(point.orbit) | {name: getattr(point.orbit, name).astype(complex) for name in COMPLEX}
+        return {"failure": "", "taken": taken} | vars(point) | {"orbit": orbit}
+
+    def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
+        guess, directions = (points, parameters), real_span(vectors)
+        for refined in (False, True):
+            maps = self.system.near(*guess)
+            rows = np.array([self.row(along), self.row(across)])
+            orbit = self.orbit_at(maps, guess, rows, directions)
+            changes, rates = self.plane(maps, orbit, rows[::-1])
+            way = changes[0], rates[0]  # across, orthogonal to `along`
+            rows = np.array([self.row(along), self.system.row(changes[0, 0], rates[0])])
+            orbit, _, slope, taken = self.secants(maps, orbit, way, rows, step, slope)
+            moved = np.linalg.norm(orbit.points - guess[0], axis=1).max()
+            if self.system.frozen is None or refined or moved < MOVED:
+                break
+            guess = orbit.points, orbit.parameter
+        return self.described(orbit, way, rows, step, slope, tangent), taken
+
+    def secants(self, maps, orbit, way, rows, step, slope):
+        """The orbit beside one, along the surface, with g = 0; sigma; the slope of g; orbits that were computed.
+
+        A secant that leaves an interval in which g changes its sign gives way to the middle of that.
+        """
+        change, rate = way
+        begin, directions = orbit, real_span(orbit.vectors)
+        sigma, value = 0.0, self.test(orbit)
+        sides = {}  # sign of g -> sigma
+        for taken in range(1, SECANTS + 1):
+            by = float(np.clip(-value / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
+            sides[value > 0.0] = sigma
+            if abs(by) < self.tolerance * step and taken > 1:
+                break
+            if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
+                by = 0.5 * sum(sides.values()) - sigma
+            sigma += by
+            if abs(sigma) > NEAR * step:
+                raise NotSolved("the curve turns too sharply")
+            guess = begin.points + sigma * change, begin.parameter + sigma * rate * self.size
+            orbit = self.orbit_at(maps, guess, rows, directions)
+            following = self.test(orbit)
+            if by and following != value:
+                slope = (following - value) / by
+            value = following
+            if abs(by) < self.tolerance * step:
+                break
+        else:
+            raise NotSolved(f"{SECANTS} secants do not end on the curve")
+        return orbit, sigma, slope, taken
+
+    def described(self, orbit, way, rows, step, slope, tangent):
+        """The CurvePoint in the middle of those of all meshes, with errors from the others."""
+        angle = angle_of(self.kind, orbit.multipliers)
+        if angle is None:
+            raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
+        orbits, sigmas, off, reason = [orbit], [0.0], 0.0, ""
+        try:
+            for mesh in range(1, self.system.meshes):
+                maps = self.system.near(orbit.points, orbit.parameter, mesh)
+                guess = orbit.points, orbit.parameter
+                rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
+                rival, sigma, *_ = self.secants(maps, rival, way, rows, step, slope)
+                orbits.append(rival)
+                sigmas.append(sigma)
+        except ArithmeticError as why:
+            off, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
+        middle = int(np.argsort(sigmas)[len(sigmas) // 2])
+        orbit = orbits[middle]
+        off += max(abs(sigma - sigmas[middle]) for sigma in sigmas)
+        off += max(orbit.gap, self.tolerance * step if self.system.frozen is None else 0.0)
+        along, rate = tangent[-2:], way[1]
+        # of each parameter where the other is held: the curve is moved by off * rate, and leads along `along`
+        moved = off * abs(rate[0] * along[1] - rate[1] * along[0])
+        errors = np.full(2, np.inf)
+        for k in range(2):
+            if moved <= abs(along[1 - k]):
+                errors[k] = self.size[k] * moved / abs(along[1 - k])
+            elif not reason:
+                reason = f"error {k + 1} is not known, because the curve is parallel to key {k + 1} there"
+        place = np.append(orbit.points[0], orbit.parameter / self.size)
+        across = np.append(way[0][0], rate)
+        return CurvePoint(orbit.parameter, errors, orbit, angle, place, across, slope, reason=reason)
+
+    def one_way(self, first, tangent, step):
+        """Points from the first one on, why they end, and whether they come back to it."""
+        points = [first]
+        while len(points) <= self.most:
+            last = points[-1]
+            try:
+                limit = self._beyond(last.parameters + step * tangent[-2:] * self.size)
+                if limit is None:
+                    point, taken = self._next(last, tangent, step)
+                    limit = self._beyond(point.parameters)
+                if limit is not None:
+                    points.append(self._at_border(last, tangent, limit))
+                    k, end = limit
+                    return points, f"reaches the end of the range of key {k + 1}, {end:g}", False
+            except ArithmeticError as why:
+                if step > self.least:
+                    step = max(0.5 * step, self.least)
+                    continue
+                place = " and ".join(f"{value:.6g}" for value in last.parameters)
+                words = "numerical failure beyond" if isinstance(why, NotSolved) else "ends at"
+                return points, f"{words} {place}, with steps down to {self.least:g}: {why}", False
+            chord = point.place - last.place
+            if len(points) > 3 and self._passes(first, last, chord):
+                return [*points, first], "comes back to its beginning", True
+            points.append(point)
+            tangent = chord / self.length(chord)
+            if taken <= FEW:
+                step = min(step * GROW, self.longest)
+        return points, f"followed over {self.most} points", False
+
+    def _next(self, last, tangent, step):
+        point, taken = self.on_curve(self._shifted(last.orbit, tangent, step), tangent, last, step)
+        chord = point.place - last.place
+        if self.row(tangent) @ chord < STRAIGHT * self.length(chord):
+            raise NotSolved("the curve turns too sharply")
+        return point, taken
+
+    def _shifted(self, orbit, tangent, step):
+        """Points and parameters a step along a direction (n + 2,); the points after the first stay, as Newton's method
+        carries them along."""
+        points = orbit.points.copy()
+        points[0] += step * tangent[:-2]
+        return points, orbit.parameter + step * tangent[-2:] * self.size
+
+    def _beyond(self, parameters):
+        """(k, end) of the parameter that is out of its range; None within it."""
+        for k in range(2):
+            for end, out in ((self.low[k], self.low[k] - parameters[k]), (self.high[k], parameters[k] - self.high[k])):
+                if out > 1e-9 * (self.high[k] - self.low[k]):
+                    return k, float(end)
+        return None
+
+    def _at_border(self, last, tangent, limit):
+        """The point at which the curve reaches the end of the range of parameter k."""
+        k, end = limit
+        step = (end - last.parameters[k]) / self.size[k] / tangent[-2 + k]
+        if abs(step) < 1e-9 * self.longest:
+            raise NoImage("the curve begins at the end of the range")
+        guess = self._shifted(last.orbit, tangent, step)
+        guess[1][k] = end
+        along = np.zeros(len(tangent))
+        along[-2 + k] = 1.0
+        return self.on_curve(guess, along, last, max(abs(step), self.least), tangent)[0]
+
+    def _passes(self, first, last, chord):
+        """Whether the first point lies on a chord that begins at the last one."""
+        way, across = first.place - last.place, self.row(chord)
+        share = across @ way / self.length(chord) ** 2
+        return 0.0 < share <= 1.0 and self.length(way - share * chord) < ON_CHORD * self.length(chord)
+
+    def special(self, points, closed) -> Iterator[CurvePoint]:
+        """Special points between neighbours."""
+        following = [*points[2:], points[1] if closed else None]
+        for begin, end, after in zip(points, points[1:], following, strict=False):
+            for name, function in self._tests():
+                if function(begin.orbit) * function(end.orbit) < 0.0:
+                    yield self._zero(name, function, begin, end)
+            if after is not None and (end.place[-1] - begin.place[-1]) * (after.place[-1] - end.place[-1]) < 0.0:
+                yield self._extremum(begin, end, after)
+
+    def _tests(self) -> Iterator[tuple[str, Callable]]:
+        """Functions of an orbit that change sign at special points."""
+        if self.kind == "torus":
+            for name, angle in RESONANCES.items():
+                yield name, lambda orbit, angle=angle: (angle_of("torus", orbit.multipliers) or np.nan) - angle
+            return
+        root, name = {"fold": (1.0, "1:1"), "flip": (-1.0, "1:2")}[self.kind]
+        # slope of the characteristic polynomial: it stays smooth where two multipliers meet in its root
+        yield name, lambda orbit: float(np.polyval(np.polyder(np.poly(orbit.multipliers)), root).real)
+        if self.kind == "fold":
+            yield "fold-flip", lambda orbit: float(np.prod(1.0 + orbit.multipliers).real)
+
+    def _between(self, begin, end, share):
+        """The point of the curve at a share of the chord between two."""
+        chord = end.place - begin.place
+        length = self.length(chord)
+        points = begin.orbit.points + share * (end.orbit.points - begin.orbit.points)
+        parameters = begin.parameters + share * (end.parameters - begin.parameters)
+        return self.on_curve((points, parameters), chord / length, begin, length)[0]
+
+    def _zero(self, name, function, begin, end):
+        """The special point between two points."""
+        looked = {0.0: begin, 1.0: end}
+        least = min(abs(function(point.orbit)) for point in looked.values())
+
+        def value(share):
+            if share not in looked:
+                looked[share] = self._between(begin, end, share)
+            return function(looked[share].orbit)
+
+        try:
+            share = brentq(value, 0.0, 1.0, xtol=1e-12 if self.system.frozen is None else ROUGH)
+            if not abs(value(share)) <= LEAP * least:
+                raise NotSolved("its test function leaps")
+            return replace(looked[share], kind=name)
+        except ArithmeticError as why:
+            return _lost(name, begin, end, why)
+
+    def _extremum(self, before, middle, after):
+        """The cusp or the extremum of the second parameter between three points."""
+        sign = np.sign(middle.parameters[1] - before.parameters[1])
+        settings = {"xatol": 1e-9, "maxiter": 60} if self.system.frozen is None else {"xatol": 0.02, "maxiter": 8}
+
+        def depth(share):
+            return -sign * self._between(before, after, share).parameters[1]
+
+        try:
+            share = minimize_scalar(depth, bounds=(0.0, 1.0), method="bounded", options=settings).x
+            point = self._between(before, after, share)
+            sides = [self._between(before, after, share + by).parameters for by in (-0.05, 0.05)]
+        except ArithmeticError as why:
+            return _lost("extremum", before, after, why)
+        speed = np.linalg.norm((sides[1] - sides[0]) / self.size) / 0.1
+        cusp = self.kind == "fold" and speed < CUSP * self.length(after.place - before.place)
+        return replace(point, kind="cusp" if cusp else "extremum")
+
+
+def _lost(name, begin, end, why):
+    """The special point between two whose search failed."""
+    middle, half = 0.5 * (begin.parameters + end.parameters), 0.5 * abs(end.parameters - begin.parameters)
+    ends = " and ".join("({:.6g}, {:.6g})".format(*point.parameters) for point in (begin, end))
+    reason = f"the search between {ends} fails: {why}"
+    return replace(begin, parameters=middle, errors=half, kind=name, found=False, reason=reason)
+
+
+def _point_of(record):
+    """The CurvePoint of a record, in which arrays may be lists, and complex numbers pairs."""
+    orbit = record["orbit"]
+    arrays = {name: np.array(orbit[name]) for name in ("points", "parameter", "residuals")}
+    for name in COMPLEX:
+        values = np.array(orbit[name])
+        arrays[name] = values if np.iscomplexobj(values) else values @ [1.0, 1.0j]
+    values = {field.name: record[field.name] for field in fields(CurvePoint)}
+    for name in ("parameters", "errors", "place", "across"):
+        values[name] = np.array(values[name])
+    return CurvePoint(**values | {"orbit": Orbit(**orbit | arrays)})

@@ -1,0 +1,78 @@
+"""Curves of folds, flips and torus points over two parameters: maps whose curves are known in closed form."""
+
+import numpy as np
+import pytest
+
+from analysis.orbits import NoImage, OrbitMap, follow_curve
+
+CLOSE = 1e-8
+
+
+def henon(z, p):
+    a, b = p
+    x, y = z
+    return np.array([a - x * x + y, b * x]), lambda V: np.array([[-2.0 * x, 1.0], [b, 0.0]]) @ V
+
+
+def cusp(z, p):
+    """Fixed points x^3 - b x = a: folds on 27 a^2 = 4 b^3."""
+    (x,), (a, b) = z, p
+    return np.array([x + a + b * x - x**3]), lambda V: (1.0 + b - 3.0 * x * x) * V
+
+
+def ring(z, p):
+    """Fixed points x^2 = a^2 + b^2 - 1: folds on the unit circle."""
+    (x,), (a, b) = z, p
+    return np.array([x + 0.5 * (a * a + b * b - 1.0 - x * x)]), lambda V: (1.0 - x) * V
+
+
+def curve_of(step, kind, z, parameters, low=(-3.0, -2.0), high=(4.0, 2.0), **settings):
+    system = OrbitMap(step, parameter_size=np.ones(2))
+    return follow_curve(system, kind, np.array([z]), np.array(parameters), low, high, **settings)
+
+
+def special_of(curve):
+    return {point.kind: point for point in curve.special}
+
+
+@pytest.mark.parametrize(("kind", "sign", "factor"), [("fold", -1.0, -0.25), ("flip", 1.0, 0.75)])
+def test_folds_and_flips_of_henons_map(kind, sign, factor):
+    x, a = sign * 0.35, factor * 0.49
+    curve = curve_of(henon, kind, [x, 0.3 * x], [a, 0.3], (-3.0, -1.5), (6.0, 0.9))
+    a, b = curve.parameters.T
+    assert abs(a - factor * (1.0 - b) ** 2).max() < CLOSE
+    assert all(end.startswith("reaches the end of the range of key 2") for end in curve.ends)
+    assert b[[0, -1]] == pytest.approx([-1.5, 0.9])
+    name, place = {"fold": ("1:1", [-1.0, -1.0]), "flip": ("1:2", [3.0, -1.0])}[kind]
+    assert special_of(curve)[name].parameters == pytest.approx(place, abs=CLOSE)
+
+
+def test_torus_points_of_henons_map_end_in_strong_resonances():
+    curve = curve_of(henon, "torus", [0.2, -0.2], [0.44, -1.0], longest=0.1, least=1e-5)
+    a, b = curve.parameters.T
+    assert abs(b + 1.0).max() < CLOSE
+    assert a.min() == pytest.approx(-1.0, abs=1e-3) and a.max() == pytest.approx(3.0, abs=1e-3)
+    assert all("no pair of multipliers is on the unit circle" in end for end in curve.ends)
+    special = special_of(curve)
+    assert special["1:3"].parameters == pytest.approx([1.25, -1.0], abs=CLOSE)
+    assert special["1:4"].parameters == pytest.approx([0.0, -1.0], abs=CLOSE)
+
+
+def test_two_curves_of_folds_meet_in_a_cusp():
+    curve = curve_of(cusp, "fold", [0.5], [0.5**3 - 0.375, 0.75])
+    a, b = curve.parameters.T
+    assert abs(27.0 * a**2 - 4.0 * b**3).max() < CLOSE and a.min() < -1.0 and a.max() > 1.0
+    (point,) = curve.special
+    assert point.kind == "cusp" and abs(point.parameters).max() < CLOSE
+
+
+def test_an_island_is_born_and_dies_at_extremes_of_a_closed_curve():
+    curve = curve_of(ring, "fold", [0.0], [0.8, 0.6])
+    assert curve.closed and abs(np.hypot(*curve.parameters.T) - 1.0).max() < CLOSE
+    assert sorted(point.parameters[1] for point in curve.special) == pytest.approx([-1.0, 1.0], abs=CLOSE)
+    assert {point.kind for point in curve.special} == {"extremum"}
+
+
+def test_where_no_event_is_no_curve_begins():
+    with pytest.raises(NoImage):
+        curve_of(henon, "flip", [-0.35, -0.105], [-5.0, 0.3])
