@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from engine import load_scene, simulate
 from engine.parameters.scales import jumps_of
 from engine.run import Run
 from engine.run.trust import blows, errors_of_ringing, unresolved
@@ -111,3 +112,13 @@ def test_what_is_lost_in_the_step_to_the_largest_tension_is_its_error_though_it_
     high_N, lost_N = np.where(time_s == time_s[20], 100.0, 50.0), np.where(time_s == time_s[21], 30.0, 0.0)
     columns = {"time_s": time_s, "tension_top_high_N": high_N, "unresolved_N": lost_N}
     assert "holds to 30 N" in unresolved(run.record, run.tables, run.scene, columns)
+
+
+@pytest.mark.parametrize("overrides, told", [
+    ({}, True), ({"tether.drag_normal": 0.001}, False), ({"tether.damping_critical": 0.1}, False),
+    ({"waves.steepness": 0.001}, False),
+])  # fmt: skip
+def test_a_slack_line_that_nothing_calms_is_told(overrides, told):
+    undamped = {"tether.drag_normal": 0.0, "tether.drag_tangential": 0.0, "tether.nodes": 11, "waves.steepness": 0.1}
+    run = simulate(load_scene("tethered_buoy", undamped | overrides), periods=6)
+    assert ("neither drag nor damping" in run.message) == told
