@@ -90,8 +90,6 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
-    from engine.run.period_map import why_no_map
-
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.options.grid.keys:
         return
@@ -99,6 +97,10 @@ def cases(order: Order) -> Iterator[Job]:
     if order.options.start_from is not None:
         jobs_of = _job_of_file
     jobs = list(filter(None, jobs_of(order)))
+    if not jobs:
+        return
+    from engine.run.period_map import why_no_map
+
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
@@ -107,7 +109,7 @@ def cases(order: Order) -> Iterator[Job]:
     if len(grids) > 1:
         key = order.options.grid.keys[0].key
         order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
-    if order.options.second is not None and jobs:
+    if order.options.second is not None:
         _check_second(order, jobs[0].scene)
     yield from jobs
 

@@ -138,6 +138,19 @@ def test_a_typo_is_answered_before_anything_heavy_is_loaded():
         assert not HEAVY & set(loaded.split()), name
 
 
+def test_a_mistake_is_answered_before_a_library_of_numbers_is_loaded():
+    """That of a scene needs pydantic only, and the others not even that."""
+    scenes = "engine tethered_buoy", "campaigns.sweep --vary buoy.mass_kg 800 900 2", "campaigns.buoy_sweep"
+    scenes += tuple(f"campaigns.{name}" for name in ("sea", "orbits", "basins", "regime_map", "breaking_line"))
+    others = "analysis missing.csv", "campaigns.validation --only nothing", "campaigns.orbits --motion q"
+    lines = [*others, *(f"{words} --set tether.nodez=9" for words in scenes)]
+    pages = python("-c", TYPOS, *lines).stdout.split("\f")[:-1]
+    for number, (line, page) in enumerate(zip(lines, pages, strict=True)):
+        answer, loaded = page.split("loaded:")
+        needed = {"pydantic"} if number >= len(others) else set()
+        assert answer.split()[0] == "2" and HEAVY & set(loaded.split()) <= needed, line
+
+
 def test_tether_is_one_name_for_all_commands(capsys):
     assert tether([]) == 0
     listed = capsys.readouterr().out
