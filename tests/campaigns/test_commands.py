@@ -19,9 +19,9 @@ from campaigns.__main__ import COMMANDS, tether
 from campaigns.__main__ import main as every_campaign
 from campaigns.buoy_sweep import STEEPNESS, STUDY
 from campaigns.machinery.cli import fault_of
-from campaigns.machinery.plausible import breaking_steepness, doubts
+from campaigns.machinery.plausible import doubts
 from engine import load_scene
-from engine.physics.waves import wave_number
+from engine.physics.waves import breaking_steepness, wave_number
 from tests.campaigns.conftest import ROOT
 
 HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis", "typst"}
@@ -265,7 +265,7 @@ def test_an_old_python_is_named_with_what_is_needed(package):
 
 
 def test_waves_up_to_the_limit_are_run():
-    limit = breaking_steepness(load_scene("tethered_buoy"))
+    limit = breaking_steepness(wave_number(5.0, 21.0), 21.0)
     assert limit == pytest.approx(0.446, abs=2e-3)  # deep water: 0.142 pi
     highest = limit / wave_number(5.0, 21.0)  # amplitude; the significant height of a sea is twice as high
     heights = {"steepness": limit, "amplitude_m": highest, "jonswap.significant_height_m": 2.0 * highest}
