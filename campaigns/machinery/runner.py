@@ -210,9 +210,12 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
                 ended += runs
         return ended
 
+    lengths_s = [job.duration_s or job.periods * job.scene.waves.period_s for job in jobs if job.going is None]
+    of_all = f" of {sum(lengths_s):,.0f}" if len(lengths_s) == len(jobs) else ""
+
     def simulated() -> str:
         seconds = [length_s for _, length_s in reports(Path(place)).values()]
-        return f"{sum(seconds):,.0f} s simulated"
+        return f"{sum(seconds):,.0f}{of_all} s simulated"
 
     # workers say there how far they are; a campaign drops what a kill leaves of it
     folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)
