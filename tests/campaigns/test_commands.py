@@ -5,6 +5,7 @@ A mistake (mistakes.toml) gets exit code 2, no traceback, and nothing is written
 
 import importlib
 import json
+import os
 import subprocess
 import sys
 import tomllib
@@ -164,6 +165,28 @@ def test_tether_is_one_name_for_all_commands(capsys):
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["scripts"]
     module, _, function = declared["tether"].partition(":")
     assert callable(getattr(importlib.import_module(module), function))
+
+
+@pytest.mark.parametrize(
+    ("line", "word"),
+    [
+        ("tether swe", "sweep"),
+        ("tether sweep --va", "--vary"),
+        ("tether new --rope-", "--rope-mm"),
+        ("tether run teth", "tethered_buoy"),
+        ("tether validation --qu", "--quick"),
+        ("tether sweep --vary tether.grid_s", "tether.grid_stretching"),
+        ("tether run tethered_buoy --set tether.grid_s", "tether.grid_stretching="),
+        ("tether report --he", "--help"),
+    ],
+)
+def test_the_tab_key_completes_a_line(tmp_path, line, word):
+    """The variables are those of the shell function of argcomplete."""
+    asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "words"), "COMP_LINE": line}
+    asked["COMP_POINT"] = str(len(line))
+    program = "from campaigns.__main__ import installed; installed()"
+    subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=os.environ | asked, check=True)
+    assert word in (tmp_path / "words").read_text().replace("\013", " ").split()
 
 
 def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
