@@ -121,7 +121,7 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     ended: list[dict] = []
     with (
         opened(*pool) as execute,
-        stage(ENGINE, len(tasks), "parts", lambda: len(ended)),
+        stage(ENGINE, len(tasks), "pieces", lambda: len(ended)),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
         for task, _ in execute(_compiled, tasks):

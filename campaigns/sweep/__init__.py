@@ -88,7 +88,9 @@ def _jobs(order: Order) -> Iterator[Job]:
             order.tell([f"{absent}; allowed: seconds, above 0"])
     for place in grid.places():
         changes, faults = grid.changes(place, base)
-        order.tell(faults)
+        if faults:
+            order.tell(faults)
+            continue
         scene = order.scene(changes, duration_s)
         if scene is not None and in_regular_waves(scene):
             scene = judged_scene(order, changes)
