@@ -3,19 +3,21 @@
 The command `tether` is one name for all commands: `tether NAME ...` runs a campaign, and COMMANDS lists the others.
 """
 
+import argparse
 import ast
 import difflib
 import importlib
+import os
 import sys
 from pathlib import Path
 
 from engine.streams import open_streams, printed
 
-COMMANDS = {  # of `tether`, beside the campaigns: module, words put before those of the user, what it does
-    "new": ("engine.__main__", ["--new"], "Your own mooring: asks for buoy, rope, water and wave, writes a scene."),
-    "run": ("engine.__main__", [], "One scene until its motion is told, with a figure."),
-    "analysis": ("campaigns.time_series", [], "Is a measured column regular or chaotic?"),
-    "report": ("reports.__main__", [], "Make the report of a finished campaign again."),
+COMMANDS = {  # of `tether`, beside the campaigns: module, what it does
+    "new": ("engine.own_mooring.command", "Your own mooring: asks for buoy, rope, water and wave, writes a scene."),
+    "run": ("engine.__main__", "One scene until its motion is told, with a figure."),
+    "analysis": ("campaigns.time_series", "Is a measured column regular or chaotic?"),
+    "report": ("reports.__main__", "Make the report of a finished campaign again."),
 }
 
 
@@ -29,12 +31,12 @@ def tether(argv: list[str] | None = None) -> int:
     return _run("tether", COMMANDS, argv)
 
 
-def _run(called: str, commands: dict[str, tuple], argv: list[str] | None) -> int:
+def _run(called: str, commands: dict[str, tuple[str, str]], argv: list[str] | None) -> int:
     argv = sys.argv[1:] if argv is None else argv
-    campaigns = sorted(path.parent.name for path in Path(__file__).parent.glob("*/__main__.py"))
+    campaigns = _campaigns()
     if not argv or argv[0] in ("-h", "--help"):
         print(f"{called} NAME ...; --help tells the options of each\n")
-        for name, (_, _, line) in commands.items():
+        for name, (_, line) in commands.items():
             print(f"  {name:<14} {line}")
         for name in campaigns:
             text = (Path(__file__).parent / name / "__init__.py").read_text(encoding="utf-8")
@@ -43,8 +45,7 @@ def _run(called: str, commands: dict[str, tuple], argv: list[str] | None) -> int
     name, *words = argv
     name = name.removeprefix("campaigns.")
     if name in commands:
-        module, before, _ = commands[name]
-        return importlib.import_module(module).main([*before, *words])
+        return importlib.import_module(commands[name][0]).main(words)
     if name in campaigns:
         return importlib.import_module(f"campaigns.{name}").main(words)
     names = [*commands, *campaigns]
@@ -55,8 +56,22 @@ def _run(called: str, commands: dict[str, tuple], argv: list[str] | None) -> int
     return 2
 
 
+def _campaigns() -> list[str]:
+    return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__main__.py"))
+
+
+def _parser_of(name: str) -> argparse.ArgumentParser:
+    """The options of a command of `tether`."""
+    module = importlib.import_module(COMMANDS[name][0] if name in COMMANDS else f"campaigns.{name}")
+    return getattr(module, "STUDY", module).parser()
+
+
 def installed() -> int:
     """The entry point of `tether` (pyproject.toml)."""
+    if "_ARGCOMPLETE" in os.environ:  # the Tab key of a shell
+        from campaigns.machinery.completion import complete
+
+        complete([*COMMANDS, *_campaigns()], _parser_of)
     open_streams()
     return printed(tether)
 

@@ -122,15 +122,17 @@ class Order:
         duration_s: length of the run where it is not `periods`.
         """
         from campaigns.machinery.plausible import doubts
-        from engine.physics.sea import enough_waves
 
         scene = self.base(changes, tell=True)
-        if scene is not None:
-            if duration_s is None and scene.waves is not None:
-                duration_s = self.periods * scene.waves.period_s
-            self.tell(doubts(scene, duration_s))
-        if scene is None or scene.waves is None:
+        if scene is None:
+            return None
+        if duration_s is None and scene.waves is not None:
+            duration_s = self.periods * scene.waves.period_s
+        self.tell(doubts(scene, duration_s))
+        if scene.waves is None:
             return scene
+        from engine.physics.sea import enough_waves
+
         more = enough_waves(scene, duration_s)
         return self.base({**changes, **more}) if more else scene
 
@@ -223,8 +225,13 @@ class Study:
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
+        unsound = bool(faults) or (not self._scene_as_shipped(values) and order.base() is None)
+        if unsound:  # the cases tell why, before the key of the order loads anything heavy
+            self._add_cases(order)
+        if faults:
+            return order
         order.key = self._key(values)
-        if faults or finished(how.out, order.key) is None:
+        if not unsound and finished(how.out, order.key) is None:
             self._add_cases(order)
         return order
 

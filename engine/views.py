@@ -118,6 +118,8 @@ def spectrum(run: "Trajectory", column: str = "radius_m", transient_periods: int
 
     step_s, period_s = _forcing(run)
     periods, first = _periods(run), _transient(run, transient_periods)
+    if first >= periods:
+        raise ValueError(f"transient_periods: given {first}; allowed: less than the {periods} periods of the run")
     length = (periods - first) // WHOLE_WINDOW * WHOLE_WINDOW or periods - first
     return spectrum_of(samples(run, column), step_s, period_s, periods - length, length)
 
@@ -257,13 +259,16 @@ def snaps_of(
     import numpy as np
 
     from analysis import detect_snaps
+    from analysis.sampling import checked_positive
     from engine.natural_frequencies import axial_period_s, impact_Nspm
     from engine.run.rest import static_tension_N
 
     step_s = scene.sample_step_s()
     tension, high, rate = (columns[name] for name in ("tension_top_N", "tension_top_high_N", "radius_rate_mps"))
     sound = np.logical_and.accumulate(np.isfinite(tension + high + rate))
-    if static_N is None:
+    if static_N is not None:
+        static_N = checked_positive(static_N, "static_N")
+    else:
         static_N = static_tension_N(scene, columns) if sound.any() else np.nan
         if not static_N > 0.0:
             raise ValueError(
@@ -345,6 +350,8 @@ def animate(
 
     from engine.animation import animated, shapes_of
 
+    if not str(path).endswith(".gif"):
+        raise ValueError(f"path: given {str(path)!r}; allowed: a file whose name ends in .gif")
     shapes = shapes_of(run, begin_s, duration_s)
     write_atomic(path, animated(Figure(figsize=(6.8, 3.4), layout="constrained"), shapes))
 

@@ -7,19 +7,24 @@ from pathlib import Path
 from engine.streams import open_streams, printed
 
 
+def parser() -> argparse.ArgumentParser:
+    """The options of the command."""
+    options = argparse.ArgumentParser(
+        prog="python -m reports",
+        description="Build report.html and report.pdf of a campaign's folder again, from what the folder holds.",
+    )
+    folders = "folder of a finished campaign, or of python -m analysis (its --out)"
+    options.add_argument("directory", metavar="DIR", help=folders)
+    return options
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Build and print the two paths.
 
     Exit code 2 with one message for a folder that is no finished campaign, 1 for a disk that does not take the files,
     130 for Ctrl-C.
     """
-    parser = argparse.ArgumentParser(
-        prog="python -m reports",
-        description="Build report.html and report.pdf of a campaign's folder again, from what the folder holds.",
-    )
-    folders = "folder of a finished campaign, or of python -m analysis (its --out)"
-    parser.add_argument("directory", metavar="DIR", help=folders)
-    directory = parser.parse_args(arguments).directory
+    directory = parser().parse_args(arguments).directory
 
     if not Path(directory).is_dir():  # answered before anything heavy is loaded
         found = "it is a file" if Path(directory).exists() else "there is no such folder"

@@ -23,25 +23,36 @@ from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
 from campaigns.machinery.plan import Job
+from campaigns.machinery.progress import in_parts
 
 TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 
 
-def explore(motions: Motions, jobs: Sequence[Job], search: Search) -> None:
-    """Find the motions of the places of these runs from rest. Raises as `runner.run`."""
-    places = run_from_rest(motions, jobs)
+def explore(motions: Motions, jobs: Sequence[Job], search: Search, *later: Callable[[], None]) -> None:
+    """Find the motions of the places of these runs from rest; later: further parts of the same work.
+
+    Raises as `runner.run`.
+    """
+    places = range(len(motions.jobs), len(motions.jobs) + len(jobs))
+
+    def judge_and_name() -> None:
+        judge(motions, search)
+        name(motions)
+
+    parts = [partial(run_from_rest, motions, jobs)]
     if motions.plan.simulate is engine.simulate:
-        find(motions, places, search)
-    judge(motions, search)
-    name(motions)
+        parts += parts_beside_rest(motions, places, search)
+    in_parts([*parts, judge_and_name, *later])
 
 
-def find(motions: Motions, places: Sequence[int], search: Search) -> None:
-    """Find the motions of places beside those from rest. Raises as `runner.run`."""
-    propose(motions, places, search)
-    carry(motions)
-    kick(motions, places, search)
-    carry(motions)
+def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable[[], object]]:
+    """What finds the motions of places beside those from rest, to be called in this order."""
+    return [
+        partial(propose, motions, places, search),
+        partial(carry, motions),
+        partial(kick, motions, places, search),
+        partial(carry, motions),
+    ]
 
 
 def run_from_rest(motions: Motions, jobs: Sequence[Job]) -> range:

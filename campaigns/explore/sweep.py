@@ -1,7 +1,7 @@
 """A sweep over one key with every motion of each value: its options, its runs, and the tables that an answer reads."""
 
 import contextlib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -124,11 +124,18 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
 
 
 def every_motion(
-    order: Order, plan: Plan, jobs: list[Job], kicks: int, speed_mps: float, seed: int
+    order: Order,
+    plan: Plan,
+    jobs: list[Job],
+    kicks: int,
+    speed_mps: float,
+    seed: int,
+    named: Callable[[], None] = lambda: None,
 ) -> tuple[dict[str, float], Summary]:
     """In place of `runner.run`: the motions of each value of the only key, with the ends of their ranges.
 
-    kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`.
+    kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`. named: called when the motions have their letters
+    in table.csv, before the ends of their ranges are looked for.
     """
     from campaigns.explore.ends import confirm, find_ends
     from campaigns.explore.motions import Motions, Search, in_a_row
@@ -140,11 +147,14 @@ def every_motion(
     if plan.simulate is not engine.simulate:
         return run(plan, jobs)
     motions = Motions(plan, [key.column], in_a_row(len(jobs)))
-    explore(motions, jobs, Search(order, kicks, speed_mps, seed))
-    motions.write()
-    if len(jobs) > 1:
-        find_ends(motions, Scenes(jobs[0].scene, key))
-    confirm(motions)
+
+    def ends() -> None:
+        motions.write()
+        named()
+        if len(jobs) > 1:
+            find_ends(motions, Scenes(jobs[0].scene, key))
+
+    explore(motions, jobs, Search(order, kicks, speed_mps, seed), ends, partial(confirm, motions))
     summary = motions.write()
     return motions.timing(), summary
 

@@ -9,11 +9,6 @@ from collections.abc import Iterator
 
 from engine.scene.faults import fault
 
-# Miche (1944): the highest wave that stands is 2A = 0.142 lambda tanh(kH), so kA = 0.142 pi tanh(kH).
-MICHE = 0.142 * math.pi
-# Hedges (1995), Regions of validity of analytical wave theories, Proc. ICE 112: beyond this Ursell number, height x
-# length^2 / depth^3, waves are cnoidal.
-MOST_URSELL = 40.0
 LONGEST_IN_DEPTHS = 20.0
 AREA_RATIO = 100.0
 SLENDER = 10.0
@@ -73,14 +68,6 @@ def without_waves(name: str, scene) -> Iterator[str]:
         )
 
 
-def breaking_steepness(scene) -> float:
-    """kA of the highest wave of the scene's period in its depth (Miche 1944)."""
-    from engine.physics.waves import wave_number
-
-    depth = scene.water.depth_m
-    return MICHE * math.tanh(wave_number(scene.waves.period_s, depth, scene.gravity_mps2) * depth)
-
-
 def _line(scene) -> Iterator[Odd]:
     tether = scene.tether
     if not LINE_KGPM3[0] <= tether.density_kgpm3 <= LINE_KGPM3[1]:
@@ -127,16 +114,17 @@ def _waves(scene) -> Iterator[Odd]:
     if abs(waves.direction_rad) > 2.0 * math.pi:
         allowed = f"-2 pi to 2 pi rad (radians, not degrees: {math.radians(waves.direction_rad):.4g}?)"
         yield "waves.direction_rad", waves.direction_rad, allowed
-    from engine.physics.waves import wave_number
+    from engine.physics.waves import breaking_steepness, wave_number
 
     k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+    limit = breaking_steepness(k, scene.water.depth_m)
     for key, given, steepness in (
         ("steepness", waves.steepness, 1.0),
         ("amplitude_m", waves.amplitude_m, k),
         ("significant_steepness", waves.significant_steepness, 1.0),
         ("jonswap.significant_height_m", getattr(waves.jonswap, "significant_height_m", None), k / 2.0),
     ):
-        if given is not None and given * steepness > (limit := breaking_steepness(scene)):
+        if given is not None and given * steepness > limit:
             percent = " (a share, not per cent?)" if key == "steepness" and given > 1.0 else ""
             most = f"at most {limit / steepness:.3f}"
             yield f"waves.{key}", given, f"{most}, where a wave of {waves.period_s:g} s breaks in this depth{percent}"
@@ -146,7 +134,9 @@ def _waves(scene) -> Iterator[Odd]:
 
 def _too_long(scene, k: float, height_m: float) -> Iterator[Odd]:
     """A wave of wave number k (rad/m) that is too long for its height in this depth to be linear."""
-    ursell = height_m * (2.0 * math.pi / k) ** 2 / scene.water.depth_m**3
+    from engine.physics.waves import MOST_URSELL, ursell_number
+
+    ursell = ursell_number(k, height_m, scene.water.depth_m)
     if ursell > MOST_URSELL:
         beyond = (
             f"H L^2/depth^3 = {ursell:.3g} is above {MOST_URSELL:g}, where waves are no longer linear (Hedges 1995)"

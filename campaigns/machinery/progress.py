@@ -19,7 +19,7 @@ import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -76,6 +76,13 @@ def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
             _open.remove(entered)
             if not _open:
                 _close_bar()
+
+
+def in_parts(parts: Sequence[Callable[[], object]]) -> None:
+    """Do the parts of a piece of work one after the other, each shown as "part 2 of 8"."""
+    for number, part in enumerate(parts, 1):
+        with stage(f"part {number} of {len(parts)}"):
+            part()
 
 
 def print_line(text: str) -> None:

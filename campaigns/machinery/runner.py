@@ -121,7 +121,7 @@ def _compile(plan: Plan, missing: list[Job]) -> None:
     ended: list[dict] = []
     with (
         opened(*pool) as execute,
-        stage(ENGINE, len(tasks), "parts", lambda: len(ended)),
+        stage(ENGINE, len(tasks), "pieces", lambda: len(ended)),
         contextlib.suppress(PoolBroken),  # a run that cannot be compiled says so itself
     ):
         for task, _ in execute(_compiled, tasks):
@@ -210,9 +210,12 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
                 ended += runs
         return ended
 
+    lengths_s = [job.duration_s or job.periods * job.scene.waves.period_s for job in jobs if job.going is None]
+    of_all = f" of {sum(lengths_s):,.0f}" if len(lengths_s) == len(jobs) else ""
+
     def simulated() -> str:
         seconds = [length_s for _, length_s in reports(Path(place)).values()]
-        return f"{sum(seconds):,.0f} s simulated"
+        return f"{sum(seconds):,.0f}{of_all} s simulated"
 
     # workers say there how far they are; a campaign drops what a kill leaves of it
     folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)

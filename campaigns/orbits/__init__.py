@@ -67,8 +67,9 @@ class Options(cli.Options):
         """The key with its values in the words of --vary."""
         if self.motion is not None and self.start_from is not None:
             faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
-        elif self.motion is not None and not re.fullmatch("[A-Z]{1,2}", self.motion):
-            faults.append(f"--motion: given {self.motion!r}; allowed: a capital letter, as motions/table.csv has them")
+        elif self.motion is not None and not re.fullmatch(r"[A-Z](1\d|[2-9])?", self.motion):
+            allowed = "a capital letter, or A2 to Z19, as motions/table.csv has them"
+            faults.append(f"--motion: given {self.motion!r}; allowed: {allowed}")
         words = self.vary or USUAL.split()
         if faults and words == USUAL.split():
             return
@@ -90,8 +91,6 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
-    from engine.run.period_map import why_no_map
-
     order.periods, order.looks, order.transient = BUDGET, True, None
     if not order.options.grid.keys:
         return
@@ -99,6 +98,10 @@ def cases(order: Order) -> Iterator[Job]:
     if order.options.start_from is not None:
         jobs_of = _job_of_file
     jobs = list(filter(None, jobs_of(order)))
+    if not jobs:
+        return
+    from engine.run.period_map import why_no_map
+
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
@@ -107,7 +110,7 @@ def cases(order: Order) -> Iterator[Job]:
     if len(grids) > 1:
         key = order.options.grid.keys[0].key
         order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
-    if order.options.second is not None and jobs:
+    if order.options.second is not None:
         _check_second(order, jobs[0].scene)
     yield from jobs
 
@@ -176,10 +179,9 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         starts = [*_under_file(order, jobs[0])]
     else:
         how = replace(plan.how, out=plan.how.out / "motions")
+        named = partial(_check_letter, options.motion, how.out)
         with claimed(how.out):
-            timing, _ = motions.every_motion(order, replace(plan, how=how), jobs, 0, motions.SPEED_MPS, 1)
-        if options.motion is not None:
-            _check_letter(options.motion, how.out)
+            timing, _ = motions.every_motion(order, replace(plan, how=how), jobs, 0, motions.SPEED_MPS, 1, named)
         starts = [*_under_motions(order, how.out)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
@@ -201,8 +203,10 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
 
 
-def _check_letter(letter: str, folder: Path) -> None:
+def _check_letter(letter: str | None, folder: Path) -> None:
     """Raises BadInput where no motion in a folder has this letter: a sweep finds them, so it is known late."""
+    if letter is None:
+        return
     (rows,) = motions.tables_of(folder, "").values()
     letters = sorted({str(row["motion"]) for row in rows if row["motion"]})
     if letter not in letters:

@@ -80,8 +80,6 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
-    from engine.massless import why_not_covered
-
     grid = order.options.grid
     order.periods, order.looks, order.transient = BUDGET, True, None
     if grid is None:
@@ -93,6 +91,8 @@ def cases(order: Order) -> Iterator[Job]:
     if not (in_regular_waves(base) and carries_tangents(base)):
         order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
         return
+    from engine.massless import why_not_covered
+
     for cell in grid.coarse():
         fault_count, job = len(order.faults), grid.job_at(order, cell)
         if job is None or len(order.faults) > fault_count:  # hundreds of others may be at fault in the same way

@@ -94,8 +94,6 @@ def kicks(options: Options) -> list[tuple[float, float]]:
 
 def usual_sea(order: Order) -> dict:
     """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
-    from engine.physics.waves import wave_number
-
     given = {*order.changes, *(key.key for key in order.options.grid.keys)}
     usual = {}
     base = order.base()
@@ -105,6 +103,8 @@ def usual_sea(order: Order) -> dict:
         if key not in given:
             usual[key] = value
     if not any(key.startswith(HEIGHTS) for key in given):
+        from engine.physics.waves import wave_number
+
         k = wave_number(base.waves.period_s, base.water.depth_m, base.gravity_mps2)
         usual[HEIGHT] = round(2.0 * LARGE / k, 4)
     return usual

@@ -15,7 +15,6 @@ from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST, tables_of
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan, Summary
-from campaigns.machinery.plausible import breaking_steepness
 from campaigns.study import Order
 from engine.views import carries_tangents
 from tables import PEAK, Row, number_of
@@ -44,10 +43,11 @@ def significant_height_m(scene) -> float:
 
 def _breaking_m(scene) -> float:
     """Amplitude of the highest regular wave of the peak period."""
-    from engine.physics.waves import wave_number
+    from engine.physics.waves import breaking_steepness, wave_number
 
-    k = wave_number(scene.waves.period_s, scene.water.depth_m, scene.gravity_mps2)
-    return breaking_steepness(scene) / k
+    depth_m = scene.water.depth_m
+    k = wave_number(scene.waves.period_s, depth_m, scene.gravity_mps2)
+    return breaking_steepness(k, depth_m) / k
 
 
 def one_set(order: Order) -> bool:

@@ -88,7 +88,9 @@ def _jobs(order: Order) -> Iterator[Job]:
             order.tell([f"{absent}; allowed: seconds, above 0"])
     for place in grid.places():
         changes, faults = grid.changes(place, base)
-        order.tell(faults)
+        if faults:
+            order.tell(faults)
+            continue
         scene = order.scene(changes, duration_s)
         if scene is not None and in_regular_waves(scene):
             scene = judged_scene(order, changes)
@@ -239,7 +241,7 @@ def sweep(
 
     from engine import Scene
 
-    values, faults, words = list(values), [], ["--out", str(out)]
+    values, faults, words = list(values) if isinstance(values, Iterable) else [values], [], ["--out", str(out)]
     given = {"periods": periods, "transient": transient, "duration": duration, "starts": starts, "seed": seed}
     for name, value in {**given, "jobs": jobs}.items():
         if value is not None:
@@ -251,7 +253,7 @@ def sweep(
         faults.append(f"values: given {values}; allowed: finite numbers, one or more")
     options = cli.split(STUDY.parser(), words, faults)
     how = cli.running(options, STUDY.places, STUDY.name, faults)
-    varied_key = varied([key], faults, "key", numbers=numbers or [0.0])
+    varied_key = varied([str(key)], faults, "key", numbers=numbers or [0.0])
     if faults:
         raise ValueError("; ".join(faults))
     name = str(scene)

@@ -4,6 +4,8 @@ The file: columns separated by commas, semicolons, tabs or spaces, one line of n
 has the columns 1, 2, ...), lines that begin with # left out; UTF-8, or UTF-16 with its mark, as spreadsheets export it.
 """
 
+from __future__ import annotations
+
 import contextlib
 import csv
 import difflib
@@ -16,8 +18,10 @@ from dataclasses import dataclass
 from itertools import islice
 from math import isfinite
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
+if TYPE_CHECKING:
+    import numpy as np
 
 FORMAT = "a text file of columns separated by commas, semicolons, tabs or spaces, with their names in the first line"
 # How files begin that are often given in place of text, what they are, and what to do.
@@ -86,7 +90,7 @@ def read_record(
     return Record(x, step, unit, column, Path(path))
 
 
-def _unknown_columns(table: "Table", column: str | None, time: str | None) -> Iterator[str]:
+def _unknown_columns(table: Table, column: str | None, time: str | None) -> Iterator[str]:
     """What is wrong with the names of columns, as fault lines."""
     listed = ", ".join(table.names[:40])
     if len(table.names) > 40:
@@ -133,6 +137,8 @@ def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[st
 
     places: numbers of the columns.
     """
+    import numpy as np  # 0.1 s, which a file without columns does not need
+
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # of a file without rows
         try:
@@ -190,6 +196,8 @@ def _cure(cell: str, name: str, rows: list[int]) -> str:
 
 def _not_worth_it(x: np.ndarray) -> Iterator[str]:
     """Why a series (n,) cannot be judged, if it cannot."""
+    import numpy as np
+
     if len(x) < LEAST_SAMPLES:
         yield f"given {len(x)} samples; allowed: {LEAST_SAMPLES} or more"
     elif np.abs(x).max() > LARGEST:
@@ -200,6 +208,8 @@ def _not_worth_it(x: np.ndarray) -> Iterator[str]:
 
 def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
     """Why times (n,) are not those of an even sampling of this mean step, if they are not."""
+    import numpy as np
+
     forward = np.diff(t)
     if np.any(forward <= 0.0):
         k = int(np.argmax(forward <= 0.0))

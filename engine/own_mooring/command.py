@@ -1,6 +1,7 @@
 """`python -m engine --new FILE`: the questions that a first scene needs, by options or on a terminal."""
 
 import argparse
+import difflib
 import re
 import sys
 import tomllib
@@ -69,18 +70,24 @@ def parser() -> argparse.ArgumentParser:
         usual = f" (default: {question.usual})" if question.usual else ""
         options.add_argument(f"--{question.option}", metavar="X", help=f"{question.text}: {question.allowed}{usual}")
     kinds = f"{SURFACE} or {SUBMERGED}: refuse a rope with which the buoy is not of this kind"
-    options.add_argument("--kind", choices=(SURFACE, SUBMERGED), help=kinds)
+    options.add_argument("--kind", metavar="X", help=kinds)
     return options
 
 
 def main(argv: list[str]) -> int:
     """The command; argv: its words after --new. Returns the exit code: 0, 2 for bad input, 130 for Ctrl-C."""
     try:
-        options = vars(parser().parse_args(argv))
+        values, unknown = parser().parse_known_args(argv)
     except ValueError as error:
         return _refused([str(error)])
-    path = Path(options["file"])
+    options = vars(values)
+    path, kind = Path(options["file"]), options["kind"]
     faults = _faults_of(path)
+    for word in unknown:
+        if word.startswith("-") or not unknown[0].startswith("-"):  # not the value of an unknown option
+            faults.append(_unknown(word))
+    if kind not in (None, SURFACE, SUBMERGED):
+        faults.append(f"--kind: given {kind}; allowed: {SURFACE} or {SUBMERGED}")
     answers: dict[str, object] = {"wave_period": None}
     try:
         for question in questions():
@@ -102,7 +109,7 @@ def main(argv: list[str]) -> int:
         current_mps=answers["current"],
         mass_kg=answers["buoy_mass"],
     )
-    return _written(mooring, options["kind"], path)
+    return _written(mooring, kind, path)
 
 
 def _written(mooring: Mooring, kind: str | None, path: Path) -> int:
@@ -138,6 +145,13 @@ def _answer(question: Question, word: str | None, faults: list[str]) -> float | 
         print(fault)
 
 
+def _unknown(word: str) -> str:
+    """The fault of a word that belongs to no option."""
+    names = [name for action in parser()._actions for name in action.option_strings]
+    close = difflib.get_close_matches(word.partition("=")[0], names, n=1, cutoff=0.75)
+    return f"{word}: no such option" + (f"; did you mean {close[0]}?" if close else "")
+
+
 def _faults_of(path: Path) -> list[str]:
     allowed = ""
     if path.suffix != ".toml" or not re.fullmatch(r"[A-Za-z0-9_.-]+", path.stem):
@@ -150,5 +164,6 @@ def _faults_of(path: Path) -> list[str]:
 
 
 def _refused(faults: list[str]) -> int:
-    print("\n  ".join(["python -m engine --new:", *faults]) + "\nnothing was written", file=sys.stderr)
+    several = f" {len(faults)} faults\n  " if len(faults) > 1 else " "
+    print(f"python -m engine --new:{several}" + "\n  ".join(faults) + "\nnothing was written", file=sys.stderr)
     return 2

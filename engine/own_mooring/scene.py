@@ -16,7 +16,6 @@ SEA_KGPM3, GRAVITY_MPS2, VISCOSITY_M2PS = 1025.0, 9.81, 1.2e-6
 SURFACE, SUBMERGED = "surface", "submerged"
 CRISIS = 3e5  # Reynolds number above which the drag of a smooth sphere falls from 0.5 to 0.2 (Hoerner 1965)
 SINK_M = 0.01  # of the rope into the bed, under its weight in air
-MICHE = 0.142  # largest height of a wave / length in deep water (Miche 1944)
 
 
 @dataclass(frozen=True)
@@ -123,10 +122,10 @@ class Mooring:
         if self.buoy_diameter_m >= self.depth_m:
             lines.append(f"--buoy-diameter: given {self.buoy_diameter_m:g}; allowed: less than the depth")
         if self.wave_height_m:
-            from engine.physics.waves import wave_number
+            from engine.physics.waves import breaking_steepness, wave_number
 
             k = wave_number(self.wave_period_s, self.depth_m, GRAVITY_MPS2)
-            highest = MICHE * 2.0 * math.pi / k * math.tanh(k * self.depth_m)
+            highest = 2.0 * breaking_steepness(k, self.depth_m) / k
             if self.wave_height_m > highest:
                 breaks = f"at most {highest:.3g}, where a wave of {self.wave_period_s:g} s breaks in this depth"
                 lines.append(f"--wave-height: given {self.wave_height_m:g}; allowed: {breaks}")

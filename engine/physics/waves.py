@@ -20,6 +20,10 @@ from ..simd.select import every, larger, where
 from .currents import AXES
 
 SMALL, TINY = 0.25, 1e-250
+MICHE = 0.142 * math.pi  # kA of the highest wave that stands in deep water, of height 0.142 lambda (Miche 1944)
+# Hedges (1995), Regions of validity of analytical wave theories, Proc. ICE 112: beyond this Ursell number waves are
+# cnoidal, and no longer linear.
+MOST_URSELL = 40.0
 
 
 def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> float:
@@ -31,6 +35,16 @@ def wave_number(period_s: float, depth_m: float, gravity_mps2: float = 9.81) -> 
     low, high = 0.5 * x0, x0 + math.sqrt(x0) + 1e-12  # for tiny x0 many decades apart: hence so many iterations
     x = brentq(lambda x: x * math.tanh(x) - x0, low, high, xtol=1e-300, rtol=1e-15, maxiter=5000)
     return x / depth_m
+
+
+def breaking_steepness(k: float, depth_m: float) -> float:
+    """kA of the highest wave of this wave number k (rad/m) in this depth (Miche 1944)."""
+    return MICHE * math.tanh(k * depth_m)
+
+
+def ursell_number(k: float, height_m: float, depth_m: float) -> float:
+    """Height x length^2 / depth^3 of a wave of wave number k (rad/m); waves of more than MOST_URSELL are not linear."""
+    return height_m * (2.0 * math.pi / k) ** 2 / depth_m**3
 
 
 @kernel

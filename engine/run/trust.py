@@ -9,7 +9,7 @@ from ..parameters.limits import longest_step
 from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_beyond
 from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
 from ..physics.strains import tension_at
-from ..physics.waves import wave_number
+from ..physics.waves import MOST_URSELL, breaking_steepness, ursell_number, wave_number
 from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
 from ..scene.models import Scene
 from ..time.folds import words_of_folds
@@ -43,6 +43,7 @@ def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
         _waves_on_element(run),
         _out_at_rest(run),
         _undamped(run, columns),
+        _regular_waves(run),
         _sea(run, columns),
     ]
     if record["end"] == HELD:
@@ -119,6 +120,26 @@ def _undamped(run: "Run", columns: dict[str, np.ndarray]) -> str:
         "the line goes slack and has neither drag nor damping, so that its folds never calm down and the tensions of "
         "later snaps depend on grid and tolerance: set tether.drag_normal, or tether.damping_critical = 0.1"
     )
+
+
+def _regular_waves(run: "Run") -> str:
+    """Says that regular waves would break, or are too long for their height to be linear, or nothing."""
+    waves, water = run.scene.waves, run.scene.water
+    if waves is None or waves.irregular:
+        return ""
+    k, amplitude = float(run.record["k"]), float(run.record["amplitude"])
+    steepest, ursell = breaking_steepness(k, water.depth_m), ursell_number(k, 2.0 * amplitude, water.depth_m)
+    if k * amplitude > steepest:
+        return (
+            f"the waves are of kA = {k * amplitude:.3g}: above {steepest:.3g} a wave of {waves.period_s:g} s breaks in "
+            "this depth"
+        )
+    if ursell > MOST_URSELL:
+        return (
+            f"waves of {waves.period_s:g} s are too long to be linear in this depth: H L^2/depth^3 = {ursell:.3g} is "
+            f"above {MOST_URSELL:g} (Hedges 1995)"
+        )
+    return ""
 
 
 def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:

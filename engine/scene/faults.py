@@ -241,7 +241,21 @@ def field_faults(error: ValidationError, scene_model: type[BaseModel]) -> tuple[
         place = _place_of(item["loc"], scene_model)
         locations.add(place.location)
         lines.append(_line_of(item, place, scene_model))
+        if item["type"] == "union_tag_not_found" and isinstance(item["input"], dict):
+            lines += _lists_as_text(item["input"], place)
     return list(dict.fromkeys(lines)), locations
+
+
+def _lists_as_text(table: dict, place: _Place) -> Iterator[str]:
+    """Fault lines of the lists without brackets in a table without a law, whose values are not judged otherwise."""
+    for name, value in table.items():
+        if isinstance(value, str) and "," in value:
+            yield fault(dotted((*place.location, name)), value, "a list") + _in_brackets(value)
+
+
+def _in_brackets(text: str) -> str:
+    """The hint for a list as text: "0,0,0"."""
+    return f" (written '[{text.strip('()[] ')}]')"
 
 
 def _items_of(error: ValidationError) -> Iterator[dict]:
@@ -274,5 +288,5 @@ def _line_of(item: dict, place: _Place, scene_model: type[BaseModel]) -> str:
         return f"{key}: missing; allowed: {allowed}"
     hint = _number_hint(value, key) if "number" in allowed else ""
     if allowed.startswith("a list of") and isinstance(value, str) and "," in value:
-        hint = f" (written '[{value.strip('()[] ')}]')"
+        hint = _in_brackets(value)
     return fault(key, value, allowed) + hint

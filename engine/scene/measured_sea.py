@@ -10,15 +10,19 @@ waves.period_s: what is slower is tide and drift of the gauge, what is faster is
 would make large above still water. The sea repeats the record after its end.
 """
 
+from __future__ import annotations
+
 import csv
 import math
 from collections.abc import Iterator
 from pathlib import Path
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from engine.scene.faults import fault, shown
 from engine.scene.values import MOST_COMPONENTS
+
+if TYPE_CHECKING:
+    import numpy as np
 
 COLUMNS = "time_s", "elevation_m"
 BAND = 0.25, 4.0  # frequencies that are kept, over the one of waves.period_s
@@ -50,6 +54,8 @@ def with_measured_sea(raw: dict[str, object]) -> tuple[dict[str, object], list[s
 
 def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
     """Faults, or times (s) and elevations (m)."""
+    import numpy as np  # 0.1 s, which a scene without a record does not need
+
     allowed = "a CSV file with the columns time_s and elevation_m"
     try:
         with Path(path).open(newline="", encoding="utf-8-sig") as file:
@@ -78,6 +84,8 @@ def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
 
 def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: float) -> Iterator[str]:
     """Why this record cannot be made a sea."""
+    import numpy as np
+
     steps = np.diff(time_s)
     if len(time_s) < 4 or steps.min() <= 0:
         yield fault(KEY, path, "at least four rows, time_s increasing")
@@ -120,6 +128,8 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
 
 def _lines(time_s, elevation_m):
     """Frequencies (1/s), amplitudes (m) and angles (rad) of the record less its mean, for t in its own clock."""
+    import numpy as np
+
     count, step = len(time_s), (time_s[-1] - time_s[0]) / (len(time_s) - 1)
     lines = np.fft.rfft(elevation_m - elevation_m.mean()) * 2.0 / count
     frequencies = np.arange(len(lines)) / (count * step)

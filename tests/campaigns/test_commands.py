@@ -5,6 +5,7 @@ A mistake (mistakes.toml) gets exit code 2, no traceback, and nothing is written
 
 import importlib
 import json
+import os
 import subprocess
 import sys
 import tomllib
@@ -19,9 +20,9 @@ from campaigns.__main__ import COMMANDS, tether
 from campaigns.__main__ import main as every_campaign
 from campaigns.buoy_sweep import STEEPNESS, STUDY
 from campaigns.machinery.cli import fault_of
-from campaigns.machinery.plausible import breaking_steepness, doubts
+from campaigns.machinery.plausible import doubts
 from engine import load_scene
-from engine.physics.waves import wave_number
+from engine.physics.waves import breaking_steepness, wave_number
 from tests.campaigns.conftest import ROOT
 
 HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis", "typst"}
@@ -138,6 +139,19 @@ def test_a_typo_is_answered_before_anything_heavy_is_loaded():
         assert not HEAVY & set(loaded.split()), name
 
 
+def test_a_mistake_is_answered_before_a_library_of_numbers_is_loaded():
+    """That of a scene needs pydantic only, and the others not even that."""
+    scenes = "engine tethered_buoy", "campaigns.sweep --vary buoy.mass_kg 800 900 2", "campaigns.buoy_sweep"
+    scenes += tuple(f"campaigns.{name}" for name in ("sea", "orbits", "basins", "regime_map", "breaking_line"))
+    others = "analysis missing.csv", "campaigns.validation --only nothing", "campaigns.orbits --motion q"
+    lines = [*others, *(f"{words} --set tether.nodez=9" for words in scenes)]
+    pages = python("-c", TYPOS, *lines).stdout.split("\f")[:-1]
+    for number, (line, page) in enumerate(zip(lines, pages, strict=True)):
+        answer, loaded = page.split("loaded:")
+        needed = {"pydantic"} if number >= len(others) else set()
+        assert answer.split()[0] == "2" and HEAVY & set(loaded.split()) <= needed, line
+
+
 def test_tether_is_one_name_for_all_commands(capsys):
     assert tether([]) == 0
     listed = capsys.readouterr().out
@@ -151,6 +165,28 @@ def test_tether_is_one_name_for_all_commands(capsys):
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["scripts"]
     module, _, function = declared["tether"].partition(":")
     assert callable(getattr(importlib.import_module(module), function))
+
+
+@pytest.mark.parametrize(
+    ("line", "word"),
+    [
+        ("tether swe", "sweep"),
+        ("tether sweep --va", "--vary"),
+        ("tether new --rope-", "--rope-mm"),
+        ("tether run teth", "tethered_buoy"),
+        ("tether validation --qu", "--quick"),
+        ("tether sweep --vary tether.grid_s", "tether.grid_stretching"),
+        ("tether run tethered_buoy --set tether.grid_s", "tether.grid_stretching="),
+        ("tether report --he", "--help"),
+    ],
+)
+def test_the_tab_key_completes_a_line(tmp_path, line, word):
+    """The variables are those of the shell function of argcomplete."""
+    asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "words"), "COMP_LINE": line}
+    asked["COMP_POINT"] = str(len(line))
+    program = "from campaigns.__main__ import installed; installed()"
+    subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=os.environ | asked, check=True)
+    assert word in (tmp_path / "words").read_text().replace("\013", " ").split()
 
 
 def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
@@ -252,7 +288,7 @@ def test_an_old_python_is_named_with_what_is_needed(package):
 
 
 def test_waves_up_to_the_limit_are_run():
-    limit = breaking_steepness(load_scene("tethered_buoy"))
+    limit = breaking_steepness(wave_number(5.0, 21.0), 21.0)
     assert limit == pytest.approx(0.446, abs=2e-3)  # deep water: 0.142 pi
     highest = limit / wave_number(5.0, 21.0)  # amplitude; the significant height of a sea is twice as high
     heights = {"steepness": limit, "amplitude_m": highest, "jonswap.significant_height_m": 2.0 * highest}

@@ -46,6 +46,14 @@ def test_a_file_gets_a_line_now_and_then_and_one_at_the_end(shown):
     assert "ended after 0:01" in last
 
 
+def test_parts_are_numbered(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    monkeypatch.setattr(progress, "FIRST_S", 0.0)
+    with stage("sweep"):
+        progress.in_parts([lambda: None, lambda: time.sleep(0.6)])
+    assert sys.stderr.getvalue().startswith("sweep: part 2 of 2, 0:00 since the start")
+
+
 def test_a_terminal_gets_one_line_with_a_bar_that_is_taken_away_in_the_end(shown):
     drawn = shown(Terminal)
     assert "\n" not in drawn

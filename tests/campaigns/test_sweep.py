@@ -251,6 +251,8 @@ def test_from_python_a_sweep_is_the_table_of_its_folder_with_units(tmp_path):
         ("tethered_buoy", "waves.steepnes", [0.1], {}, "did you mean 'waves.steepness'"),
         ("tethered_buoy", "waves.steepness", [], {}, "values: given"),
         ("tethered_buoy", "waves.steepness", [0.1, "x"], {}, "values: given"),
+        ("tethered_buoy", "waves.steepness", None, {}, "values: given"),
+        ("tethered_buoy", None, [0.1], {}, "key None: no such key"),
         ("tethered_buoy", "waves.steepness", [0.1], {"periods": "x"}, "--periods: given 'x'"),
         ("tethered_bouy", "waves.steepness", [0.1], {}, "did you mean 'tethered_buoy'"),
         (load_scene("tethered_buoy"), "waves.steepness", [-1.0], {}, "waves.steepness: given -1"),

@@ -54,6 +54,17 @@ def test_a_small_part_of_the_largest_tension_is_not_told():
     assert run.statistics["unresolved_ringing_N"] > 20.0 and run.message == ""
 
 
+@pytest.mark.parametrize(
+    ("period_s", "steepness", "told"),
+    [(5.0, 0.13, ""), (50.0, 1e-4, ""), (50.0, 0.016, "too long to be linear"), (5.0, 0.6, "a wave of 5 s breaks")],
+)
+def test_waves_that_are_not_linear_are_told(period_s, steepness, told):
+    """T = 50 s in 21 m: L = 712 m, and H L^2/depth^3 = 198 of kA = 0.016; deep water breaks at 0.142 pi."""
+    scene = load_scene("tethered_buoy", {"waves.period_s": period_s, "waves.steepness": steepness, "tether.nodes": 9})
+    message = simulate(scene, duration_s=0.1).message
+    assert (told in message) if told else message == ""
+
+
 def test_a_table_jumps_where_its_samples_begin_or_end_in_motion():
     omega, amplitude = 2 * np.pi, 0.01
     sine, cosine = (amplitude * wave(omega * TIMES) for wave in (np.sin, np.cos))

@@ -6,8 +6,6 @@ Table, n knots: [knots (n) | c0 c1 c2 c3 of each of the n - 1 pieces | slope bel
 
 from typing import Literal
 
-import numpy as np
-
 from engine.scene.faults import fault
 from engine.scene.values import Section, Series, described
 
@@ -32,6 +30,7 @@ def faults(sound):
 
 
 def numbers(law):
+    import numpy as np
     from scipy.interpolate import PchipInterpolator
 
     curve = PchipInterpolator(law.strain, law.tension_N)
@@ -81,6 +80,8 @@ def integral(eps, p, tables):
 
 
 def of_array(eps, p, tables):
+    import numpy as np
+
     n, table = int(p["law_n"]), tables[p["law_at"] :]
     knots, pieces = table[:n], table[n : n + 4 * (n - 1)].reshape(n - 1, 4)
     inside = np.clip(eps.real, knots[0], knots[-1])

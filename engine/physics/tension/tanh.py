@@ -3,8 +3,6 @@
 import math
 from typing import Literal
 
-import numpy as np
-
 from engine.scene.values import Five, Section, described
 
 IN_LANES = True
@@ -42,5 +40,7 @@ def integral(eps, p, tables):
 
 
 def of_array(eps, p, tables):
+    import numpy as np
+
     th = np.tanh(p["p2"] * eps + p["p3"])
     return p["p1"] * th + p["p4"] + p["p5"] * eps, p["p1"] * p["p2"] * (1 - th * th) + p["p5"]

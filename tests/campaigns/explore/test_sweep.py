@@ -12,7 +12,7 @@ def test_kicks_are_as_many_as_fast_and_of_the_seed_as_asked_for(tmp_path, monkey
     words = ["--steepness", "0.1", "0.12", "--starts", "3", "--kick-speed", "2.5", "--seed", "7"]
     order = buoy_sweep.read_order([*words, "--out", str(tmp_path / "new")], faults := [])
     searches = []
-    monkeypatch.setattr(stages, "explore", lambda motions, jobs, search: searches.append(search))
+    monkeypatch.setattr(stages, "explore", lambda motions, jobs, search, *later: searches.append(search))
     monkeypatch.setattr(Motions, "write", lambda motions: None)
     monkeypatch.setattr(ends, "find_ends", lambda motions, scenes: None)
     plan = Plan(Running(tmp_path), engine.simulate, None, ())

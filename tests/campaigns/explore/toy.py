@@ -104,6 +104,7 @@ def explored(monkeypatch, motions: ToyMotions, jobs: list[Job], kicks: int) -> T
     monkeypatch.setattr(stages, "reached", lambda run, orbits: run.settled)
     monkeypatch.setattr(stages, "proposals", lambda plan, scenes, *arguments: [[] for _ in scenes])
     places = stages.run_from_rest(motions, jobs)
-    stages.find(motions, places, Search(None, kicks, 2.0, 1))
+    for part in stages.parts_beside_rest(motions, places, Search(None, kicks, 2.0, 1)):
+        part()
     stages.name(motions)
     return motions
