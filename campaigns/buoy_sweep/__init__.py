@@ -108,6 +108,10 @@ def dimensions_of(order: Order) -> str:
 
 def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
     """The runs in a plane, in space where needed, or of every motion."""
+    if has_between(order):
+        from campaigns.explore.batches import between_ahead
+
+        between_ahead(plan, SWEPT, order.cases)
     if dimensions_of(order) == "auto":
         return run_where_needed(plan, jobs)
     return motions.runs(order, plan, jobs)
@@ -138,12 +142,19 @@ def parameters(order: Order) -> dict:
     }
 
 
+def has_between(order: Order) -> bool:
+    """Whether there are runs between the values of the sweep."""
+    from campaigns.explore.batches import LEAST_VALUES
+
+    return order.looks and not order.options.no_between and len(order.cases) >= LEAST_VALUES
+
+
 def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs (`campaigns.explore.batches`): values between, the wetted cap, errors, a close-up."""
     from campaigns.explore import batches
     from campaigns.explore.errors import errors
 
-    if order.looks and not order.options.no_between and len(order.cases) >= batches.LEAST_VALUES:
+    if has_between(order):
         yield partial(batches.between, key=SWEPT, cases=order.cases)
     if not order.options.no_accuracy:
         yield partial(batches.companions, key=SWEPT, periods=order.periods)

@@ -20,7 +20,7 @@ from campaigns.explore.starts import run_within
 from campaigns.judge import LATERAL, TANGENTS, job_from
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.runner import shares_worker
+from campaigns.machinery.runner import shares_worker, spare_groups
 from engine.scene import scene_from_toml
 from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, Row, counted, names
 
@@ -62,8 +62,23 @@ def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) ->
     return {name: row[name] for name in names(columns) if name in row}
 
 
+ROW_BETWEEN = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
+
+
 def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
+    plan.spare.clear()  # what is left of `between_ahead` is done here
+    return batch(plan, "between", "values between", BETWEEN, ROW_BETWEEN, jobs_between(plan, key, cases))
+
+
+def between_ahead(plan: Plan, key: str, cases: list[Job]) -> None:
+    """Let workers that would wait do the runs of `between`, which depend on nothing that the sweep finds."""
+    jobs, settings = jobs_between(plan, key, cases), {"columns": BETWEEN, "describe": ROW_BETWEEN, "judge": None}
+    plan.spare.extend(spare_groups(plan, plan.how.out / "between", jobs, **settings))
+
+
+def jobs_between(plan: Plan, key: str, cases: list[Job]) -> list[Job]:
+    """The runs of `between`; none where they cannot go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
     values, jobs = sorted(scenes), []
     ends = np.linspace(0, max(LEAST_COLUMNS - len(values), 0), len(values)).round().astype(int)  # of those in the gaps
@@ -73,9 +88,8 @@ def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
             scene = unfollowed(scenes[values[0]], {key: value})
             jobs.append(Job({"steepness": value}, scene, BETWEEN_PERIODS))
     if not all(shares_worker(plan, job) for job in jobs):
-        jobs = []
-    row = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
-    return batch(plan, "between", "values between", BETWEEN, row, jobs)
+        return []
+    return jobs
 
 
 def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:

@@ -256,7 +256,7 @@ class Starts:
     def __init__(self, plan: Plan, keys: tuple[Column, ...]):
         self.folder, maker = plan.how.out / "starts", made_by({}, *SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
-        self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker)
+        self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])
         self.endings: list[Ending] = []
         self.times: Counter = Counter()
         self.computed: set[str] = set()  # keys of the runs that were not there before

@@ -107,7 +107,7 @@ def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[l
 
     Raises CampaignStopped as `campaigns.machinery.tasks.results`.
     """
-    finished = results(plan.how, Store(folder), title, tasks)
+    finished = results(plan.how, Store(folder), title, tasks, spare=plan.spare)
     pairs = []
     for result in finished.results:
         pairs.append((result["result"], [np.array(points) for points in result["points"]]))

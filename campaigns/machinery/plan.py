@@ -102,6 +102,8 @@ class Plan:
     title           what the runs are called
     reports         folder where workers say how far they are
     on_row          called with every row as it comes
+    spare           groups of runs of later steps (`campaigns.machinery.worker.Spare`), which workers take off the list
+                    and do while they would wait for the last runs of this one
     """
 
     how: Running
@@ -114,6 +116,7 @@ class Plan:
     title: str = "runs"
     reports: Path | None = None
     on_row: Callable[[dict], None] | None = None
+    spare: list = field(default_factory=list)
 
     @property
     def sends(self) -> bool:

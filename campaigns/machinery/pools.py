@@ -19,7 +19,7 @@ import sys
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from functools import cache, partial
 from importlib import metadata
@@ -49,9 +49,11 @@ def opened(backend: str, jobs: int, address: str | None = None) -> Iterator[Call
     """A pool for as long as the `with` lasts.
 
     backend: "loky", "threading" or "dask"; jobs: runs at the same time; address: of a dask scheduler, None for a local
-    cluster. Gives `execute(call, tasks, alone=False)`; with `alone` one task at a time is handed out. Leaving on an
-    exception, Ctrl-C included, stops what is running, but for what runs on the workers of somebody else's cluster: that
-    ends with the run at hand. Raises CampaignStopped where a cluster cannot be reached, is lost, or has other sources.
+    cluster. Gives `execute(call, tasks, alone=False, spare=[])`; with `alone` one task at a time is handed out. spare:
+    functions that workers call, and take off the list, while they would wait for the last tasks; a dask cluster leaves
+    them. Leaving on an exception, Ctrl-C included, stops what is running, but for what runs on the workers of somebody
+    else's cluster: that ends with the run at hand. Raises CampaignStopped where a cluster cannot be reached, is lost,
+    or has other sources.
     """
     if backend == "dask":
         with dask_client(jobs, address) as client:
@@ -60,7 +62,9 @@ def opened(backend: str, jobs: int, address: str | None = None) -> Iterator[Call
         yield partial(_joblib_results, backend, jobs)
 
 
-def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone: bool = False) -> Iterator:
+def _joblib_results(
+    backend: str, jobs: int, call: Callable, tasks: list, alone: bool = False, spare: Sequence[Callable] = ()
+) -> Iterator:
     from concurrent.futures.process import BrokenProcessPool
 
     from joblib import Parallel, delayed, parallel_config
@@ -71,6 +75,8 @@ def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone:
         for number, task in enumerate(tasks):
             handed_out[number] = task
             yield delayed(_numbered)(call, number, task)
+        while spare and handed_out:
+            yield delayed(_numbered)(_called, -1, spare.pop(0))
 
     options = {"backend": backend, "n_jobs": jobs}
     if backend == "loky":
@@ -87,13 +93,18 @@ def _joblib_results(backend: str, jobs: int, call: Callable, tasks: list, alone:
         with contextlib.closing(pool(hand_out())) as results:
             try:
                 for number, result in results:
-                    yield handed_out.pop(number), result
+                    if number in handed_out:
+                        yield handed_out.pop(number), result
             except BrokenProcessPool as error:
                 raise PoolBroken(list(handed_out.values()), first_line(error)) from error
 
 
 def _numbered(call: Callable, number: int, task: object) -> tuple[int, object]:
     return number, call(task)
+
+
+def _called(function: Callable) -> object:
+    return function()
 
 
 def _prepare_worker(campaign: int) -> None:
@@ -203,7 +214,7 @@ def _difference(of_worker: dict[str, str], of_campaign: dict[str, str]) -> str:
     return ", ".join(differences)
 
 
-def _dask_results(client, call: Callable, tasks: list, alone: bool = False) -> Iterator:
+def _dask_results(client, call: Callable, tasks: list, alone: bool = False, spare: Sequence[Callable] = ()) -> Iterator:
     """(task, call(task)) as results come. Raises PoolBroken with the tasks that dask gave up, CampaignStopped."""
     from distributed import KilledWorker
 

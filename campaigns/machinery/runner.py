@@ -22,7 +22,7 @@ from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import print_line, reports, stage
 from campaigns.machinery.store import orbits_in
 from campaigns.machinery.tasks import as_completed
-from campaigns.machinery.worker import failed, keep_row, reuse, run_jobs
+from campaigns.machinery.worker import Spare, failed, keep_row, reuse, run_jobs
 from engine.atomic import write_atomic
 
 ENGINE = "machine code, compiled once and then loaded"
@@ -42,7 +42,8 @@ def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> tuple[dict[st
     if missing and plan.sends and plan.how.dask_address is not None:
         print_line("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
-        _compile(plan, [*missing, *ahead])
+        later = chain.from_iterable(spare.jobs for spare in plan.spare)
+        _compile(plan, [*missing, *ahead, *later])
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
     run_s = time.perf_counter() - compiled
@@ -81,6 +82,20 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
 def shares_worker(plan: Plan, job: Job) -> bool:
     """Whether a job can go side by side with others. Not in threads: nothing interrupts a group within the process."""
     return plan.simulate_each is not None and plan.how.backend != "threading" and engine.goes_in_lanes(job.scene)
+
+
+def spare_groups(plan: Plan, folder: Path, jobs: Sequence[Job], **changes) -> list[Spare]:
+    """Runs of a later step in a folder of a campaign, for `Plan.spare`; none where workers do not see the folder.
+
+    changes: of the plan in that step. Raises OSError.
+    """
+    missing = [job for job in jobs if not trajectory_path(folder, job.key).exists()]
+    if not missing or plan.sends:
+        return []
+    trajectory_path(folder, "").parent.mkdir(parents=True, exist_ok=True)
+    later = replace(plan, how=replace(plan.how, out=folder.absolute()), spare=[], **changes)
+    firsts = range(0, len(missing), MOST_SENT)
+    return [Spare(later, missing[first : first + MOST_SENT]) for first in firsts]
 
 
 def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
@@ -220,8 +235,9 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     # workers say there how far they are; a campaign drops what a kill leaves of it
     folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)
     with folder as place, stage(plan.title, total, "runs", count, simulated):
-        call = partial(run_jobs, replace(plan, how=replace(plan.how, out=out), reports=Path(place), on_row=None))
-        for key, outcome in as_completed(plan.how, groups, call, _given_up):
+        of_workers = {"how": replace(plan.how, out=out), "reports": Path(place), "on_row": None, "spare": []}
+        call = partial(run_jobs, replace(plan, **of_workers))
+        for key, outcome in as_completed(plan.how, groups, call, _given_up, plan.spare):
             unfinished.discard(key)
             yield key, outcome
 

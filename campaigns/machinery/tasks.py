@@ -31,10 +31,12 @@ class Results(NamedTuple):
     reused: int
 
 
-def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size: int = 1) -> Results:
+def results(
+    how: Running, store: Store, title: str, tasks: Sequence[Task], size: int = 1, spare: Sequence[Callable] = ()
+) -> Results:
     """The results of tasks; those that the store does not have are computed, and saved as they come.
 
-    size: how many a worker is given at once, where each takes a moment only.
+    size: how many a worker is given at once, where each takes a moment only. spare: as of `pools.opened`.
     Raises CampaignStopped where a task kills its worker twice; what is finished is kept.
     """
     finished: dict[str, Result] = {}
@@ -56,7 +58,7 @@ def results(how: Running, store: Store, title: str, tasks: Sequence[Task], size:
         tasks_left = list(missing.values())
         groups = [tasks_left[first : first + size] for first in range(0, len(tasks_left), size)]
         with stage(title, len(tasks), "tasks", lambda: len(finished)):
-            for key, result in as_completed(how, groups, compute, _stopped):
+            for key, result in as_completed(how, groups, compute, _stopped, spare):
                 finished[key] = result
                 if sends:
                     store.put(key, result)
@@ -72,21 +74,22 @@ def _stopped(task: Task, reason: str) -> Result:
 
 
 def as_completed(
-    how: Running, groups: Sequence[Sequence], call: Callable, lost: Callable
+    how: Running, groups: Sequence[Sequence], call: Callable, lost: Callable, spare: Sequence[Callable] = ()
 ) -> Iterator[tuple[str, object]]:
     """Key and result of each task of the groups, as they come.
 
     call(group) -> key and result of those of its tasks that came to an end; the others are done one by one, when all
     groups have ended. A task whose worker dies is done again, alone. Where it dies again: lost(task, reason) -> result.
+    spare: as of `pools.opened`.
     """
     unfinished = {}
     for group in groups:
         unfinished.update((task.key, task) for task in group)
     waiting = list(groups)
-    with opened(how.backend, min(how.jobs, max(1, len(unfinished))), how.dask_address) as execute:
+    with opened(how.backend, min(how.jobs, max(1, len(unfinished) + len(spare))), how.dask_address) as execute:
         while unfinished:
             try:
-                for group, ended in execute(call, waiting or [(task,) for task in unfinished.values()]):
+                for group, ended in execute(call, waiting or [(task,) for task in unfinished.values()], spare=spare):
                     waiting = _without(group, waiting)
                     for key, result in ended:
                         del unfinished[key]

@@ -4,6 +4,7 @@ A worker on this machine writes a run's file itself (`Plan.how.out`). One on ano
 it hands the content of the file back, and the runner writes it where the campaign is.
 """
 
+import contextlib
 import socket
 import time
 import traceback
@@ -11,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
+from typing import NamedTuple
 
 import engine
 from campaigns.machinery.folder import CampaignStopped, is_full, stored_run, trajectory_path, write_failure
@@ -42,6 +44,17 @@ def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
         if len(jobs) == 1:  # of several, those that are left are run again, one by one
             outcomes[jobs[0].key] = failed(jobs[0], "error", _reason(error))
     return list(outcomes.items())
+
+
+class Spare(NamedTuple):
+    """Runs of a later step, which does those that fail here, and finds the others finished. plan: of that step."""
+
+    plan: Plan
+    jobs: Sequence[Job]
+
+    def __call__(self) -> None:
+        with contextlib.suppress(Exception):
+            run_jobs(self.plan, self.jobs)
 
 
 def _run_side_by_side(

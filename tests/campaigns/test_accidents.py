@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import time
+from dataclasses import replace
 from functools import partial
 
 import psutil
@@ -17,7 +18,7 @@ from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Job, Plan
-from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign
+from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign, spare_groups
 from engine import load_scene
 from tests.campaigns.conftest import VALUES, finished, rows_of, statuses, until
 from tests.campaigns.fake_engine import FakeEngine
@@ -165,6 +166,32 @@ def test_a_table_that_does_not_fit_leaves_the_old_one(sweep, monkeypatch):
     monkeypatch.setattr("campaigns.machinery.folder.write_atomic", full)
     code, rows_left, _ = sweep("--steepness", *VALUES)
     assert (code, rows_left) == (1, rows)
+
+
+LATER = [0.04, 0.06, 0.07, 0.09]
+
+
+@pytest.mark.parametrize(
+    ("how", "status"), [("", "ok"), ("raises", "error"), pytest.param("dies", "worker-died", marks=SLOW)]
+)
+def test_workers_that_would_wait_do_runs_of_a_later_step_which_begins_none_of_them_again(tmp_path, how, status):
+    (tmp_path / "trajectories").mkdir()
+    failing = {how: (0.06,)} if how else {}
+    engine = FakeEngine(log=str(tmp_path / "log"), sleep_s=0.3, **failing)
+    describe = partial(buoy_row, judgement=Judgement(2))
+    plan = Plan(Running(tmp_path, 2, "loky"), engine, describe, COLUMNS, simulate_each=engine.each)
+    for job in jobs_of(LATER):
+        plan.spare.extend(spare_groups(plan, tmp_path / "later", [job]))
+    summary = run_campaign(plan, jobs_of(FIVE))
+    assert statuses(summary.rows) == dict.fromkeys(FIVE, "ok")
+    done = len(finished(tmp_path / "later"))
+    assert 0 < done < 4 - len(plan.spare) + 1
+    later = replace(plan, how=replace(plan.how, out=tmp_path / "later"), spare=[])
+    summary = run_campaign(later, jobs_of(LATER))
+    assert summary.found == done
+    assert statuses(summary.rows) == dict.fromkeys(LATER, "ok") | ({0.06: status} if how else {})
+    again = {value for value in engine.begun() if engine.begun().count(value) > 1}
+    assert again <= ({0.06} if how == "raises" else {0.06, *FIVE})  # a process that dies takes a run with it
 
 
 EIGHT = [0.02, 0.03, 0.05, 0.08, 0.1, 0.11, 0.13, 0.14]
