@@ -55,7 +55,7 @@ class Options(cli.Options):
     snap_share: float = cli.option("RATIO", "of the static tension: what a snap reaches", cli.POSITIVE, 1.0)
     slope: float = cli.option("M", "of the S-N curve: 3 chain, 4 to 5 wire, 13 polyester", cli.POSITIVE, 5.0)
     breaking_load: float | None = cli.option(
-        "N", "minimum breaking load of the line, for its utilisation", cli.POSITIVE
+        "N", "minimum breaking load of the line; by default tether.breaking_load_N", cli.POSITIVE
     )
     no_regular: bool = cli.flag("leave out the regular waves beside the sea")
     screen: bool = cli.flag(

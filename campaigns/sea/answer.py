@@ -120,9 +120,9 @@ def _fatigue(cell: Row, options) -> str:
     used = number_of(cell, "utilisation")
     if math.isfinite(used):
         return f"{words}; the line is used to {used:.0%} by DNV-OS-E301, consequence class 1."
-    if options.breaking_load is not None:
+    if not math.isfinite(number_of(cell, "storm_maximum_N")):
         return f"{words}; without a three-hour maximum there is no utilisation of the line."
-    return f"{words}; --breaking-load gives the utilisation."
+    return f"{words}; tether.breaking_load_N gives the utilisation."
 
 
 def _certainty(cell: Row, options) -> Iterator[str]:

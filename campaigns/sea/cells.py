@@ -110,6 +110,7 @@ class Digest:
     row: of table.csv. period_s, step_s: peak period, and step of its samples. states (p, 4), scale (4,): once a peak
     period, and what counts as 1. growth_nats (p,): of its perturbation; None: it carried none. high_N (n,): largest
     tensions after the transient. large, forecast (m,): whether each piece is in the large motion, and by the forecast.
+    breaking_load_N: of the line, where the scene has it.
     """
 
     row: Row
@@ -121,6 +122,7 @@ class Digest:
     high_N: np.ndarray
     large: np.ndarray
     forecast: np.ndarray
+    breaking_load_N: float | None = None
 
 
 def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
@@ -143,7 +145,8 @@ def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
         large = folds.is_large(amplitude_m, np.array([high_N[piece].max() for piece in pieces]))
         forecast = folds.forecast(amplitude_m, bool(large[0]))
     late_N = high_N[round(transient * samples) :]
-    return Digest(row, period_s, step_s, states, np.array(scale), growth_nats, late_N, large, forecast)
+    breaking_N = run.scene.tether.breaking_load_N
+    return Digest(row, period_s, step_s, states, np.array(scale), growth_nats, late_N, large, forecast, breaking_N)
 
 
 def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
@@ -293,6 +296,7 @@ def _loads(rest: Sequence[Digest], options) -> Row:
     row["storm_reason"] = storm.reason
     if storm.found:
         row |= {"storm_maximum_N": storm.value, "storm_low_N": storm.low, "storm_high_N": storm.high}
-        if options.breaking_load is not None:
-            row["utilisation"] = utilisation(mean_N, storm.value, options.breaking_load)
+        breaking_N = options.breaking_load or rest[0].breaking_load_N
+        if breaking_N is not None:
+            row["utilisation"] = utilisation(mean_N, storm.value, breaking_N)
     return row
