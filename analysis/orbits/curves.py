@@ -9,8 +9,9 @@ on which the test function g of the event (`events.FACTORS`) is zero. Lengths ar
     accept     where |sigma| is below h/2 and the chord turns by less than 26 degrees; else h is halved
 
 A cusp needs no care, because the curve is smooth in (z_0, p): there only its shadow on the plane of p turns back. A
-system that is computed in steps takes one set of them for all orbits of one point; what its other sets change of sigma
-is the error of the point. The first direction comes from differences of g in two directions of the surface.
+system that is computed in steps takes one set of them for all orbits of one point. What its other sets change of the
+parameters, and what a more accurate system changes, is together the error of the point. The first direction comes from
+differences of g in two directions of the surface.
 
 Special points are zeros of functions of the multipliers, smooth along the curve, and extremes of the second parameter.
 Where the search between two points of the curve fails, that is told as a point which was not found.
@@ -106,6 +107,7 @@ def follow_curve(
     most: int = 100,
     count: int = 6,
     kept: Kept = lambda _, compute: compute(),
+    sharper: OrbitMap | None = None,
 ) -> Curve:
     """The curve of an event, both ways.
 
@@ -118,11 +120,12 @@ def follow_curve(
     count                  multipliers that are looked at
     kept                   (arguments, compute) -> compute(), or what it gave for equal arguments before: numbers, words
                            and arrays of a point. With a store of them a curve that was stopped goes on
+    sharper                computed more accurately, in the same coordinates: what it changes is in the errors
     Returns a Curve. Where it cannot be followed farther, its ends say why.
     Raises NoImage where there is no such event near the start.
     """
     follower = _Follower(
-        system, kind, np.asarray(low, float), np.asarray(high, float), least, longest, most, count, kept
+        system, kind, np.asarray(low, float), np.asarray(high, float), least, longest, most, count, kept, sharper
     )
     first, tangent = follower.first(np.asarray(points, float), np.asarray(parameters, float), step)
     along, end, closed = follower.one_way(first, tangent, step)
@@ -146,6 +149,7 @@ class _Follower:
     most: int
     count: int
     kept: Kept
+    sharper: OrbitMap | None
 
     @property
     def tolerance(self):
@@ -294,28 +298,31 @@ class _Follower:
         return orbit, sigma, slope, taken
 
     def described(self, orbit, way, rows, step, slope, tangent):
-        """The CurvePoint in the middle of those of all meshes, with errors from the others."""
+        """The CurvePoint in the middle of those of all meshes, with errors from the others and the sharper system."""
         angle = angle_of(self.kind, orbit.multipliers)
         if angle is None:
             raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
-        orbits, sigmas, off, reason = [orbit], [0.0], 0.0, ""
+        rivals = [(self.system, mesh) for mesh in range(1, self.system.meshes)]
+        if self.sharper is not None:
+            rivals.append((self.sharper, 0))
+        orbits, moved, reason, guess = [orbit], 0.0, "", (orbit.points, orbit.parameter)
         try:
-            for mesh in range(1, self.system.meshes):
-                maps = self.system.near(orbit.points, orbit.parameter, mesh)
-                guess = orbit.points, orbit.parameter
+            for system, mesh in rivals:
+                maps = system.near(*guess, mesh)
                 rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
-                rival, sigma, *_ = self.secants(maps, rival, way, rows, step, slope)
-                orbits.append(rival)
-                sigmas.append(sigma)
+                orbits.append(self.secants(maps, rival, way, rows, step, slope)[0])
         except ArithmeticError as why:
-            off, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
-        middle = int(np.argsort(sigmas)[len(sigmas) // 2])
+            moved, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
+        # Other orbits move the curve across its direction a: by d x a / a_2 along key 1 where key 2 is held. At a fold
+        # they move it off the surface, too, so that sigma does not tell how far.
+        along = tangent[-2:]
+        across = np.array([along[1], -along[0]]) / self.size
+        shifts = np.array([across @ rival.parameter for rival in orbits])
+        alike, sharp = np.split(shifts, [self.system.meshes])
+        middle = int(np.argsort(alike)[len(alike) // 2])
         orbit = orbits[middle]
-        off += max(abs(sigma - sigmas[middle]) for sigma in sigmas)
-        off += max(orbit.gap, self.tolerance * step if self.system.frozen is None else 0.0)
-        along, rate = tangent[-2:], way[1]
-        # of each parameter where the other is held: the curve is moved by off * rate, and leads along `along`
-        moved = off * abs(rate[0] * along[1] - rate[1] * along[0])
+        moved += sum(abs(part - alike[middle]).max(initial=0.0) for part in (alike, sharp))
+        moved += max(orbit.gap, self.tolerance * step if self.system.frozen is None else 0.0)
         errors = np.full(2, np.inf)
         for k in range(2):
             if moved <= abs(along[1 - k]):
@@ -323,8 +330,9 @@ class _Follower:
             elif not reason:
                 reason = f"error {k + 1} is not known, because the curve is parallel to key {k + 1} there"
         place = np.append(orbit.points[0], orbit.parameter / self.size)
-        across = np.append(way[0][0], rate)
-        return CurvePoint(orbit.parameter, errors, orbit, angle, place, across, slope, reason=reason)
+        return CurvePoint(
+            orbit.parameter, errors, orbit, angle, place, np.append(way[0][0], way[1]), slope, reason=reason
+        )
 
     def one_way(self, first, tangent, step):
         """Points from the first one on, why they end, and whether they come back to it."""

@@ -22,7 +22,7 @@ def henon(z, p):
 
 
 class HenonPlane:
-    points = None
+    points = sharper_maps = None
     low, high, value = np.array([-0.6, -1.5]), np.array([4.0, 0.9]), 0.3
     key = SimpleNamespace(column=Column("b", "", "b", "the other parameter of Henon's map", 5))
     line = SimpleNamespace(scenes=SimpleNamespace(key=SimpleNamespace(column=KEY)), size=1.0)
