@@ -25,13 +25,14 @@ from scipy.optimize import brentq, minimize_scalar
 
 from analysis.orbits.branches import FEW, GROW, NEAR, ON_CHORD, STRAIGHT
 from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of
-from analysis.orbits.finding import MOVED, Orbit, corrected, described, real_span
+from analysis.orbits.finding import Orbit, corrected, described, real_span
 from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 
 SECANTS = 10
 PROBE = 0.1  # of a step: differences of g for the first direction
 ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
+COARSE = 0.03  # the same before the steps of a system are chosen again
 ROUGH = 1e-3  # the same of a system that is computed in steps, and to how much of a chord its special points are sought
 CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
@@ -180,8 +181,8 @@ class _Follower:
         return orbit
 
     def plane(self, maps, orbit, rows):
-        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal; rows (2, n + 2) that
-        tell them apart. The first is orthogonal to the second row."""
+        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal, and the slopes of the
+        map; rows (2, n + 2) that tell them apart. The first is orthogonal to the second row."""
         shots = shoot(maps, orbit.points, orbit.parameter)
         slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
         space = Space(shots.linearised, real_span(orbit.vectors), maps[0].abreast)
@@ -194,7 +195,7 @@ class _Follower:
             length = self.system.length(change[0], rate)
             changes.append(change / length)
             rates.append(rate / length)
-        return np.array(changes), np.array(rates)
+        return np.array(changes), np.array(rates), slopes
 
     def first(self, points, parameters, step):
         """The point nearest to a start, and the direction (n + 2,) of the curve there."""
@@ -210,13 +211,13 @@ class _Follower:
             rows = np.array([self.system.row(vector, np.zeros(2)), fixed[1]])
         orbit = self.orbit_at(maps, (points, parameters), rows, real_span(vectors))
         for _ in range(2):
-            changes, rates = self.plane(maps, orbit, rows)
+            changes, rates, map_slopes = self.plane(maps, orbit, rows)
             rows = np.array([self.system.row(c[0], r) for c, r in zip(changes, rates, strict=True)])
         value, slopes = self.test(orbit), []
         for change, rate in zip(changes, rates, strict=True):
             by = PROBE * step
             guess = orbit.points + by * change, orbit.parameter + by * rate * self.size
-            beside = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
+            beside = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), map_slopes)
             slopes.append((self.test(beside) - value) / by)
         slope = float(np.hypot(*slopes))
         if not slope > 0.0:
@@ -252,22 +253,20 @@ class _Follower:
 
     def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
         guess, directions = (points, parameters), real_span(vectors)
-        for refined in (False, True):
+        smooth = self.system.frozen is None
+        for enough in [self.tolerance] if smooth else [COARSE, self.tolerance]:
             maps = self.system.near(*guess)
             rows = np.array([self.row(along), self.row(across)])
             orbit = self.orbit_at(maps, guess, rows, directions)
-            changes, rates = self.plane(maps, orbit, rows[::-1])
+            changes, rates, slopes = self.plane(maps, orbit, rows[::-1])
             way = changes[0], rates[0]  # across, orthogonal to `along`
             rows = np.array([self.row(along), self.system.row(changes[0, 0], rates[0])])
-            orbit, _, slope, taken = self.secants(maps, orbit, way, rows, step, slope)
-            moved = np.linalg.norm(orbit.points - guess[0], axis=1).max()
-            if self.system.frozen is None or refined or moved < MOVED:
-                break
+            orbit, slope, taken = self.secants(maps, orbit, way, rows, step, slope, slopes, enough)
             guess = orbit.points, orbit.parameter
-        return self.described(orbit, way, rows, step, slope, tangent), taken
+        return self.described(orbit, way, rows, step, slope, slopes, tangent), taken
 
-    def secants(self, maps, orbit, way, rows, step, slope):
-        """The orbit beside one, along the surface, with g = 0; sigma; the slope of g; orbits that were computed.
+    def secants(self, maps, orbit, way, rows, step, slope, slopes, enough):
+        """The orbit beside one, along the surface, with g = 0; the slope of g; orbits that were computed.
 
         A secant that leaves an interval in which g changes its sign gives way to the middle of that.
         """
@@ -278,7 +277,7 @@ class _Follower:
         for taken in range(1, SECANTS + 1):
             by = float(np.clip(-value / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
             sides[value > 0.0] = sigma
-            if abs(by) < self.tolerance * step and taken > 1:
+            if abs(by) < enough * step and taken > 1:
                 break
             if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
                 by = 0.5 * sum(sides.values()) - sigma
@@ -286,18 +285,18 @@ class _Follower:
             if abs(sigma) > NEAR * step:
                 raise NotSolved("the curve turns too sharply")
             guess = begin.points + sigma * change, begin.parameter + sigma * rate * self.size
-            orbit = self.orbit_at(maps, guess, rows, directions)
+            orbit = self.orbit_at(maps, guess, rows, directions, slopes)
             following = self.test(orbit)
             if by and following != value:
                 slope = (following - value) / by
             value = following
-            if abs(by) < self.tolerance * step:
+            if abs(by) < enough * step:
                 break
         else:
             raise NotSolved(f"{SECANTS} secants do not end on the curve")
-        return orbit, sigma, slope, taken
+        return orbit, slope, taken
 
-    def described(self, orbit, way, rows, step, slope, tangent):
+    def described(self, orbit, way, rows, step, slope, slopes, tangent):
         """The CurvePoint in the middle of those of all meshes, with errors from the others and the sharper system."""
         angle = angle_of(self.kind, orbit.multipliers)
         if angle is None:
@@ -309,8 +308,8 @@ class _Follower:
         try:
             for system, mesh in rivals:
                 maps = system.near(*guess, mesh)
-                rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
-                orbits.append(self.secants(maps, rival, way, rows, step, slope)[0])
+                rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), slopes)
+                orbits.append(self.secants(maps, rival, way, rows, step, slope, slopes, self.tolerance)[0])
         except ArithmeticError as why:
             moved, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
         # Other orbits move the curve across its direction a: by d x a / a_2 along key 1 where key 2 is held. At a fold
