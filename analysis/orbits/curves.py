@@ -33,7 +33,7 @@ SECANTS = 10
 PROBE = 0.1  # of a step: differences of g for the first direction
 ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
 COARSE = 0.03  # the same before the steps of a system are chosen again
-ROUGH = 1e-3  # the same of a system that is computed in steps, and to how much of a chord its special points are sought
+ROUGH = 1e-3  # sigma, in longest steps, of a system that is computed in steps, and to how much of a chord its special points are sought
 CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
 LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
@@ -152,9 +152,9 @@ class _Follower:
     kept: Kept
     sharper: OrbitMap | None
 
-    @property
-    def tolerance(self):
-        return ON_CURVE if self.system.frozen is None else ROUGH
+    def tolerance(self, step):
+        """Of sigma. Steps of a system scatter g alike after short and long steps of the curve."""
+        return ON_CURVE * step if self.system.frozen is None else ROUGH * self.longest
 
     @property
     def size(self):
@@ -181,8 +181,10 @@ class _Follower:
         return orbit
 
     def plane(self, maps, orbit, rows):
-        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal, and the slopes of the
-        map; rows (2, n + 2) that tell them apart. The first is orthogonal to the second row."""
+        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal, and the map's slopes.
+
+        rows (2, n + 2): tell the directions apart. The first is orthogonal to the second row.
+        """
         shots = shoot(maps, orbit.points, orbit.parameter)
         slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
         space = Space(shots.linearised, real_span(orbit.vectors), maps[0].abreast)
@@ -254,7 +256,7 @@ class _Follower:
     def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
         guess, directions = (points, parameters), real_span(vectors)
         smooth = self.system.frozen is None
-        for enough in [self.tolerance] if smooth else [COARSE, self.tolerance]:
+        for enough in [self.tolerance(step)] if smooth else [COARSE * self.longest, self.tolerance(step)]:
             maps = self.system.near(*guess)
             rows = np.array([self.row(along), self.row(across)])
             orbit = self.orbit_at(maps, guess, rows, directions)
@@ -277,7 +279,7 @@ class _Follower:
         for taken in range(1, SECANTS + 1):
             by = float(np.clip(-value / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
             sides[value > 0.0] = sigma
-            if abs(by) < enough * step and taken > 1:
+            if abs(by) < enough and taken > 1:
                 break
             if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
                 by = 0.5 * sum(sides.values()) - sigma
@@ -290,7 +292,7 @@ class _Follower:
             if by and following != value:
                 slope = (following - value) / by
             value = following
-            if abs(by) < enough * step:
+            if abs(by) < enough:
                 break
         else:
             raise NotSolved(f"{SECANTS} secants do not end on the curve")
@@ -309,7 +311,7 @@ class _Follower:
             for system, mesh in rivals:
                 maps = system.near(*guess, mesh)
                 rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), slopes)
-                orbits.append(self.secants(maps, rival, way, rows, step, slope, slopes, self.tolerance)[0])
+                orbits.append(self.secants(maps, rival, way, rows, step, slope, slopes, self.tolerance(step))[0])
         except ArithmeticError as why:
             moved, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
         # Other orbits move the curve across its direction a: by d x a / a_2 along key 1 where key 2 is held. At a fold
@@ -321,7 +323,7 @@ class _Follower:
         middle = int(np.argsort(alike)[len(alike) // 2])
         orbit = orbits[middle]
         moved += sum(abs(part - alike[middle]).max(initial=0.0) for part in (alike, sharp))
-        moved += max(orbit.gap, self.tolerance * step if self.system.frozen is None else 0.0)
+        moved += max(orbit.gap, self.tolerance(step) if self.system.frozen is None else 0.0)
         errors = np.full(2, np.inf)
         for k in range(2):
             if moved <= abs(along[1 - k]):
