@@ -9,8 +9,9 @@ on which the test function g of the event (`events.FACTORS`) is zero. Lengths ar
     accept     where |sigma| is below h/2 and the chord turns by less than 26 degrees; else h is halved
 
 A cusp needs no care, because the curve is smooth in (z_0, p): there only its shadow on the plane of p turns back. A
-system that is computed in steps takes one set of them for all orbits of one point; what its other sets change of sigma
-is the error of the point. The first direction comes from differences of g in two directions of the surface.
+system that is computed in steps takes one set of them for all orbits of one point. What its other sets change of the
+parameters, and what a more accurate system changes, is together the error of the point. The first direction comes from
+differences of g in two directions of the surface.
 
 Special points are zeros of functions of the multipliers, smooth along the curve, and extremes of the second parameter.
 Where the search between two points of the curve fails, that is told as a point which was not found.
@@ -24,14 +25,15 @@ from scipy.optimize import brentq, minimize_scalar
 
 from analysis.orbits.branches import FEW, GROW, NEAR, ON_CHORD, STRAIGHT
 from analysis.orbits.events import FACTORS, NEAR_ORBITS, angle_of
-from analysis.orbits.finding import MOVED, Orbit, corrected, described, real_span
+from analysis.orbits.finding import Orbit, corrected, described, real_span
 from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 
 SECANTS = 10
 PROBE = 0.1  # of a step: differences of g for the first direction
 ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
-ROUGH = 1e-3  # the same of a system that is computed in steps, and to how much of a chord its special points are sought
+COARSE = 0.03  # the same before the steps of a system are chosen again
+ROUGH = 1e-3  # sigma, in longest steps, of a system that is computed in steps, and to how much of a chord its special points are sought
 CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
 LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
@@ -106,6 +108,7 @@ def follow_curve(
     most: int = 100,
     count: int = 6,
     kept: Kept = lambda _, compute: compute(),
+    sharper: OrbitMap | None = None,
 ) -> Curve:
     """The curve of an event, both ways.
 
@@ -118,11 +121,12 @@ def follow_curve(
     count                  multipliers that are looked at
     kept                   (arguments, compute) -> compute(), or what it gave for equal arguments before: numbers, words
                            and arrays of a point. With a store of them a curve that was stopped goes on
+    sharper                computed more accurately, in the same coordinates: what it changes is in the errors
     Returns a Curve. Where it cannot be followed farther, its ends say why.
     Raises NoImage where there is no such event near the start.
     """
     follower = _Follower(
-        system, kind, np.asarray(low, float), np.asarray(high, float), least, longest, most, count, kept
+        system, kind, np.asarray(low, float), np.asarray(high, float), least, longest, most, count, kept, sharper
     )
     first, tangent = follower.first(np.asarray(points, float), np.asarray(parameters, float), step)
     along, end, closed = follower.one_way(first, tangent, step)
@@ -146,10 +150,11 @@ class _Follower:
     most: int
     count: int
     kept: Kept
+    sharper: OrbitMap | None
 
-    @property
-    def tolerance(self):
-        return ON_CURVE if self.system.frozen is None else ROUGH
+    def tolerance(self, step):
+        """Of sigma. Steps of a system scatter g alike after short and long steps of the curve."""
+        return ON_CURVE * step if self.system.frozen is None else ROUGH * self.longest
 
     @property
     def size(self):
@@ -176,8 +181,10 @@ class _Follower:
         return orbit
 
     def plane(self, maps, orbit, rows):
-        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal; rows (2, n + 2) that
-        tell them apart. The first is orthogonal to the second row."""
+        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal, and the map's slopes.
+
+        rows (2, n + 2): tell the directions apart. The first is orthogonal to the second row.
+        """
         shots = shoot(maps, orbit.points, orbit.parameter)
         slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
         space = Space(shots.linearised, real_span(orbit.vectors), maps[0].abreast)
@@ -190,7 +197,7 @@ class _Follower:
             length = self.system.length(change[0], rate)
             changes.append(change / length)
             rates.append(rate / length)
-        return np.array(changes), np.array(rates)
+        return np.array(changes), np.array(rates), slopes
 
     def first(self, points, parameters, step):
         """The point nearest to a start, and the direction (n + 2,) of the curve there."""
@@ -206,13 +213,13 @@ class _Follower:
             rows = np.array([self.system.row(vector, np.zeros(2)), fixed[1]])
         orbit = self.orbit_at(maps, (points, parameters), rows, real_span(vectors))
         for _ in range(2):
-            changes, rates = self.plane(maps, orbit, rows)
+            changes, rates, map_slopes = self.plane(maps, orbit, rows)
             rows = np.array([self.system.row(c[0], r) for c, r in zip(changes, rates, strict=True)])
         value, slopes = self.test(orbit), []
         for change, rate in zip(changes, rates, strict=True):
             by = PROBE * step
             guess = orbit.points + by * change, orbit.parameter + by * rate * self.size
-            beside = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
+            beside = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), map_slopes)
             slopes.append((self.test(beside) - value) / by)
         slope = float(np.hypot(*slopes))
         if not slope > 0.0:
@@ -248,22 +255,20 @@ class _Follower:
 
     def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
         guess, directions = (points, parameters), real_span(vectors)
-        for refined in (False, True):
+        smooth = self.system.frozen is None
+        for enough in [self.tolerance(step)] if smooth else [COARSE * self.longest, self.tolerance(step)]:
             maps = self.system.near(*guess)
             rows = np.array([self.row(along), self.row(across)])
             orbit = self.orbit_at(maps, guess, rows, directions)
-            changes, rates = self.plane(maps, orbit, rows[::-1])
+            changes, rates, slopes = self.plane(maps, orbit, rows[::-1])
             way = changes[0], rates[0]  # across, orthogonal to `along`
             rows = np.array([self.row(along), self.system.row(changes[0, 0], rates[0])])
-            orbit, _, slope, taken = self.secants(maps, orbit, way, rows, step, slope)
-            moved = np.linalg.norm(orbit.points - guess[0], axis=1).max()
-            if self.system.frozen is None or refined or moved < MOVED:
-                break
+            orbit, slope, taken = self.secants(maps, orbit, way, rows, step, slope, slopes, enough)
             guess = orbit.points, orbit.parameter
-        return self.described(orbit, way, rows, step, slope, tangent), taken
+        return self.described(orbit, way, rows, step, slope, slopes, tangent), taken
 
-    def secants(self, maps, orbit, way, rows, step, slope):
-        """The orbit beside one, along the surface, with g = 0; sigma; the slope of g; orbits that were computed.
+    def secants(self, maps, orbit, way, rows, step, slope, slopes, enough):
+        """The orbit beside one, along the surface, with g = 0; the slope of g; orbits that were computed.
 
         A secant that leaves an interval in which g changes its sign gives way to the middle of that.
         """
@@ -274,7 +279,7 @@ class _Follower:
         for taken in range(1, SECANTS + 1):
             by = float(np.clip(-value / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
             sides[value > 0.0] = sigma
-            if abs(by) < self.tolerance * step and taken > 1:
+            if abs(by) < enough and taken > 1:
                 break
             if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
                 by = 0.5 * sum(sides.values()) - sigma
@@ -282,40 +287,43 @@ class _Follower:
             if abs(sigma) > NEAR * step:
                 raise NotSolved("the curve turns too sharply")
             guess = begin.points + sigma * change, begin.parameter + sigma * rate * self.size
-            orbit = self.orbit_at(maps, guess, rows, directions)
+            orbit = self.orbit_at(maps, guess, rows, directions, slopes)
             following = self.test(orbit)
             if by and following != value:
                 slope = (following - value) / by
             value = following
-            if abs(by) < self.tolerance * step:
+            if abs(by) < enough:
                 break
         else:
             raise NotSolved(f"{SECANTS} secants do not end on the curve")
-        return orbit, sigma, slope, taken
+        return orbit, slope, taken
 
-    def described(self, orbit, way, rows, step, slope, tangent):
-        """The CurvePoint in the middle of those of all meshes, with errors from the others."""
+    def described(self, orbit, way, rows, step, slope, slopes, tangent):
+        """The CurvePoint in the middle of those of all meshes, with errors from the others and the sharper system."""
         angle = angle_of(self.kind, orbit.multipliers)
         if angle is None:
             raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
-        orbits, sigmas, off, reason = [orbit], [0.0], 0.0, ""
+        rivals = [(self.system, mesh) for mesh in range(1, self.system.meshes)]
+        if self.sharper is not None:
+            rivals.append((self.sharper, 0))
+        orbits, moved, reason, guess = [orbit], 0.0, "", (orbit.points, orbit.parameter)
         try:
-            for mesh in range(1, self.system.meshes):
-                maps = self.system.near(orbit.points, orbit.parameter, mesh)
-                guess = orbit.points, orbit.parameter
-                rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors))
-                rival, sigma, *_ = self.secants(maps, rival, way, rows, step, slope)
-                orbits.append(rival)
-                sigmas.append(sigma)
+            for system, mesh in rivals:
+                maps = system.near(*guess, mesh)
+                rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), slopes)
+                orbits.append(self.secants(maps, rival, way, rows, step, slope, slopes, self.tolerance(step))[0])
         except ArithmeticError as why:
-            off, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
-        middle = int(np.argsort(sigmas)[len(sigmas) // 2])
+            moved, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
+        # Other orbits move the curve across its direction a: by d x a / a_2 along key 1 where key 2 is held. At a fold
+        # they move it off the surface, too, so that sigma does not tell how far.
+        along = tangent[-2:]
+        across = np.array([along[1], -along[0]]) / self.size
+        shifts = np.array([across @ rival.parameter for rival in orbits])
+        alike, sharp = np.split(shifts, [self.system.meshes])
+        middle = int(np.argsort(alike)[len(alike) // 2])
         orbit = orbits[middle]
-        off += max(abs(sigma - sigmas[middle]) for sigma in sigmas)
-        off += max(orbit.gap, self.tolerance * step if self.system.frozen is None else 0.0)
-        along, rate = tangent[-2:], way[1]
-        # of each parameter where the other is held: the curve is moved by off * rate, and leads along `along`
-        moved = off * abs(rate[0] * along[1] - rate[1] * along[0])
+        moved += sum(abs(part - alike[middle]).max(initial=0.0) for part in (alike, sharp))
+        moved += max(orbit.gap, self.tolerance(step) if self.system.frozen is None else 0.0)
         errors = np.full(2, np.inf)
         for k in range(2):
             if moved <= abs(along[1 - k]):
@@ -323,8 +331,9 @@ class _Follower:
             elif not reason:
                 reason = f"error {k + 1} is not known, because the curve is parallel to key {k + 1} there"
         place = np.append(orbit.points[0], orbit.parameter / self.size)
-        across = np.append(way[0][0], rate)
-        return CurvePoint(orbit.parameter, errors, orbit, angle, place, across, slope, reason=reason)
+        return CurvePoint(
+            orbit.parameter, errors, orbit, angle, place, np.append(way[0][0], way[1]), slope, reason=reason
+        )
 
     def one_way(self, first, tangent, step):
         """Points from the first one on, why they end, and whether they come back to it."""

@@ -73,6 +73,12 @@ class Plane:
 
         return replace(system, step=_of_array(cable.step), frozen=frozen)
 
+    @property
+    def sharper_maps(self) -> OrbitMap:
+        """The same at a tenth of the tolerance."""
+        rtol = 0.1 * min(self.line.rtol, self.line.scenes.base.solver.rtol)
+        return replace(self, line=replace(self.line, rtol=rtol)).maps
+
     def digest(self) -> str:
         """Of all that a curve depends on beside its first event."""
         own = made_by({}, *SOURCES, "campaigns/orbits/curves.py"), engine.source_hash()
@@ -100,7 +106,7 @@ def curve(plane: Plane, kind: str, value: float, points: np.ndarray, most: int) 
     def kept(arguments, compute):
         return store.finished(key_of(digest, kind, *arguments), compute)
 
-    settings = STEPS | {"most": most, "count": COUNT, "kept": kept}
+    settings = STEPS | {"most": most, "count": COUNT, "kept": kept, "sharper": plane.sharper_maps}
     followed = follow_curve(plane.maps, kind, points, place, plane.low, plane.high, **settings)
     rows = [[_point(point) for point in part] for part in (followed.points, followed.special)]
     result = {"reason": "", "points": rows[0], "special": rows[1]}
@@ -177,7 +183,8 @@ def write_curves(tree: Tree, plane: Plane) -> None:
     folder = subfolder(tree.plan, FOLDER)
     first, second = (replace(key.column, digits=5) for key in (plane.line.scenes.key, plane.key))
     meaning = (
-        "largest change over three sequences of steps where the other key is held; empty for the reason in message"
+        "change over three sequences of steps and change at a tenth of the tolerance, together, where the other key "
+        "is held; empty for the reason in message"
     )
     errors = [
         Column("error_1", first.unit, f"± {first.symbol}", f"{meaning}; at least that of its event", 6),

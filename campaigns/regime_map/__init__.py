@@ -2,6 +2,7 @@
 
     python -m campaigns.regime_map                                 steepness and depth of water, 40 x 40
     python -m campaigns.regime_map --vary waves.steepness 0.016 0.16 40 --vary waves.period_s 3 8 40 --refine 400
+    python -m campaigns.regime_map --curves results/orbits         with the folds and flips of campaigns.orbits --curves
     python -m campaigns.regime_map --screen                        a massless tether only, in a minute
     python -m campaigns.regime_map --cut water.depth_m=22.5        a row of it as a sweep, in the folder of the map
 
@@ -21,7 +22,7 @@ from campaigns.explore.grid import varied
 from campaigns.explore.sweep import BUDGET
 from campaigns.machinery import cli, session
 from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.regime_map import cuts
+from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents, in_regular_waves
@@ -48,6 +49,11 @@ class Options(cli.Options):
     cut: list[str] | dict | None = cli.option(
         "KEY=VALUE ...", "a row of the map as a sweep of the other key, in cuts/ of its folder"
     )
+    curves: str | None = cli.option(
+        "FOLDER",
+        "draw the curves of this folder of campaigns.orbits --curves, over the same two keys",
+        cli.Kind(str, "a folder"),
+    )
     screen: bool = cli.flag("a massless tether only")
     grid: CellGrid | None = None
 
@@ -65,6 +71,8 @@ class Options(cli.Options):
                 faults.append(f"--pages: given {given}; allowed: KEY LO HI COUNT, or KEY WORDS")
                 return
             pages = [varied(self.pages, faults, "--pages", of_words=True)]
+            if self.curves is not None:
+                faults.append(f"--curves {self.curves}: given with --pages; allowed: one of them")
         keys = (*pages, *axes)
         if None in keys:
             return
@@ -103,6 +111,8 @@ def cases(order: Order) -> Iterator[Job]:
         if reason:
             order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
             return
+        if cell == (0, 0, 0, 0) and order.options.curves is not None:
+            order.tell(curves.faults(order.options.curves, grid, grid.labels(cell), job.scene))
         yield job
 
 
@@ -120,6 +130,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
     from campaigns.regime_map.maps import Map
 
+    curves.take_over(order.options.curves, plan)
     regime_map = Map(plan, order)
     regime_map.run_screen(jobs)
     summary = Summary([], 0, 0, 0.0)
@@ -138,6 +149,7 @@ def parameters(order: Order) -> dict:
         "kick_speed_mps": options.kick_speed,
         "seed": options.seed,
         "budget": options.budget,
+        "curves": options.curves,
     }
     return parameters | {"refine": options.refine, "screen": options.screen}
 

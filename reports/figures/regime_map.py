@@ -4,12 +4,14 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.patheffects import withStroke
 
 from ..parts import MapPlace, Picture
 from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .basins import widest
-from .curves import with_gaps
+from .curves import Curve, with_gaps
 
+LINES = {"fold": "-", "flip": "--", "torus": ":"}
 HATCHES = "////", "\\\\\\\\"  # of the first and the second of `Cells.hatched`
 _FINE = 200  # points to a side of the even grid on which a place for a text is looked for
 _LEAST = 3.5  # of them that a text is away from the border of its region
@@ -56,7 +58,7 @@ class Map(NamedTuple):
     """One quantity of the cells of a page: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend.
 
     texts (n,): written where neighbours of one kind have most room. star: a cell to be marked. limited: whether it is
-    hatched.
+    hatched. curves: drawn on it, each in its own line or marks.
     """
 
     cells: Cells
@@ -67,6 +69,7 @@ class Map(NamedTuple):
     texts: np.ndarray | None = None
     star: int | None = None
     limited: bool = True
+    curves: Sequence[Curve] = ()
 
 
 def regime_maps(
@@ -80,8 +83,8 @@ def regime_maps(
 ) -> tuple[Picture, tuple[MapPlace, ...]]:
     """Maps over the same two parameters, `wide` a row; (picture, the place of each on it).
 
-    labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark" or a hatch; its text). marks: values on x
-    and on y with a small triangle at the edge.
+    labels: of the axes. legend: (colour, or "dot", "cross", "star", "mark", a line or a hatch; its text). marks: values
+    on x and on y with a small triangle at the edge.
     """
     from matplotlib.cm import ScalarMappable
 
@@ -145,6 +148,8 @@ def _drawn(axes, regime_map: Map, marks) -> None:
     lost = shown[regime_map.cells.crosses[shown]]
     middles = regime_map.cells.boxes[lost].reshape(-1, 2, 2).mean(axis=2)
     axes.plot(*middles.T, "x", color=VERMILION, markersize=3.5, markeredgewidth=0.9)
+    for curve in regime_map.curves:
+        axes.plot(curve.x, curve.y, curve.mark or curve.line, **_CURVE)
     _written(axes, regime_map, x, y, top)
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=regime_map.title)
     axes.locator_params(nbins=6)
@@ -157,13 +162,14 @@ def _drawn(axes, regime_map: Map, marks) -> None:
             axes.plot(x[0], value, ">", **_MARK)
 
 
+_CURVE = {"color": "white", "linewidth": 1.3, "markersize": 4.0, "markeredgecolor": INK}
+_CURVE["path_effects"] = [withStroke(linewidth=2.6, foreground=INK)]
 _MARK = {"color": "white", "markeredgecolor": INK, "markersize": 5.5, "markeredgewidth": 0.9, "clip_on": False}
 _STAR = {"marker": "*", "color": "white", "markeredgecolor": INK, "markersize": 10.0, "markeredgewidth": 0.9}
 
 
 def _written(axes, regime_map: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> None:
     """Texts of regions where they have room, and the star."""
-    from matplotlib.patheffects import withStroke
     from scipy.ndimage import label
 
     halo = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "weight": "bold"}
@@ -199,6 +205,8 @@ def _handle(look: str, text: str):
     }
     if look in marks:
         return Line2D([], [], linestyle="", label=text, **marks[look])
+    if look in LINES.values():
+        return Line2D([], [], linestyle=look, label=text, **_CURVE)
     if look in HATCHES:
         return Patch(facecolor="white", edgecolor=INK, hatch=2 * look, linewidth=0.4, hatch_linewidth=0.35, label=text)
     return Patch(facecolor=look, edgecolor=INK, linewidth=0.4, label=text)

@@ -9,11 +9,10 @@ import numpy as np
 from tables import Column, listed
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..figures.regime_map import LINES
 from ..parts import Figure, Folder, Heading, Items, having, part_of
 from ..parts.style import INK
 from ..sweep.quantities import filled_table, series
-
-LINES = {"fold": "-", "flip": "--", "torus": ":"}
 
 
 def keys_of(part: Folder) -> tuple[Column, Column]:

@@ -8,20 +8,23 @@ import numpy as np
 
 from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENED, Column, listed, number
 
-from ..figures.regime_map import HATCHES, Cells, Map
+from ..figures.curves import Curve
+from ..figures.regime_map import HATCHES, LINES, Cells, Map
+from ..orbits.curves import drawn_curves
 from ..parts import Folder, Row, entries, part_of
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
 from ..sweep.quantities import at, series
 
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
+_FINE = 100  # places on a curve from one point to the next, at which its cell is looked for
 _WHOLE = 0.995  # share of a map that is called all of it
 
 
 class Page(NamedTuple):
     """The n cells of one page, the small ones behind those that they cover. place: its value, "" for the only one.
 
-    area (n,): share of the map that each cell takes where it is on top.
+    area (n,): share of the map that each cell takes where it is on top. curves: of events of orbits over both keys.
     """
 
     number: int
@@ -29,6 +32,7 @@ class Page(NamedTuple):
     rows: Sequence[Row]
     cells: Cells
     area: np.ndarray
+    curves: Sequence[Curve]
 
     def column(self, name: str) -> np.ndarray:
         """A number of each cell (n,), nan where it has none."""
@@ -98,11 +102,12 @@ def read_atlas(folder: Folder) -> Atlas | None:
     for row in part.table:
         value = row[first] if len(keys) > 2 else ""
         rows_of_pages.setdefault(value, []).append(row)
-    pages = []
+    curves, pages = part_of(folder, "curves"), []
+    lines = [] if curves is None else [*drawn_curves(curves, keys[-2:])]
     for page_number, page_rows in enumerate(rows_of_pages.values()):
         page_rows.sort(key=lambda row: row["level"])
         cells = _cells(page_rows, *axes)
-        pages.append(Page(page_number, at(keys[:-2], page_rows[0]), page_rows, cells, cells.areas()))
+        pages.append(Page(page_number, at(keys[:-2], page_rows[0]), page_rows, cells, cells.areas(), lines))
     return Atlas(keys, pages, part.columns)
 
 
@@ -119,6 +124,29 @@ def _cells(rows, x: str, y: str) -> Cells:
         if name in rows[0]:
             hatched[reason] = series(rows, name) > 0.0
     return Cells(np.column_stack(edges), kinds, source == SCREENED, source == FAILED, hatched)
+
+
+def without_border(page: Page) -> tuple[int, int]:
+    """How many computed cells a curve crosses, and round how many of them the map has no border.
+
+    A border: between regimes from rest or numbers of motions, in the cells that touch the crossed one.
+    """
+    computed, boxes = page.on_top(COMPUTED), page.cells.boxes
+    left, right, low, high = boxes.T
+    crossed = np.zeros(len(boxes), bool)
+    for curve in page.curves:
+        if curve.line:
+            point = np.linspace(0.0, len(curve.x) - 1.0, _FINE * len(curve.x))
+            x, y = (np.interp(point, np.arange(len(curve.x)), along) for along in (curve.x, curve.y))
+            within = (left[:, None] <= x) & (x < right[:, None]) & (low[:, None] <= y) & (y < high[:, None])
+            crossed |= computed & within.any(axis=1)
+    alone, motions = 0, page.column("motions")
+    for cell in np.flatnonzero(crossed):
+        x, y = 0.01 * (right - left)[cell], 0.01 * (high - low)[cell]
+        near = (left < right[cell] + x) & (right > left[cell] - x) & (low < high[cell] + y) & (high > low[cell] - y)
+        alike = (page.cells.kinds == page.cells.kinds[cell]) & (motions == motions[cell])
+        alone += bool(alike[near & computed].all())
+    return int(crossed.sum()), alone
 
 
 def colour_of(word: str) -> str:
@@ -140,7 +168,7 @@ def regimes(page: Page) -> Map:
             texts[cell] = word.removeprefix(PERIODIC)
     star = _star(page)
     title = "\n".join(_lines_of_title(page, star))
-    return Map(page.cells, title, colours, page.number, texts=texts.astype(str), star=star)
+    return Map(page.cells, title, colours, page.number, texts=texts.astype(str), star=star, curves=page.curves)
 
 
 def _lines_of_title(page: Page, star: int | None) -> list[str]:
@@ -179,6 +207,9 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
         share = atlas.of_source(source)
         if share:
             entries.append((mark, _with_share(meaning, share)))
+    for kind, line in LINES.items():
+        if any(curve.line == line for curve in atlas.pages[0].curves):
+            entries.append((line, f"{kind}s of orbits"))
     for hatch, reason in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
         share = atlas.limited(reason)
         if share:

@@ -29,7 +29,7 @@ from ..parts import (
     section_items,
 )
 from ..sweep.quantities import at
-from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes
+from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes, without_border
 from .sheets import cell_sheets
 
 
@@ -142,6 +142,12 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
         share = atlas.limited(reason)
         if share:
             lines.append(f"On {percent(share)} of the map {_LIMIT_SENTENCES[name]}.")
+    crossed, alone = without_border(atlas.pages[0])
+    if alone:
+        lines.append(
+            f"{alone} of {crossed} computed cells that a curve of orbits crosses differ from no neighbour in regime or "
+            "number of motions: the orbits of the curve are unstable there, or the map misses a motion."
+        )
     verdicts = [row["verdict"] for row in having(folder.table, status="ok") if row.get("verdict")]
     cheap = verdicts.count("cheap")
     if cheap:

@@ -22,7 +22,7 @@ def henon(z, p):
 
 
 class HenonPlane:
-    points = None
+    points = sharper_maps = None
     low, high, value = np.array([-0.6, -1.5]), np.array([4.0, 0.9]), 0.3
     key = SimpleNamespace(column=Column("b", "", "b", "the other parameter of Henon's map", 5))
     line = SimpleNamespace(scenes=SimpleNamespace(key=SimpleNamespace(column=KEY)), size=1.0)
@@ -111,3 +111,40 @@ def test_a_second_key_that_cannot_be_is_refused(tmp_path, capsys, words, reason)
     with pytest.raises(SystemExit) as ending:
         raise SystemExit(main(["--curves", *words.split(), "--out", str(out)]))
     assert ending.value.code == 2 and reason in capsys.readouterr().err and not out.exists()
+
+
+CABLE = "--vary waves.steepness 0.12 0.13 --values 2 --no-accuracy --no-report --jobs 1".split()
+
+
+def cable(out, depth, *words):
+    """The folder of the orbits of a buoy on a coarse line at a depth."""
+    assert main(["--set", f"water.depth_m={depth}", "tether.nodes=21", *words, *CABLE, "--out", str(out)]) == 0
+    return out
+
+
+def fold_of_period_3(folder):
+    (row,) = (row for row in rows_of(folder, "events/table.csv") if (row["kind"], row["period"]) == ("fold", "3"))
+    return float(row["waves.steepness"]), float(row["error"])
+
+
+@pytest.mark.slow
+def test_folds_of_the_cable_lie_on_their_curve_and_a_tenth_of_the_tolerance_moves_it_less_than_its_error(tmp_path):
+    over = "--curves", "water.depth_m", "24.99", "25.2"
+    first, second = cable(tmp_path / "25", 25, *over), cable(tmp_path / "25.2", 25.2)
+
+    def curve_in(folder):
+        rows = [row for row in rows_of(folder, "curves/table.csv") if row["period"] == "3" and not row["special"]]
+        columns = [[float(row[name]) for row in rows] for name in ("water.depth_m", "waves.steepness", "error_1")]
+        return np.array(columns)[:, np.argsort(columns[0])]
+
+    depths, steepness, errors = curve_in(first)
+    assert depths[-1] == 25.2
+    for folder, depth in ((first, 25.0), (second, 25.2)):
+        there = np.interp(depth, depths, steepness)
+        assert there == pytest.approx(fold_of_period_3(folder)[0], abs=2e-4)
+    assert abs(steepness[-1] - fold_of_period_3(second)[0]) <= errors[-1] + fold_of_period_3(second)[1]
+    key = next(row["run_key"] for row in rows_of(first, "motions/table.csv") if row["strobed_period"] in ("3", "3.0"))
+    start = "--start-from", str(first / "motions" / "trajectories" / f"{key}.nc")
+    sharp = curve_in(cable(tmp_path / "sharp", 25, "solver.rtol=1e-4", *start, *over))
+    for end in (0, -1):  # both at the same depth
+        assert sharp[0][end] == depths[end] and abs(sharp[1][end] - steepness[end]) <= errors[end]

@@ -12,6 +12,9 @@ from campaigns.regime_map.answer import sentences
 from campaigns.regime_map.cells import CellGrid, Quadtree
 from campaigns.regime_map.tables import _cell
 from engine import load_scene
+from reports.parts.content import Notice
+from reports.regime_map.report import report
+from tables import STATUS, Column, write_table
 from tests.campaigns.conftest import finished, ran, rows_of
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
@@ -189,3 +192,44 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
         assert [{**row, "wall_s": ""} for row in cut_rows] == [{**row, "wall_s": ""} for row in swept_rows]
     rest = {row["run_key"] for row in earlier if row["found_by"] == "rest" and row["water.depth_m"] == "22.0"}
     assert len(rest) == 2 and rest <= {row["run_key"] for row in rows_of(tmp_path / "sweep")}
+
+
+def folder_of_curves(folder, keys=("waves.steepness", "water.depth_m"), changes=None):
+    columns = [*COLUMNS, *(Column(key, "", key, "a key", 5) for key in keys), *ERRORS, STATUS]
+    (folder / "curves").mkdir(parents=True)
+    rows = [{"curve": 1, "place": place, "period": 1, "kind": "fold", keys[0]: value, keys[1]: 22.0, "status": "ok"}
+            for place, value in enumerate((0.02, 0.1))]  # fmt: skip
+    write_table(folder / "curves" / "table.csv", columns, rows)
+    (folder / "scene.toml").write_text(load_scene("tethered_buoy", {"waves.ramp_s": 0.0, **(changes or {})}).to_toml())
+    return str(folder)
+
+
+COLUMNS = [Column(name, "", name, name) for name in ("curve", "place", "period", "kind", "special")]
+ERRORS = [Column(name, "", name, name) for name in ("error_1", "error_2")]
+
+
+def test_curves_of_orbits_are_drawn_and_cells_without_a_border_are_told(tmp_path, unscreened):
+    folder = folder_of_curves(tmp_path / "orbits")
+    ran(regime_map, tmp_path / "map", *VARY, "--curves", folder, simulate=FakeEngine())
+    page = report(tmp_path / "map")
+    (warnings,) = [item for item in page.items if isinstance(item, Notice)][-1:]
+    assert "3 of 3 computed cells that a curve of orbits crosses" in str(warnings)
+    ran(regime_map, tmp_path / "map", *VARY, simulate=FakeEngine())
+    assert not (tmp_path / "map" / "curves").exists()
+
+
+@pytest.mark.parametrize(
+    ("keys", "changes", "reason"),
+    [
+        (("waves.steepness", "waves.period_s"), {}, "has curves over waves.steepness and waves.period_s"),
+        (("waves.steepness", "water.depth_m"), {"buoy.mass_kg": 1700.0}, "another buoy"),
+        (None, {}, "a folder of campaigns.orbits --curves"),
+    ],
+)
+def test_curves_of_other_keys_or_scenes_are_refused(tmp_path, capsys, keys, changes, reason):
+    folder = str(tmp_path)
+    if keys is not None:
+        folder = folder_of_curves(tmp_path / "orbits", keys, changes)
+    with pytest.raises(SystemExit) as ending:
+        raise SystemExit(main([*map(str, VARY), "--curves", folder, "--out", str(tmp_path / "map")]))
+    assert ending.value.code == 2 and reason in capsys.readouterr().err and not (tmp_path / "map").exists()

@@ -73,6 +73,21 @@ def test_an_island_is_born_and_dies_at_extremes_of_a_closed_curve():
     assert {point.kind for point in curve.special} == {"extremum"}
 
 
+@pytest.mark.parametrize(("kind", "z", "a"), [("fold", -0.35, -0.1225), ("flip", 0.35, 0.3675)])
+def test_what_a_more_accurate_map_changes_of_a_point_is_in_its_errors(kind, z, a):
+    """A map whose first parameter is wrong by 1e-4 shows each point that much too low."""
+    off = 1e-4
+    exact = OrbitMap(henon, parameter_size=np.ones(2))
+    system = OrbitMap(lambda z, p: henon(z, (p[0] + off, p[1])), parameter_size=np.ones(2))
+    place = np.array([[z, 0.3 * z]]), np.array([a, 0.3])
+    curve = follow_curve(system, kind, *place, (-3.0, -0.5), (4.0, 0.9), sharper=exact)
+    factor = {"fold": -0.25, "flip": 0.75}[kind]
+    for point in curve.points:
+        true = factor * (1.0 - point.parameters[1]) ** 2
+        assert point.parameters[0] == pytest.approx(true - off, abs=CLOSE)
+        assert point.errors[0] == pytest.approx(off, rel=0.1)  # the chord stands for the direction of the curve
+
+
 def test_where_no_event_is_no_curve_begins():
     with pytest.raises(NoImage):
         curve_of(henon, "flip", [-0.35, -0.105], [-5.0, 0.3])

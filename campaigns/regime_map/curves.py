@@ -1,0 +1,51 @@
+"""The curves of a folder of `campaigns.orbits --curves`, taken over into the folder of a map over the same two keys."""
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+from campaigns.explore.motions import subfolder
+from campaigns.machinery.plan import Plan
+from campaigns.regime_map.cells import CellGrid
+from engine.scene import SceneError, scene_from_toml
+from tables import Row, read_columns
+
+FOLDER = "curves"
+FILES = "columns.csv", "table.csv"
+OF_AN_ORBIT = "gravity_mps2", "tether", "anchor", "end", "buoy", "water", "waves"  # parts of a scene
+
+
+def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
+    """Why the curves of a folder cannot be drawn on a map. scene: that of the map at a place."""
+    given = f"--curves {folder}"
+    try:
+        columns = [*read_columns(Path(folder) / FOLDER / FILES[0])]
+        first_error = columns.index("error_1")  # behind the columns of both keys
+        text = (Path(folder) / "scene.toml").read_text()
+        (Path(folder) / FOLDER / FILES[1]).read_text()
+    except (OSError, ValueError) as why:
+        yield f"{given}: {why}; allowed: a folder of campaigns.orbits --curves"
+        return
+    keys, axes = columns[first_error - 2 : first_error], [key.key for key in grid.axes]
+    if set(keys) != set(axes):
+        yield f"{given}: has curves over {' and '.join(keys)}; allowed: over {' and '.join(axes)}, the keys of the map"
+        return
+    try:
+        changes, _ = grid.changes(place, scene)
+        own = scene_from_toml(text, changes).as_dict()
+    except SceneError as error:
+        yield f"{given}: its scene.toml: {error}"
+        return
+    of_map = scene.as_dict()
+    differing = [part for part in OF_AN_ORBIT if own.get(part) != of_map.get(part)]
+    if differing:
+        yield f"{given}: has curves of another scene, with another {', '.join(differing)}; allowed: of that of the map"
+
+
+def take_over(folder: str | None, plan: Plan) -> None:
+    """Copy the curves into the folder of the map, where its report finds them. Raises OSError."""
+    if folder is None:
+        shutil.rmtree(plan.how.out / FOLDER, ignore_errors=True)
+        return
+    for name in FILES:
+        shutil.copyfile(Path(folder) / FOLDER / name, subfolder(plan, FOLDER) / name)
