@@ -177,19 +177,22 @@ def corrected(
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
     space: Space | None = None,
+    shots: Shots | None = None,
 ) -> Solved:
     """Newton's method on the gaps: at a fixed parameter, or with corrections orthogonal to a row (n + 1,), and of m
     parameters (m,) to m rows (m, n + m).
 
-    directions (n, k): with which the spaces begin; slopes (N, n) and space: approximate ones. Raises NoImage where it
-    fails.
+    directions (n, k): with which the spaces begin; slopes (N, n) and space: approximate ones. shots: of the points,
+    where they are known. Raises NoImage where it fails.
     """
     n, size, last = points.shape[1], maps[0].parameter_size, space
     if directions is None:
         directions = np.empty((n, 0))
     # of the guess: far away any gap is small beside the points
     enough = newton.tolerance * max(1.0, np.abs(points).max())
-    shots, taken = shoot(maps, points, parameter), 0
+    if shots is None:
+        shots = shoot(maps, points, parameter)
+    taken = 0
     while shots.residual > enough:
         if taken == newton.iterations:
             raise NotSolved(f"{taken} Newton steps leave {shots.residual:.1e}")
@@ -238,10 +241,11 @@ def solved_near(
     if system.frozen is None:
         return corrected(maps, points, parameter, newton, row, directions, slopes)
     rough = corrected(maps, points, parameter, newton._replace(tolerance=ROUGH), row, directions, slopes)
+    shots = rough.shots
     if np.linalg.norm(rough.points - points, axis=1).max() > MOVED:
-        maps = system.near(rough.points, rough.parameter, mesh)
+        maps, shots = system.near(rough.points, rough.parameter, mesh), None
     newton = newton._replace(kept=max(newton.kept, KEPT))
-    return corrected(maps, rough.points, rough.parameter, newton, row, rough.directions, slopes, rough.space)
+    return corrected(maps, rough.points, rough.parameter, newton, row, rough.directions, slopes, rough.space, shots)
 
 
 def described(solved: Solved, count: int) -> tuple[Orbit, Space]:
