@@ -87,7 +87,7 @@ def judge(run, checks, orbits):
 def test_a_worker_is_not_told_of_the_folder_and_what_it_sends_is_kept_as_if_it_were(tmp_path, monkeypatch):
     import cloudpickle
 
-    def elsewhere(call, tasks, alone=False):
+    def elsewhere(call, tasks, alone=False, spare=()):
         sent = cloudpickle.dumps(call)
         assert b"of-the-campaign" not in sent
         for task in tasks:

@@ -58,7 +58,7 @@ def fixed(a, way):
 def grown(out, branches=8, starts=None, line=None):
     """The tree of these starts with its tables."""
     how = SimpleNamespace(out=out, jobs=2, backend="threading", dask_address=None)
-    tree = Tree(SimpleNamespace(how=how, sends=False), line or HenonLine(), 60, branches)
+    tree = Tree(SimpleNamespace(how=how, sends=False, spare=[]), line or HenonLine(), 60, branches)
     tree.grow(starts or [("A", 0.2, 1, fixed(0.2, 1)), ("B", 0.2, 1, fixed(0.2, -1))])
     tree.across([0.2])
     tables(tree, KEY)
