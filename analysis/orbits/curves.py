@@ -32,8 +32,9 @@ from analysis.orbits.spaces import Space
 SECANTS = 10
 PROBE = 0.1  # of a step: differences of g for the first direction
 ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
-COARSE = 0.03  # the same before the steps of a system are chosen again
-ROUGH = 1e-3  # sigma, in longest steps, of a system that is computed in steps, and to how much of a chord its special points are sought
+COARSE = 0.03  # sigma, in longest steps, before the steps of a system are chosen again
+# of a system that is computed in steps: sigma, in longest steps, and to how much of a chord special points are sought
+ROUGH = 1e-3
 CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
 LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
@@ -181,7 +182,7 @@ class _Follower:
         return orbit
 
     def plane(self, maps, orbit, rows):
-        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal, and the map's slopes.
+        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal; slopes of the map.
 
         rows (2, n + 2): tell the directions apart. The first is orthogonal to the second row.
         """
@@ -346,7 +347,11 @@ class _Follower:
                     point, taken = self._next(last, tangent, step)
                     limit = self._beyond(point.parameters)
                 if limit is not None:
-                    points.append(self._at_border(last, tangent, limit))
+                    point = self._at_border(last, tangent, limit)
+                    other = self._beyond(point.parameters)
+                    if other is not None:  # the curve leaves the range of that key first
+                        limit, point = other, self._at_border(last, tangent, other)
+                    points.append(point)
                     k, end = limit
                     return points, f"reaches the end of the range of key {k + 1}, {end:g}", False
             except ArithmeticError as why:

@@ -88,6 +88,14 @@ def test_what_a_more_accurate_map_changes_of_a_point_is_in_its_errors(kind, z, a
         assert point.errors[0] == pytest.approx(off, rel=0.1)  # the chord stands for the direction of the curve
 
 
+def test_a_curve_that_leaves_both_ranges_in_one_step_ends_at_the_border_that_it_meets_first():
+    """Flips on a = 0.75 (1 - b)^2 meet b = 0.2 at a = 0.48, before a = 0.49."""
+    curve = curve_of(henon, "flip", [0.35, 0.105], [0.3675, 0.3], (0.36, 0.2), (0.49, 0.9), step=0.5)
+    a, b = curve.parameters.T
+    assert b.min() == pytest.approx(0.2) and a.max() == pytest.approx(0.48) and a.min() == pytest.approx(0.36)
+    assert any(end.startswith("reaches the end of the range of key 2, 0.2") for end in curve.ends)
+
+
 def test_where_no_event_is_no_curve_begins():
     with pytest.raises(NoImage):
         curve_of(henon, "flip", [-0.35, -0.105], [-5.0, 0.3])
