@@ -3,20 +3,24 @@
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from campaigns.explore.motions import subfolder
 from campaigns.machinery.plan import Plan
 from campaigns.regime_map.cells import CellGrid
-from engine.scene import SceneError, scene_from_toml
-from tables import Row, read_columns
+
+if TYPE_CHECKING:
+    from tables import Row
 
 FOLDER = "curves"
 FILES = "columns.csv", "table.csv"
 OF_AN_ORBIT = "gravity_mps2", "tether", "anchor", "end", "buoy", "water", "waves"  # parts of a scene
 
 
-def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
+def faults(folder: str, grid: CellGrid, place: "Row", scene) -> Iterator[str]:
     """Why the curves of a folder cannot be drawn on a map. scene: that of the map at a place."""
+    from engine.scene import SceneError, scene_from_toml
+    from tables import read_columns
+
     given = f"--curves {folder}"
     try:
         columns = [*read_columns(Path(folder) / FOLDER / FILES[0])]
@@ -44,6 +48,8 @@ def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
 
 def take_over(folder: str | None, plan: Plan) -> None:
     """Copy the curves into the folder of the map, where its report finds them. Raises OSError."""
+    from campaigns.explore.motions import subfolder
+
     if folder is None:
         shutil.rmtree(plan.how.out / FOLDER, ignore_errors=True)
         return

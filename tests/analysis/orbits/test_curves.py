@@ -26,8 +26,8 @@ def ring(z, p):
     return np.array([x + 0.5 * (a * a + b * b - 1.0 - x * x)]), lambda V: (1.0 - x) * V
 
 
-def curve_of(step, kind, z, parameters, low=(-3.0, -2.0), high=(4.0, 2.0), **settings):
-    system = OrbitMap(step, parameter_size=np.ones(2))
+def curve_of(image, kind, z, parameters, low=(-3.0, -2.0), high=(4.0, 2.0), **settings):
+    system = OrbitMap(image, parameter_size=np.ones(2))
     return follow_curve(system, kind, np.array([z]), np.array(parameters), low, high, **settings)
 
 
@@ -90,7 +90,7 @@ def test_what_a_more_accurate_map_changes_of_a_point_is_in_its_errors(kind, z, a
 
 def test_a_curve_that_leaves_both_ranges_in_one_step_ends_at_the_border_that_it_meets_first():
     """Flips on a = 0.75 (1 - b)^2 meet b = 0.2 at a = 0.48, before a = 0.49."""
-    curve = curve_of(henon, "flip", [0.35, 0.105], [0.3675, 0.3], (0.36, 0.2), (0.49, 0.9), step=0.5)
+    curve = curve_of(henon, "flip", [0.35, 0.105], [0.3675, 0.3], (0.36, 0.2), (0.49, 0.9), step=0.2)
     a, b = curve.parameters.T
     assert b.min() == pytest.approx(0.2) and a.max() == pytest.approx(0.48) and a.min() == pytest.approx(0.36)
     assert any(end.startswith("reaches the end of the range of key 2, 0.2") for end in curve.ends)
