@@ -402,7 +402,10 @@ class _Follower:
         guess[1][k] = end
         along = np.zeros(len(tangent))
         along[-2 + k] = 1.0
-        return self.on_curve(guess, along, last, max(abs(step), self.least), tangent)[0]
+        point = self.on_curve(guess, along, last, max(abs(step), self.least), tangent)[0]
+        parameters = point.parameters.copy()
+        parameters[k] = end  # but for rounding it is there already
+        return replace(point, parameters=parameters)
 
     def _passes(self, first, last, chord):
         """Whether the first point lies on a chord that begins at the last one."""
