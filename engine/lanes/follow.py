@@ -16,11 +16,11 @@ from ..dimensions import shape
 from ..perturbations.lateral import COEFFICIENTS, lateral_stage, normalise
 from ..perturbations.lateral import WIDTH as LATERAL_WIDTH
 from ..perturbations.tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
-from ..physics.sea import SEA_WIDTH
+from ..physics import sea_series
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
 from ..simd.elementary import keep
-from ..simd.select import some
+from ..simd.select import some, where
 from ..simd.vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
 from ..time.steps import known_part, plan_stage, stage_rate
 from .ticks import row_of_stage
@@ -131,6 +131,8 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         side_by_side(trail_rows, at, Y, turn.K)
         base = Base(rows[TIME], rows[RATE], moving_water, Y, turn.K)
         begun, ended = rows[BEGUN] != 0.0, rows[ENDED] != 0.0
+        anchor = work.sea[Y.shape[0]]
+        anchor[1] = where(begun, 0.0, anchor[1])  # as `forget` in a run alone
         if count > 0:
             linearise(p, grid, base, work, water)
         else:
@@ -157,7 +159,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
 def lane_work(n, width):
     """Work arrays of a Newton solve in all lanes; width: of E."""
     arrays = (lane_zeros(n, columns) for columns in (2, 4, planar_col.NODE_WIDTH, width, 6, 4))
-    return Work(*arrays, lane_zeros(n + 1, SEA_WIDTH))
+    return Work(*arrays, lane_zeros(n + 1, sea_series.WIDTH))
 
 
 class Followers:

@@ -19,6 +19,7 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
+from ..physics.sea_series import forget
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS, VX, VZ
 from ..planar.state import largest_turn
@@ -184,8 +185,8 @@ def end_steps(records, tables, states, numbers, Y, scratch):
 
 
 @kernel
-def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
-    """Choose the next solve of every lane that has moved; returns whether to stop. Q (n, NODE_WIDTH, COUNT): of Work.
+def plan_lanes(records, tables, states, lanes, numbers, room, a, w, work):
+    """Choose the next solve of every lane that has moved; returns whether to stop. work: Work of all lanes.
 
     A lane whose trail of `room` steps is full waits to be followed. That is done for all lanes at once, each step at
     the cost of one: so it is not due before two of three wait, because some make twice the steps of others.
@@ -202,7 +203,8 @@ def plan_lanes(records, tables, states, lanes, numbers, room, a, w, Q):
                     numbers[MOVED, b] = 0.0
                     continue
                 begin_trial(p, tables[b], state)
-                hold_turn(state, Q[:, :, b])
+                hold_turn(state, work.Q[:, :, b])
+                forget(work.sea[:, :, b])
             if state.status != OK or state.samples >= lane.goal:
                 lane.active = ENDED
                 numbers[MOVED, b] = 0.0
@@ -269,7 +271,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
     ticks_made, stop = 0, False
     while True:
         # every lane that has moved begins its next solve; C_new, which is free by then, takes in its C~
-        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w, work.Q)
+        stop = plan_lanes(records, own_tables, states, lanes, numbers, trail.T.shape[1], arrays.a, arrays.w, work)
         move_states(rows, w, lane.history, lane.now, lane.before, Y)
         keep(rows[ACCEPTED] != 0.0, C_new, C)
         keep(rows[ACCEPTED] != 0.0, K_new, Ks[0])

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..physics.sea import SEA_WIDTH
+from ..physics.sea_series import WIDTH
 from ..physics.water import water as water_of_engine
 from .line import EPS, EULER, SPEEDS, TO_ENGINE, TO_PAPER, Line, normal_rates, rotation, to_local, turning
 
@@ -43,7 +43,7 @@ def water_at(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> np.ndar
     axes = [0, 1, 2] if line.spatial else [0, 2]
     X = np.ascontiguousarray(positions(line, Y)[TO_ENGINE][axes].T)
     F = np.zeros((len(X), 2 * len(axes)))
-    sea = np.zeros((len(X) + 1, SEA_WIDTH))
+    sea = np.zeros((len(X) + 1, WIDTH))
     water_of_engine(line.record, line.tables, t, 1.0 if waves else 0.0, X, F, sea)
     fields = np.zeros((2, 3, len(X)))
     fields[:, axes] = F.T.reshape(2, len(axes), -1)

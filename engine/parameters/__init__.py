@@ -12,6 +12,8 @@ import numpy as np
 
 from .. import record as codes
 from ..physics import drag, ends, sea, tension, waves
+from ..physics.sea_series import LEFT_OUT, reach_of
+from ..physics.sea_sum import STILL
 from ..scene.models import Scene
 from ..spatial import lift
 from ..time import integrators
@@ -305,7 +307,11 @@ def _solver(record, scene, place, h):
     )
     scales.put_scales(record, scene, h)
     if record["sea_n"]:
-        record["still"] = sea.STILL * record["newton_tolerance"] / (record["per_speed"] * sea.shear_of(scene))
+        error_mps = record["newton_tolerance"] / record["per_speed"]
+        if scene.motion.dimensions == 2:
+            record["sea_reach"], record["sea_span"] = reach_of(scene, LEFT_OUT * error_mps)
+        else:
+            record["sea_reach"] = STILL * error_mps / sea.shear_of(scene)
     if solver.courant is not None:
         record["pace"] = solver.courant / scales.fastest_wave(record, scene)
         record["fixed_step"] = record["pace"] * float(h.min())

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Work
 from ..compiled import kernel
-from ..physics.sea import SEA_WIDTH
+from ..physics import sea_series
 from ..planar import columns as col
 from ..planar.extras import node_width
 from ..record import BEGIN, STEP
@@ -35,7 +35,7 @@ def _carry_abreast(p, tables, count, trail, in_lanes):
         np.zeros((n, col.WITH_INVERSE)),
         np.zeros((n, 6)),
         np.zeros((n, 4)),
-        np.zeros((n + 1, SEA_WIDTH)),
+        np.zeros((n + 1, sea_series.WIDTH)),
     )
     water, moving_water = Water(np.zeros((n, 8)), np.zeros((n, 4))), water_moves(p)
     a, w = np.empty(s), np.empty(3)

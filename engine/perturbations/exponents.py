@@ -8,7 +8,8 @@ import numpy as np
 from ..arrays import Trail, Work
 from ..compiled import kernel
 from ..dimensions import shape
-from ..physics.sea import SEA_WIDTH
+from ..physics import sea_series
+from ..physics.sea_series import forget
 from ..physics.water import water as flow
 from ..planar import columns as col
 from ..planar.extras import node_width
@@ -34,7 +35,7 @@ def carry(p, tables, period, count, trail, tangent, across):
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
-    sea = np.zeros((n + 1, SEA_WIDTH))
+    sea = np.zeros((n + 1, sea_series.WIDTH))
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
     if tangent is not None:
@@ -55,6 +56,7 @@ def carry(p, tables, period, count, trail, tangent, across):
                 copy_into(dKs[v, 0], rates[v])
         if across is not None:
             copy_into(dK[0], vector_rates)
+        forget(sea)
         for i in range(s - 1 if euler else 1, s):
             rate, delay = plan_stage(p, tables, i, euler, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
             so_far = 0 if euler else i

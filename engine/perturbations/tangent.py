@@ -79,7 +79,7 @@ def _add_water(p, tables, base, work, water):
         top[col.TOP_DXX + m] = 0.0
     if base.moving_water == 0.0:
         return
-    water_slopes(p, tables, base.t, work.X, work.F, water.J)
+    water_slopes(p, tables, base.t, work.X, work.F, water.J, work.sea)
     for k in range(Q.shape[0]):
         c, s = Q[k, col.COS], Q[k, col.SIN]
         xx, xz, zx, zz = quaternion(water.drag[k], 0)

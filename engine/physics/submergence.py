@@ -30,7 +30,7 @@ from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, smaller, where
 from ..simd.vector import COUNT
 from ..spatial.vectors import dot, mixed
-from .sea import surface_sums
+from .sea_sum import surface_sums
 
 
 @kernel

@@ -5,7 +5,8 @@ import numpy as np
 from ..compiled import by_kind, kernel
 from ..simd.elementary import copy_into
 from .currents import current_field, uniform_current
-from .sea import sea_field, sea_field_in_lanes, sea_slopes, sea_slopes_in_lanes
+from .sea_series import sea_in_lanes, sea_in_plane, sea_slopes
+from .sea_sum import sea_field
 from .waves import wave_field, wave_field_in_space, wave_slopes
 
 NUDGE = 1e-6  # m
@@ -16,7 +17,7 @@ def _in_plane(p, tables, t, X, F, sea):
     if p.sea_n == 0:
         wave_field(p, tables, t, X, F)
     else:
-        sea_field(p, tables, t, X, F, sea)
+        sea_in_plane(p, tables, t, X, F, sea)
 
 
 @kernel
@@ -32,7 +33,7 @@ def _in_lanes(p, tables, t, X, F, sea):
     if p.sea_n == 0:
         wave_field(p, tables, t, X, F)
     else:
-        sea_field_in_lanes(p, tables, t, X, F, sea)
+        sea_in_lanes(p, tables, t, X, F, sea)
 
 
 @kernel
@@ -62,11 +63,11 @@ def water(p, tables, t, in_motion, X, F, sea):
 
 
 @kernel
-def _slopes_in_plane(p, tables, t, X, F, J):
+def _slopes_in_plane(p, tables, t, X, F, J, sea):
     """By differences: of a current that is not the same everywhere, and of regular waves over one."""
     varied = p.current and p.cur_nx * p.cur_nz > 1
     if p.sea_n > 0:
-        sea_slopes(p, tables, t, X, F, J)
+        sea_slopes(p, t, X, J, sea)
         if not varied:
             return
     elif not varied:
@@ -94,12 +95,18 @@ def _slopes_in_plane(p, tables, t, X, F, J):
 
 
 @kernel
-def _slopes_in_lanes(p, tables, t, X, F, J):
+def _slopes_in_lanes(p, tables, t, X, F, J, sea):
     if p.sea_n > 0:
-        sea_slopes_in_lanes(p, tables, t, X, F, J)
+        sea_slopes(p, t, X, J, sea)
     else:
         wave_slopes(p, tables, t, X, F, J)
 
 
-# J (n, 8): how the water F at the nodes of a line in a plane depends on their places X, dF/dx (4) and dF/dz (4)
-water_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_in_lanes, wave_slopes)
+@kernel
+def _slopes_of_regular(p, tables, t, X, F, J, sea):
+    wave_slopes(p, tables, t, X, F, J)
+
+
+# J (n, 8): how the water F at the nodes of a line in a plane depends on their places X, dF/dx (4) and dF/dz (4);
+# F, and with it what Work.sea holds, are those of these places
+water_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_in_lanes, _slopes_of_regular)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Work
 from ..compiled import kernel
-from ..physics.sea import SEA_WIDTH
+from ..physics import sea_series
 from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import strain_within, within
@@ -28,7 +28,8 @@ def size_of(p):
 def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
-    return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)), np.zeros((n + 1, SEA_WIDTH)))
+    sea = np.zeros((n + 1, sea_series.WIDTH))
+    return Work(X, F, Q, np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 6)), np.zeros((n, 4)), sea)
 
 
 @kernel

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Work
 from ..compiled import kernel
-from ..physics.sea import SEA_WIDTH
+from ..physics import sea_sum
 from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import strain_within, within
@@ -31,7 +31,7 @@ def work_arrays(p, n):
     """Work arrays (`engine.arrays.Work`) of a Newton solve with n nodes."""
     X, F, Q = np.zeros((n, 3)), np.zeros((n, 6)), np.zeros((n, node_width(p)))
     E, D, C_tilde = np.zeros((n, col.BOX_WIDTH)), np.zeros((n, 12)), np.zeros((n, 6))
-    return Work(X, F, Q, E, D, C_tilde, np.zeros((n + 1, SEA_WIDTH)))
+    return Work(X, F, Q, E, D, C_tilde, np.zeros((n + 1, sea_sum.WIDTH)))
 
 
 @kernel

@@ -15,6 +15,7 @@ from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import error_square, extrapolate, size_of
 from ..physics.bed import with_landings
+from ..physics.sea_series import forget
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import STRETCH
@@ -113,6 +114,7 @@ def runge_kutta_step(p, tables, step, motion, trial, work):
     a, w = np.empty(s), np.empty(3)
     max_iterations = SMALL_STEP_NEWTON if small else p.max_newton
     iterations = 0
+    forget(work.sea)
     copy_into(Ys[0], Y)
     copy_into(Ks[0], K)
     for i in range(s - 1 if small else 1, s):
@@ -215,6 +217,7 @@ def one_stage_step(p, tables, step, alphas, max_iterations, motion, trial, work)
     unknowns, size = size_of(p)
     half = size // 2
     n = Y.shape[0]
+    forget(work.sea)
     shift = alpha_f * dt * (1.0 - gamma / alpha_m)
     for k in range(n):
         for m in range(size):

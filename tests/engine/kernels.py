@@ -12,8 +12,8 @@ from engine.parameters import record_of
 from engine.perturbations.exponents import carry
 from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.perturbations.tangent import Base
+from engine.physics import sea_series, sea_sum
 from engine.physics.ends import upper_end, upper_end_3d
-from engine.physics.sea import SEA_WIDTH, sea_field
 from engine.physics.water import current_field, water
 from engine.physics.waves import wave_field, wave_field_in_space
 from engine.planar import elimination as planar_elimination
@@ -98,8 +98,10 @@ def waves_at(scene, t, X, there=0.0):
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), there)
-    if p["sea_n"]:
-        sea_field(p, tables, t, X, F, np.zeros((len(X) + 1, SEA_WIDTH)))
+    if p["sea_n"] and X.shape[1] == 2:
+        sea_series.sea_in_plane(p, tables, t, X, F, np.zeros((len(X) + 1, sea_series.WIDTH)))
+    elif p["sea_n"]:
+        sea_sum.sea_field(p, tables, t, X, F, np.zeros((len(X) + 1, sea_sum.WIDTH)))
     else:
         (wave_field if X.shape[1] == 2 else wave_field_in_space)(p, tables, t, X, F)
     return F

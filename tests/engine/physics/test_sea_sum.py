@@ -1,5 +1,6 @@
 """Law: the water of a sea is the plain sum of its linear waves, in a plane and in space, also far above waves that are
-short beside an element; its slopes are those of the sum. Two halves of one wave move a line as the whole wave does. A
+short beside an element; its slopes are those of the sum. In a plane it is a series about the last sum, whose error over
+random phases is the stated one. Two halves of one wave move a line as the whole wave does. A
 run in a lane is the run alone, a run that goes on is the whole run, and a sea in a plane is the same in space.
 """
 
@@ -7,7 +8,8 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, rows_of, sea_slopes
+from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, rows_of
+from engine.physics.sea_series import LEFT_OUT, ORDER, WIDTH, sea_in_plane, sea_slopes
 from engine.run.simulation import simulate_batch
 from tests.engine.kernels import parameters_of, waves_at
 
@@ -90,6 +92,44 @@ def test_fifty_random_seas_are_the_plain_sum_at_ten_thousand_random_places_and_m
         assert np.abs(elevation_m(scene, t, x) - exact).max() <= 1e-12 * np.abs(exact).max()
 
 
+def errors_of_series(seed, by_time, by_place):
+    """Errors (4,) of a node at still water, of a series that is used at shares of its span and of its reach; the
+    stated error of a velocity, the span."""
+    scene = sea(seed, **{"waves.above_still_water": "extrapolate", "waves.jonswap": jonswap(seed)})
+    p, tables = parameters_of(scene)
+    places, series = np.array([[0.0, 0.0], [1.0, DEPTH]]), np.zeros((3, WIDTH))
+    sea_in_plane(p, tables, 50.0, places, np.zeros((2, 4)), series)
+    t, moved, F = 50.0 + by_time * p["sea_span"], places - [0.0, by_place * p["sea_reach"]], np.zeros((2, 4))
+    sea_in_plane(p, tables, t, moved, F, series)
+    assert series[2, 0] == 50.0  # the sums were not taken anew
+    stated = LEFT_OUT * p["newton_tolerance"] / p["per_speed"]
+    return F[1] - plain_sum(scene, t, moved)[1].astype(float), stated, p["sea_span"]
+
+
+@pytest.mark.parametrize(("by_time", "by_place"), [(0.999, 0.0), (0.0, 0.999), (-0.6, 0.39)])
+def test_a_series_has_its_stated_error_where_it_ends(by_time, by_place):
+    errors, stated, span = zip(*(errors_of_series(seed, by_time, by_place) for seed in range(60)), strict=True)
+    scatter = np.sqrt(np.mean(np.square(errors), axis=0)) / stated[0]
+    assert np.all(scatter[:2] * (ORDER + 1) < 1.3)  # of sixty seeds: 1 ± 0.09
+    if by_place == 0.0:
+        assert np.all(scatter[:2] * (ORDER + 1) > 0.7) and np.all(np.abs(scatter[2:] * span[0] - 1.0) < 0.3)
+
+
+def test_a_series_is_left_where_it_does_not_hold():
+    scene = sea(0, **{"waves.jonswap": jonswap(0), "waves.above_still_water": "wheeler"})
+    p, tables = parameters_of(scene)
+    X, series = np.column_stack([np.zeros(5), np.linspace(0.0, DEPTH, 5)]), np.zeros((6, WIDTH))
+    sea_in_plane(p, tables, 3.0, X, np.zeros((5, 4)), series)
+    sea_in_plane(p, tables, 3.0 + 0.9 * p["sea_span"], X, np.zeros((5, 4)), series)
+    assert series[5, 0] == 3.0
+    sea_in_plane(p, tables, 3.0, X + np.array([0.99 * p["sea_reach"], 0.0]), np.zeros((5, 4)), series)
+    assert series[5, 0] == 3.0
+    moved, far, F = X.copy(), 3.0 + 0.5 * p["sea_span"], np.zeros((5, 4))
+    moved[2, 0] += 0.6 * p["sea_reach"]
+    sea_in_plane(p, tables, far, moved, F, series)
+    assert series[5, 0] == far and np.array_equal(F, waves_at(scene, far, moved))
+
+
 @pytest.mark.parametrize("above", ["extrapolate", "zero", "wheeler"])
 def test_the_slopes_are_those_of_the_field(above):
     """By central differences of step 1e-4 m, within a ramp."""
@@ -97,7 +137,9 @@ def test_the_slopes_are_those_of_the_field(above):
     p, tables = parameters_of(scene)
     X = np.column_stack([np.linspace(-2.0, 2.0, 9), np.linspace(1.0, DEPTH + 0.6, 9)])
     J, d = np.zeros((9, 8)), 1e-4
-    sea_slopes(p, tables, 7.0, X, np.zeros((9, 4)), J)
+    series = np.zeros((10, WIDTH))
+    sea_in_plane(p, tables, 7.0, X, np.zeros((9, 4)), series)
+    sea_slopes(p, 7.0, X, J, series)
     for axis in range(2):
         step = d * np.eye(2)[axis]
         slope = (waves_at(scene, 7.0, X + step) - waves_at(scene, 7.0, X - step)) / (2 * d)

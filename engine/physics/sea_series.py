@@ -1,0 +1,293 @@
+"""A sea in a plane, as a series about a moment and the places of the nodes.
+
+With y = x - i z and its conjugate the waves of a sea (`engine.physics.sea`) are two analytic functions,
+
+    F = sum a_i e^(i(k_i x - omega_i t)) e^(k_i (z - H)),    G = sum a_i e^(i(k_i x - omega_i t)) e^(-k_i (z + H)),
+    U = Re(F + G),    W = Im(F - G),    a_i = A_i omega_i e^(i phase_i)/(1 - exp(-2 k_i H)),
+
+and its surface is eta = Re E, E = sum A_i e^(i(k_i x - omega_i t + phase_i)). Each is a series in dt and in i dx + dz,
+i dx - dz or i dx:
+
+    F(x + dx, z + dz, t + dt) = sum over m + n <= ORDER of (i dx + dz)^m (-i dt)^n S_mn,
+    S_mn = sum over the waves of k^m omega^n F_i/(m! n!)
+
+Rates and slopes are those of the series. The sums S are nearly the whole cost of a sea. Every trial step takes them
+once, at its first stage; they serve its other stages and iterations as long as `reach_of` allows, else they are taken
+anew. So a run that goes on from a state has the bits of the run that did not stop.
+
+Why not the plain sum in every iteration: with 64 waves it cost two to five times as much as all the rest of a run.
+
+The waves lie side by side, COUNT in a vector, and follow from node to node by recurrence (`engine.physics.sea_sum`). A
+run in a lane takes the same sums as a run alone, so that both have the same bits.
+"""
+
+import math
+
+import numpy as np
+
+from ..compiled import kernel
+from ..record import WHEELER, ZERO
+from ..scene.models import Scene
+from ..simd.access import eight_of, in_lane, lane_of, read_eight, total, write_eight
+from ..simd.elementary import sincos, smooth_start
+from ..simd.select import larger, where
+from ..simd.vector import COUNT
+from .sea import AMPLITUDE, OMEGA, PHASE, ROW, SPEED, K, rows_of
+from .sea_sum import division_of, exponential, phase_at, raised, stretching, turned
+
+ORDER = 3
+TERMS = (ORDER + 1) * (ORDER + 2) // 2  # S_mn of one function, ordered by m, then n
+UPPER, LOWER, SURFACE = 0, 2 * TERMS, 4 * TERMS  # columns of Work.sea: real and imaginary parts of S of F, G and E
+PLACE_X, PLACE_Z, HEIGHT = range(6 * TERMS, 6 * TERMS + 3)  # of the series; and where the water of a node is taken now
+WIDTH = 6 * TERMS + 3
+LEFT_OUT = 0.3  # standard deviation of the error of the water's velocity, over the tolerance of Newton's method
+
+
+def reach_of(scene: Scene, speed_mps: float) -> tuple[float, float]:
+    """How far (m) and how long (s) the series of `engine.physics.sea_series` holds to an error of the water's speed.
+
+    Over all phases, and at still water, the standard deviation of the error is less than
+    (sum a^2/2 (k rho + omega tau)^(2 ORDER + 2))^(1/2)/ORDER!, where a = A omega, rho is the way from the place of the
+    series and tau the time since. That is ORDER + 1 times the first term left out, for the sake of its rate. It stays
+    below speed_mps while rho/reach + tau/span <= 1, by Minkowski's inequality.
+    """
+    rows = rows_of(scene)
+    speeds = np.abs(rows[:, AMPLITUDE] * rows[:, OMEGA])
+
+    def most(rates):
+        spread = math.sqrt(0.5 * np.sum((speeds * rates ** (ORDER + 1)) ** 2))
+        return (math.factorial(ORDER) * speed_mps / max(spread, 1e-300)) ** (1.0 / (ORDER + 1))
+
+    return most(rows[:, K]), most(np.abs(rows[:, OMEGA]))
+
+
+@kernel
+def forget(sea):
+    """Let the next sums be taken anew: a trial step begins. sea: of Work."""
+    sea[sea.shape[0] - 1, 1] = 0.0
+
+
+@kernel
+def series(row, first, dt, real, imaginary):
+    """Value, rate, slope and rate of the slope of sum y^m (-i dt)^n S_mn at y = (real, imaginary), as such pairs.
+
+    row: of Work.sea; first: column of the series. The slope is by y.
+    """
+    zero = 0.0 * dt
+    value_re = value_im = rate_re = rate_im = slope_re = slope_im = rising_re = rising_im = zero
+    for m in range(ORDER, -1, -1):
+        re = im = re_t = im_t = zero
+        for n in range(ORDER - m, -1, -1):
+            at = first + 2 * (m * (2 * ORDER + 3 - m) // 2 + n)
+            re_t, im_t = dt * im_t + im, -(dt * re_t + re)
+            re, im = row[at] + dt * im, row[at + 1] - dt * re
+        slope_re, slope_im = (
+            real * slope_re - imaginary * slope_im + value_re,
+            real * slope_im + imaginary * slope_re + value_im,
+        )
+        rising_re, rising_im = (
+            real * rising_re - imaginary * rising_im + rate_re,
+            real * rising_im + imaginary * rising_re + rate_im,
+        )
+        value_re, value_im = (
+            real * value_re - imaginary * value_im + re,
+            real * value_im + imaginary * value_re + im,
+        )
+        rate_re, rate_im = (
+            real * rate_re - imaginary * rate_im + re_t,
+            real * rate_im + imaginary * rate_re + im_t,
+        )
+    return (value_re, value_im), (rate_re, rate_im), (slope_re, slope_im), (rising_re, rising_im)
+
+
+@kernel
+def weights_of(k, omega, weights, at):
+    """k^m omega^n/(m! n!) of a group of waves, into weights from `at` on, COUNT numbers a term."""
+    by_k = 1.0 + 0.0 * k
+    for m in range(ORDER + 1):
+        weight = by_k
+        for n in range(ORDER + 1 - m):
+            write_eight(weights, at, weight)
+            at += COUNT
+            weight = weight * omega * (1.0 / (n + 1))
+        by_k = by_k * k * (1.0 / (m + 1))
+
+
+@kernel
+def put_sums(weights, parts, of_part, groups, row, first):
+    """Sums over the waves of weights times a real and an imaginary part, for all terms, into a row of Work.sea.
+
+    parts: four vectors a group; of_part: the first of the two that are summed.
+    """
+    for term in range(TERMS):
+        re = im = 0.0 * read_eight(parts, 0)
+        for group in range(groups):
+            weight = read_eight(weights, (group * TERMS + term) * COUNT)
+            at = (4 * group + of_part) * COUNT
+            re += weight * read_eight(parts, at)
+            im += weight * read_eight(parts, at + COUNT)
+        row[first + 2 * term], row[first + 2 * term + 1] = total(re), total(im)
+
+
+@kernel
+def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
+    """The series of a sea about time t (s) and places X (n, 2), into Work.sea."""
+    n = X.shape[0]
+    gain = smooth_start(t, ramp)[0]
+    weights, begun = np.empty(groups * TERMS * COUNT), np.empty(groups * COUNT)
+    # of each group: sine, cosine, exponential up and down; and the parts that are summed
+    running, parts = np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
+    for group in range(groups):
+        row = at + ROW * COUNT * group
+        omega = eight_of(tables, row + COUNT * OMEGA)
+        weights_of(eight_of(tables, row + COUNT * K), omega, weights, group * TERMS * COUNT)
+        write_eight(begun, group * COUNT, phase_at(omega, eight_of(tables, row + COUNT * PHASE), t))
+    for j in range(n - 1, -1, -1):
+        x, top = X[j, 0], j == n - 1
+        dx = 0.0 if top else x - X[j + 1, 0]
+        for group in range(groups):
+            row, place = at + ROW * COUNT * group, 4 * COUNT * group
+            k = eight_of(tables, row + COUNT * K)
+            anew, squarings, share = division_of(tables[row + COUNT * K + COUNT - 1], abs(dx), depth)
+            if top or anew:
+                s, c = sincos(k * x + read_eight(begun, group * COUNT))
+            else:
+                s, c = read_eight(running, place), read_eight(running, place + COUNT)
+                s, c = turned(s, c, (share * k) * dx, squarings)
+            write_eight(running, place, s)
+            write_eight(running, place + COUNT, c)
+            if wheeler:
+                amplitude = eight_of(tables, row + COUNT * AMPLITUDE)
+                write_eight(parts, place, amplitude * c)
+                write_eight(parts, place + COUNT, amplitude * s)
+        z = max(X[j, 1], 0.0)
+        if wheeler:
+            put_sums(weights, parts, 0, groups, sea[j], SURFACE)
+            z *= stretching(depth, gain * sea[j, SURFACE])
+        dz = 0.0 if top else z - sea[j + 1, PLACE_Z]
+        for group in range(groups):
+            row, place = at + ROW * COUNT * group, 4 * COUNT * group
+            k = eight_of(tables, row + COUNT * K)
+            anew, squarings, share = division_of(tables[row + COUNT * K + COUNT - 1], abs(dz), depth)
+            if top or anew:
+                speed = eight_of(tables, row + COUNT * SPEED)
+                up, down = speed * exponential(k * (z - depth)), speed * exponential(-(k * (z + depth)))
+            else:
+                up, down = read_eight(running, place + 2 * COUNT), read_eight(running, place + 3 * COUNT)
+                up, down = raised(up, down, (share * k) * dz, squarings)
+            s, c = read_eight(running, place), read_eight(running, place + COUNT)
+            write_eight(running, place + 2 * COUNT, up)
+            write_eight(running, place + 3 * COUNT, down)
+            write_eight(parts, place, up * c)
+            write_eight(parts, place + COUNT, up * s)
+            write_eight(parts, place + 2 * COUNT, down * c)
+            write_eight(parts, place + 3 * COUNT, down * s)
+        put_sums(weights, parts, 0, groups, sea[j], UPPER)
+        put_sums(weights, parts, 2, groups, sea[j], LOWER)
+        sea[j, PLACE_X], sea[j, PLACE_Z] = x, z
+    sea[n, 0], sea[n, 1] = t, 1.0
+
+
+@kernel
+def put_heights(p, t, X, sea):
+    """Where the water of the nodes is taken, z or Wheeler's stretched height, into Work.sea."""
+    n = X.shape[0]
+    gain = smooth_start(t, p.ramp)[0]
+    for j in range(n):
+        height = larger(X[j, 1], 0.0)
+        if p.above == WHEELER:
+            eta = series(sea[j], SURFACE, t - sea[n, 0], 0.0, X[j, 0] - sea[j, PLACE_X])[0][0]
+            height = height * stretching(p.depth, gain * eta)
+        sea[j, HEIGHT] = height
+
+
+@kernel
+def due(p, t, X, sea):
+    """Are the sums to be taken anew: for a new step, or because a node or the time is out of reach?"""
+    n = X.shape[0]
+    moved = 0.0
+    for j in range(n):
+        dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
+        moved = larger(moved, dx * dx + dz * dz)
+    near = 1.0 - abs(t - sea[n, 0]) / p.sea_span
+    return (sea[n, 1] == 0.0) | (near < 0.0) | (moved > near * near * (p.sea_reach * p.sea_reach))
+
+
+@kernel
+def sea_in_plane(p, tables, t, X, F, sea):
+    """Water velocity and local acceleration at the nodes in a plane, added into F.
+
+    X (n, 2) x, z (m); F (n, 4), velocity (m/s), then its local rate (m/s2); sea (n + 1, WIDTH): of Work.
+    """
+    put_heights(p, t, X, sea)
+    if due(p, t, X, sea):
+        take_series(tables, p.sea_at, p.sea_n, p.above == WHEELER, p.depth, p.ramp, t, X, sea)
+        put_heights(p, t, X, sea)
+    _add_series(p, t, X, F, sea)
+
+
+@kernel
+def sea_in_lanes(p, tables, t, X, F, sea):
+    """As `sea_in_plane` for several runs: each lane that needs them takes its own sums."""
+    put_heights(p, t, X, sea)
+    needed = due(p, t, X, sea)
+    for b in range(COUNT):
+        if lane_of(needed, b):
+            depth, ramp = lane_of(p.depth, b), lane_of(p.ramp, b)
+            own, places, into = in_lane(tables, b), in_lane(X, b), in_lane(sea, b)
+            take_series(own, p.sea_at, p.sea_n, p.above == WHEELER, depth, ramp, lane_of(t, b), places, into)
+    put_heights(p, t, X, sea)
+    _add_series(p, t, X, F, sea)
+
+
+@kernel
+def wet_share(p, z):
+    """1, or 0 above still water where the scene says so."""
+    dry = 0.0 if p.above == ZERO else 1.0
+    return where(z > p.depth, dry, 1.0)
+
+
+@kernel
+def _add_series(p, t, X, F, sea):
+    """The field of full-grown waves, under their ramp, into F."""
+    n = X.shape[0]
+    gain, gain_rate = smooth_start(t, p.ramp)
+    dt = t - sea[n, 0]
+    for j in range(n):
+        dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
+        upper, upper_rate = series(sea[j], UPPER, dt, dz, dx)[:2]
+        lower, lower_rate = series(sea[j], LOWER, dt, -dz, dx)[:2]
+        wet = wet_share(p, X[j, 1])
+        U, W = wet * (upper[0] + lower[0]), wet * (upper[1] - lower[1])
+        F[j, 0] += gain * U
+        F[j, 1] += gain * W
+        F[j, 2] += gain * (wet * (upper_rate[0] + lower_rate[0])) + gain_rate * U
+        F[j, 3] += gain * (wet * (upper_rate[1] - lower_rate[1])) + gain_rate * W
+
+
+@kernel
+def sea_slopes(p, t, X, J, sea):
+    """J (n, 8): dF/dx (4) and dF/dz (4) at X (n, 2), for which `sea_in_plane` has been called, by harmonic functions as
+    in `waves.wave_slopes`."""
+    n = X.shape[0]
+    gain, gain_rate = smooth_start(t, p.ramp)
+    dt = t - sea[n, 0]
+    for j in range(n):
+        dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
+        upper, upper_rate = series(sea[j], UPPER, dt, dz, dx)[2:]
+        lower, lower_rate = series(sea[j], LOWER, dt, -dz, dx)[2:]
+        wet = wet_share(p, X[j, 1])
+        full_x, full_z = -wet * (upper[1] + lower[1]), wet * (upper[0] - lower[0])
+        U_x, U_z = gain * full_x, gain * full_z
+        A_x = gain * (-wet * (upper_rate[1] + lower_rate[1])) + gain_rate * full_x
+        A_z = gain * (wet * (upper_rate[0] - lower_rate[0])) + gain_rate * full_z
+        by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
+        if p.above == WHEELER:
+            surface, _, slope, _ = series(sea[j], SURFACE, dt, 0.0, dx)
+            stretch = stretching(p.depth, gain * surface[0])
+            by_x = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * (gain * slope[1])
+            by_z = by_z * stretch
+        J[j, 0], J[j, 4] = U_x + by_x * U_z, by_z * U_z
+        J[j, 1], J[j, 5] = U_z - by_x * U_x, -by_z * U_x
+        J[j, 2], J[j, 6] = A_x + by_x * A_z, by_z * A_z
+        J[j, 3], J[j, 7] = A_z - by_x * A_x, -by_z * A_x
