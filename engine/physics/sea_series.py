@@ -134,30 +134,33 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
     """The series of a sea about time t (s) and places X (n, 2), into Work.sea."""
     n = X.shape[0]
     gain = smooth_start(t, ramp)[0]
-    weights, begun = np.empty(groups * TERMS * COUNT), np.empty(groups * COUNT)
-    # of each group: sine, cosine, exponential up and down; and the parts that are summed
-    running, parts = np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
+    weights = np.empty(groups * TERMS * COUNT)
+    # of each group: k, amplitude, speed and phase at x = 0; sine, cosine, exponential up and down; what is summed
+    waves, running, parts = np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
     for group in range(groups):
-        row = at + ROW * COUNT * group
-        omega = eight_of(tables, row + COUNT * OMEGA)
-        weights_of(eight_of(tables, row + COUNT * K), omega, weights, group * TERMS * COUNT)
-        write_eight(begun, group * COUNT, phase_at(omega, eight_of(tables, row + COUNT * PHASE), t))
+        row, place = at + ROW * COUNT * group, 4 * COUNT * group
+        k, omega = eight_of(tables, row + COUNT * K), eight_of(tables, row + COUNT * OMEGA)
+        weights_of(k, omega, weights, group * TERMS * COUNT)
+        write_eight(waves, place, k)
+        write_eight(waves, place + COUNT, eight_of(tables, row + COUNT * AMPLITUDE))
+        write_eight(waves, place + 2 * COUNT, eight_of(tables, row + COUNT * SPEED))
+        write_eight(waves, place + 3 * COUNT, phase_at(omega, eight_of(tables, row + COUNT * PHASE), t))
     for j in range(n - 1, -1, -1):
         x, top = X[j, 0], j == n - 1
         dx = 0.0 if top else x - X[j + 1, 0]
         for group in range(groups):
-            row, place = at + ROW * COUNT * group, 4 * COUNT * group
-            k = eight_of(tables, row + COUNT * K)
-            anew, squarings, share = division_of(tables[row + COUNT * K + COUNT - 1], abs(dx), depth)
+            place = 4 * COUNT * group
+            k = read_eight(waves, place)
+            anew, squarings, share = division_of(waves[place + COUNT - 1], abs(dx), depth)
             if top or anew:
-                s, c = sincos(k * x + read_eight(begun, group * COUNT))
+                s, c = sincos(k * x + read_eight(waves, place + 3 * COUNT))
             else:
                 s, c = read_eight(running, place), read_eight(running, place + COUNT)
                 s, c = turned(s, c, (share * k) * dx, squarings)
             write_eight(running, place, s)
             write_eight(running, place + COUNT, c)
             if wheeler:
-                amplitude = eight_of(tables, row + COUNT * AMPLITUDE)
+                amplitude = read_eight(waves, place + COUNT)
                 write_eight(parts, place, amplitude * c)
                 write_eight(parts, place + COUNT, amplitude * s)
         z = max(X[j, 1], 0.0)
@@ -166,11 +169,11 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
             z *= stretching(depth, gain * sea[j, SURFACE])
         dz = 0.0 if top else z - sea[j + 1, PLACE_Z]
         for group in range(groups):
-            row, place = at + ROW * COUNT * group, 4 * COUNT * group
-            k = eight_of(tables, row + COUNT * K)
-            anew, squarings, share = division_of(tables[row + COUNT * K + COUNT - 1], abs(dz), depth)
+            place = 4 * COUNT * group
+            k = read_eight(waves, place)
+            anew, squarings, share = division_of(waves[place + COUNT - 1], abs(dz), depth)
             if top or anew:
-                speed = eight_of(tables, row + COUNT * SPEED)
+                speed = read_eight(waves, place + 2 * COUNT)
                 up, down = speed * exponential(k * (z - depth)), speed * exponential(-(k * (z + depth)))
             else:
                 up, down = read_eight(running, place + 2 * COUNT), read_eight(running, place + 3 * COUNT)
