@@ -1,8 +1,8 @@
-"""Law: a sphere without drag on a taut, nearly massless line answers two waves of less than a millimetre as a linear oscillator does.
+"""Law: a sphere without drag on a taut, nearly massless line answers two waves of less than a millimetre linearly.
 
-m x'' = -(P/z) x + (rho V + M_a) dU/dt, so that x is Duhamel's integral of the load, here by quadrature: from rest, start
-of the waves included. P is the pull of the line, z the height of the sphere above its anchor; m has a third of the
-line's mass and added mass (Rayleigh).
+m x'' = -(P/z) x + (rho V + M_a) dU/dt, so that x is Duhamel's integral of the load, here by quadrature: from rest,
+start of the waves included. P is the pull of the line, z the height of the sphere above its anchor; m has a third of
+the line's mass and added mass (Rayleigh).
 """
 
 import numpy as np
