@@ -192,7 +192,10 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         if (evidence[-1].passed or without_growth) and (later.found or shrinks):
             reason = estimate.reason
             if later.found:
-                reason += f"; perturbations grow by {evidence[-1].value:.3f} bits per period at most"
+                pace = f"grow by less than {SEEN:g} bits per period"
+                if evidence[-1].value < 0.0:
+                    pace = "shrink"
+                reason += f"; perturbations {pace}"
             return look(f"period-{estimate.period}", reason)
         repeats = f"; yet the strobed state {estimate.reason}"
     if not later.found:

@@ -225,7 +225,7 @@ class Study:
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
-        unsound = bool(faults) or (not self._scene_as_shipped(values) and order.base() is None)
+        unsound = not self._scene_as_shipped(values) and order.base() is None
         if unsound:  # the cases tell why, before the key of the order loads anything heavy
             self._add_cases(order)
         if faults:

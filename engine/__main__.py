@@ -16,7 +16,7 @@ from pathlib import Path
 
 import engine.scene
 from engine import views
-from engine.atomic import can_be_written
+from engine.atomic import can_be_written, is_netcdf
 from engine.streams import open_streams, printed
 
 MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
@@ -43,8 +43,8 @@ def parser() -> argparse.ArgumentParser:
     until = (
         f"length in wave periods (default: until the verdict, {MOST_PERIODS} at most; without perturbations {PERIODS})"
     )
-    length.add_argument("--periods", metavar="N", type=float, help=until)
-    length.add_argument("--duration", metavar="S", type=float, help="length in seconds; needed without waves")
+    length.add_argument("--periods", metavar="N", help=until)
+    length.add_argument("--duration", metavar="S", help="length in seconds; needed without waves")
     shown = "file of the figure, .png, .svg or .pdf (default: a window, or results/engine/NAME.png without a display)"
     options.add_argument("--out", metavar="FILE", type=Path, help=shown)
     return options
@@ -79,11 +79,13 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     elif scene is not None and options.periods is options.duration is None:
         if not (views.in_regular_waves(scene) and scene.output.tangent_vectors):
             options.periods = PERIODS
-    for option, length in (("--periods", options.periods), ("--duration", options.duration)):
-        if length is not None and not 0.0 < length < float("inf"):
-            faults.append(f"{option}: given {length:g}; allowed: a finite number above 0")
+    for option in ("periods", "duration"):
+        setattr(options, option, _length(option, getattr(options, option), faults))
     if options.out is not None:
         faults += _faults_of(options.out)
+    if options.start_from is not None and not is_netcdf(options.start_from):
+        allowed = "the file of a run, of trajectories/ or of Trajectory.save"
+        faults.append(f"--start-from: given {str(options.start_from)!r}; allowed: {allowed}")
     if not faults and scene.waves is not None and options.start_from is None:  # else the sea of the earlier run goes on
         from engine.physics.sea import enough_waves
 
@@ -93,6 +95,20 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     if not faults:
         faults += _faults_of_run(options)
     return options
+
+
+def _length(name: str, text: str | None, faults: list[str]) -> float | None:
+    """The number of --periods or --duration; None where it was not given or is at fault."""
+    if text is None:
+        return None
+    try:
+        length = float(text)
+    except ValueError:
+        length = float("nan")
+    if not 0.0 < length < float("inf"):
+        faults.append(f"--{name}: given {text}; allowed: a finite number above 0")
+        return None
+    return length
 
 
 def _hint(message: str) -> str:

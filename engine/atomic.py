@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all, and whether a folder takes one."""
+"""Files that appear whole or not at all, whether a folder takes one, and whether a file may be that of a run."""
 
 import contextlib
 import os
@@ -16,6 +16,14 @@ def can_be_written(folder: str | Path) -> bool:
             return True
     except OSError:
         return False
+
+
+def is_netcdf(path: str | Path) -> bool:
+    """Whether a file can be read and begins as netCDF-3 does: told without the libraries that read all of it."""
+    if not os.path.isfile(path) or not os.access(path, os.R_OK):
+        return False
+    with open(path, "rb") as file:
+        return file.read(3) == b"CDF"
 
 
 def write_atomic(path: str | Path, content: bytes) -> None:

@@ -213,6 +213,7 @@ def facts(run: "Trajectory") -> dict[str, str]:
         if breaking_N is not None:
             largest_N = run.columns["tension_top_high_N"].max()
             texts["strength"] = f"largest tension at the top is {largest_N / breaking_N:.2%} of tether.breaking_load_N"
+        texts |= _snaps_in_words(run)
     loops = run.statistics.get("loop_releases")
     if loops:
         texts["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
@@ -221,6 +222,19 @@ def facts(run: "Trajectory") -> dict[str, str]:
             texts["exponent"] = str(exponent(run))
         texts["verdict"] = str(verdict(run))
     return texts
+
+
+def _snaps_in_words(run: "Trajectory") -> dict[str, str]:
+    """The fact "snaps" of a whole run; nothing of a line that bears no tension at rest, by which snaps are measured."""
+    try:
+        counted = snaps_of(run.scene, run.columns)
+    except ValueError:
+        return {}
+    text = f"{len(counted)} in {counted.watched_s:.4g} s"
+    if len(counted):
+        hardest = counted.peak_N.argmax()
+        text += f"; the hardest pulls with {counted.peak_N[hardest]:.2f} N (t = {counted.peak_s[hardest]:.5g} s)"
+    return {"snaps": f"whole run: {text}"}
 
 
 def snaps(

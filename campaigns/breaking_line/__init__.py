@@ -153,12 +153,12 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     for row in rows:
         if row["kind"] != "case" or row["status"] != "ok":
             continue
-        speeds.append(f"{number_of(row, 'end_speed_mps'):.0f} (case {row['case']})")
+        speeds.append(f"{number_of(row, 'end_speed_mps'):.0f} m/s (case {row['case']})")
         error = number_of(row, "end_speed_error")
         if isfinite(error):
             errors.append(abs(error))
     if speeds:
-        yield f"The broken ends come back at {listed(speeds)} m/s."
+        yield f"The broken ends come back at {listed(speeds)}."
     if errors:
         yield f"Exact theory gives {len(errors)} of these speeds, within {100.0 * max(errors):.2g} %."
     yield from verdicts(order.how.out, quoted=4)

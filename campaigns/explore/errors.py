@@ -21,7 +21,7 @@ the companion had less than a quarter of the error, where chance does not decide
 
 Both are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
 where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter.
-Rows whose scenes do not go in lanes stay empty.
+Rows of runs in three dimensions stay empty.
 """
 
 import math
@@ -44,7 +44,7 @@ from campaigns.judge import job_from, periods_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
-from engine import goes_in_lanes, simulate
+from engine import simulate
 from engine.run.rest import static_tension_N
 from tables import (
     COARSE,
@@ -130,7 +130,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)
     if period and f"{NEARER}: " in (row.get("evidence") or ""):
         run, transient = orbit_ahead(run, orbits)[0].run, 0  # a run on the orbit, from its first moment on
-    if run.final_state is None or not goes_in_lanes(scene):
+    if run.final_state is None or scene.motion.dimensions == 3:
         return None
     length, motion = OTHERS, None
     if period:

@@ -71,10 +71,11 @@ def varied(
     option: str = "--vary",
     of_words: bool = False,
     numbers: Sequence[float] | None = None,
+    count: int | None = None,
 ) -> Varied | None:
     """The key and values of KEY LO HI COUNT; None where one is at fault. of_words: or of KEY WORD WORD ...
 
-    numbers: of a program, in place of LO HI COUNT; the only word is then the key.
+    numbers: of a program, in place of LO HI COUNT; the only word is then the key. count: of a program, after KEY LO HI.
     """
     from engine.scene.faults import suggestion
     from engine.scene.reference import keys
@@ -90,7 +91,7 @@ def varied(
         if not values:
             faults.append(f"{option} {key}: given nothing; allowed: its words")
     else:
-        values = numbers or cli.evenly(words[1:], f"{option} {key}", faults)
+        values = numbers or cli.evenly(words[1:], f"{option} {key}", faults, count=count)
         digits = max((len(f"{value:.6f}".rstrip("0").partition(".")[2]) for value in values), default=0)
     if declared is None:
         faults.append(f"{option} {key}: no such key{suggestion(name, list(keys()))}")

@@ -35,6 +35,9 @@ def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequen
     words = [f"peak top tension {largest(peak)}"]
     if modes and modes.static_tension_N:  # else there is no closed form
         words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
+    share = number_of(peak, "utilisation")
+    if math.isfinite(share):
+        words[0] += f", {100.0 * share:.2g} % of the breaking load"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:

@@ -29,7 +29,8 @@ def _starts(text: str):
 
 def kick_speed(use: str = "kicks are velocities of up to this along x and z, m/s") -> Any:
     """--kick-speed. use: of which starts."""
-    return cli.option("MPS", use, cli.POSITIVE, SPEED_MPS)
+    sound = cli.number("a number above 0 and at most 100", lambda speed: 0.0 < speed <= 100.0)
+    return cli.option("MPS", use, sound, SPEED_MPS)
 
 
 SEED_OF_KICKS = "of the kicks, drawn independently and uniformly"
@@ -51,7 +52,7 @@ class Starts(cli.Options):
     start_from: str | None = cli.option(
         "FILE",
         "run from the final state of this run (a file of trajectories/) instead of from rest",
-        cli.Kind(str, "a file of a run"),
+        cli.RUN_FILE,
     )
     evidence: str = cli.option(
         "dynamics|full",

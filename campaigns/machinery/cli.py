@@ -24,7 +24,7 @@ from typing import Any
 
 import engine
 import engine.scene
-from engine.atomic import can_be_written
+from engine.atomic import can_be_written, is_netcdf
 
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
@@ -80,6 +80,7 @@ SECONDS = number("seconds, a finite number above 0", lambda value: 0.0 < value <
 SCHEDULER = Kind(_scheduler, "the address of a scheduler, as tcp://HOST:PORT")
 # an empty name, as of a shell variable that is not set, would be the current folder
 FOLDER = Kind(lambda text: Path(_checked(str.strip, text)), "a folder")
+RUN_FILE = Kind(lambda text: _checked(is_netcdf, text), "the file of a run, of trajectories/ or of Trajectory.save")
 
 
 @dataclass(frozen=True)
@@ -334,16 +335,25 @@ def _parted(word: str, kind: Kind) -> str:
     return f"; separated by spaces: {' '.join(parts)}"
 
 
-def evenly(words: list[str], option: str, faults: list[str], least: float = -math.inf) -> list[float]:
-    """The values of LO HI COUNT, both ends included; none where the words are at fault. least: LO is not below."""
+def evenly(
+    words: list[str], option: str, faults: list[str], least: float = -math.inf, count: int | None = None
+) -> list[float]:
+    """The values of LO HI COUNT, both ends included; none where the words are at fault.
+
+    least: LO is not below. count: of a program; the words are then LO HI.
+    """
+    floor = "" if least == -math.inf else f"{least:g} <= "
+    form, allowed = "LO HI", f"two finite numbers, {floor}LO < HI"
+    if count is None:
+        form, allowed = f"{form} COUNT", f"{allowed}, and {whole(2, MOST_RUNS).allowed}"
     try:
-        low, high, count = float(words[0]), float(words[1]), whole(2, MOST_RUNS).convert(words[2])
-        if len(words) != 3 or not least <= low < high < math.inf or low == -math.inf:
+        low, high = float(words[0]), float(words[1])
+        if len(words) != len(form.split()) or not least <= low < high < math.inf or low == -math.inf:
             raise ValueError(words)
+        if count is None:
+            count = whole(2, MOST_RUNS).convert(words[2])
     except (ValueError, IndexError):
-        floor = "" if least == -math.inf else f"{least:g} <= "
-        allowed = f"two finite numbers, {floor}LO < HI, and {whole(2, MOST_RUNS).allowed}"
-        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: LO HI COUNT: {allowed}")
+        faults.append(f"{option}: given {' '.join(words) or 'nothing'}; allowed: {form}: {allowed}")
         return []
     # Twelve digits: 0.13 of a range is the 0.13 that a list of values reads, and so the same run.
     return [float(f"{low + (high - low) * step / (count - 1):.12g}") for step in range(count)]

@@ -47,7 +47,7 @@ class Options(cli.Options):
     start_from: str | None = cli.option(
         "FILE",
         "the orbit under the last state of this run (a file of trajectories/), in its own scene",
-        cli.Kind(str, "a file of a run"),
+        cli.RUN_FILE,
     )
     motion: str | None = cli.option(
         "LETTER",
@@ -76,7 +76,7 @@ class Options(cli.Options):
         if len(words) != 3:
             faults.append(f"--vary: given {' '.join(words)}; allowed: KEY LO HI, for instance water.depth_m 22 25")
             words = USUAL.split()
-        key = varied([*words, str(self.values)], faults)
+        key = varied(words, faults, count=self.values)
         self.grid = Grid(() if key is None else (key,))
         if self.curves is None:
             return
@@ -84,7 +84,7 @@ class Options(cli.Options):
             given = " ".join(self.curves)
             faults.append(f"--curves: given {given}; allowed: KEY2 LO HI, for instance water.depth_m 22 25")
             return
-        self.second = varied([*self.curves, "2"], faults, "--curves")
+        self.second = varied(self.curves, faults, "--curves", count=2)
         if key is not None and self.second is not None and self.second.key == key.key:
             faults.append(f"--curves {key.key}: is the key of --vary; allowed: another one")
 

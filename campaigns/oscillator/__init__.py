@@ -35,6 +35,10 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
         elif value < -2 * error:
             word = "regular"
         sentences.append(f"The motion is {word}: largest exponent {value:.4f} +- {error:.4f} bits per forcing period.")
+        starts, elsewhere = number_of(exponents, "starts"), number_of(exponents, "elsewhere")
+        if elsewhere > 0:
+            others = f"{elsewhere:.0f} of {starts:.0f} starts"
+            sentences.append(f"The start decides: {others} end in a periodic motion instead.")
     force = grazing_force(SnapOscillator(**order.options.changes))
     if force > 0.0:
         sentences.append(f"The line stays taut up to a force of F = {force:.4f}.")

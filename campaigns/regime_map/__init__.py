@@ -52,7 +52,7 @@ class Options(cli.Options):
     curves: str | None = cli.option(
         "FOLDER",
         "draw the curves of this folder of campaigns.orbits --curves, over the same two keys",
-        cli.Kind(str, "a folder"),
+        cli.Kind(curves.folder_of_curves, "a folder of campaigns.orbits --curves"),
     )
     screen: bool = cli.flag("a massless tether only")
     grid: CellGrid | None = None

@@ -16,6 +16,13 @@ FILES = "columns.csv", "table.csv"
 OF_AN_ORBIT = "gravity_mps2", "tether", "anchor", "end", "buoy", "water", "waves"  # parts of a scene
 
 
+def folder_of_curves(text: str) -> str:
+    """The name of a folder that has curves. Raises ValueError without them."""
+    if not (Path(text) / FOLDER / FILES[1]).is_file():
+        raise ValueError(text)
+    return text
+
+
 def faults(folder: str, grid: CellGrid, place: "Row", scene) -> Iterator[str]:
     """Why the curves of a folder cannot be drawn on a map. scene: that of the map at a place."""
     from engine.scene import SceneError, scene_from_toml

@@ -1,10 +1,10 @@
-"""What a sea, or a map of seas, showed, in sentences: memory of the start, motion, loads, certainty."""
+"""What a sea, or a map of seas, showed, in lines: loads, snaps, motion, memory of the start, exponent, certainty."""
 
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from campaigns.answers import greatest, kilonewton
+from campaigns.answers import greatest, kilonewton, line
 from campaigns.sea.cells import WELL_ABOVE
 from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
 
@@ -23,13 +23,15 @@ def sentences(cells: Sequence[Row], options) -> Iterator[str]:
 
 
 def _of_sea(cell: Row, options) -> Iterator[str]:
-    yield _memory(cell, options)
+    yield line("LOAD", _load(cell))
+    yield line("FATIGUE", _fatigue(cell, options))
+    yield line("SNAPS", _snaps(cell))
+    yield line("MOTIONS", _visits(cell, options))
+    yield line("STARTS", _memory(cell, options))
     if math.isfinite(number_of(cell, TANGENT_EXPONENT)):
-        yield _exponent(cell, options)
-    yield _visits(cell, options)
-    yield _loads(cell)
-    yield _fatigue(cell, options)
-    yield from _certainty(cell, options)
+        yield line("CHAOS", _exponent(cell, options))
+    for doubt in _doubts(cell, options):
+        yield line("CHECK", doubt)
 
 
 def _memory(cell: Row, options) -> str:
@@ -92,40 +94,41 @@ def _visits(cell: Row, options) -> str:
     return f"{words}."
 
 
-def _loads(cell: Row) -> str:
-    words = "Snaps are not counted, because the line bears no tension at rest"
-    if math.isfinite(number_of(cell, "snaps_per_hour")):
-        words = f"{number_of(cell, 'snaps_per_hour'):.0f} snaps an hour"
+def _snaps(cell: Row) -> str:
+    if not math.isfinite(number_of(cell, "snaps_per_hour")):
+        return "not counted, because the line bears no tension at rest."
+    words = f"{number_of(cell, 'snaps_per_hour'):.0f} an hour"
     error = number_of(cell, "snaps_per_hour_error")
     if math.isfinite(error):
         words += f" (± {error:.0f})"
+    return f"{words}."
+
+
+def _load(cell: Row) -> str:
     storm_N = number_of(cell, "storm_maximum_N")
     if not math.isfinite(storm_N):
-        return f"{words}; no three-hour maximum: {cell.get('storm_reason')}."
+        return f"no three-hour maximum: {cell.get('storm_reason')}."
     low_N, high_N = number_of(cell, "storm_low_N"), number_of(cell, "storm_high_N")
-    words += f"; three-hour maximum {kilonewton(storm_N)} ({low_N / 1e3:.3g} to {high_N / 1e3:.3g})"
+    words = f"three-hour maximum {kilonewton(storm_N)} ({low_N / 1e3:.3g} to {high_N / 1e3:.3g})"
     regular_N, high_wave_N = number_of(cell, "regular_N"), number_of(cell, "regular_high_N")
     if math.isfinite(regular_N):
         words += f", {storm_N / regular_N:.1f} times that of the regular design wave of H_s"
     if math.isfinite(high_wave_N):
         words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
-    return f"{words}."
-
-
-def _fatigue(cell: Row, options) -> str:
-    words = (
-        f"One cycle of {kilonewton(number_of(cell, 'equivalent_load_N'))} a peak period does the damage of the sea "
-        f"(S-N slope {options.slope:g})"
-    )
     used = number_of(cell, "utilisation")
     if math.isfinite(used):
         return f"{words}; the line is used to {used:.0%} by DNV-OS-E301, consequence class 1."
-    if not math.isfinite(number_of(cell, "storm_maximum_N")):
-        return f"{words}; without a three-hour maximum there is no utilisation of the line."
     return f"{words}; tether.breaking_load_N gives the utilisation."
 
 
-def _certainty(cell: Row, options) -> Iterator[str]:
+def _fatigue(cell: Row, options) -> str:
+    return (
+        f"one cycle of {kilonewton(number_of(cell, 'equivalent_load_N'))} a peak period does the damage of the sea "
+        f"(S-N slope {options.slope:g})."
+    )
+
+
+def _doubts(cell: Row, options) -> Iterator[str]:
     value, error = number_of(cell, TANGENT_EXPONENT), number_of(cell, TANGENT_ERROR)
     finer, finer_error = number_of(cell, "finer_bits_per_period"), number_of(cell, "finer_error")
     if math.isfinite(finer):

@@ -42,6 +42,8 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     key ends in it, as steepness=0.13.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
+    if not isinstance(overrides, Mapping | None):
+        raise TypeError(f"overrides: given {overrides!r}; allowed: a mapping of keys to values")
     text, changes = _text_of(name_or_path), dict(overrides or {})
     for word, value in keywords.items():
         ends = ending_in(word, Scene)

@@ -57,7 +57,7 @@ def front_speeds(strain: np.ndarray, speed_mps: np.ndarray, measured: list[tuple
         slow = name.endswith("′")
         marks, size = (_SLOW, 6) if slow else (_MARKS, 3.5)
         mark, colour = marks[(int(name[0]) - 1) % 4]
-        lines.append(Curve(100 * at, speeds, name, "", mark, colour, size=size, filled=not slow))
+        lines.append(Curve(100 * at, speeds, f"case {name}", "", mark, colour, size=size, filled=not slow))
     return curves([[Panel(lines, "strain (%)", "speed of the contour (m/s)")]], 2.9, "lower right")
 
 

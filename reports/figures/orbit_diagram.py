@@ -21,6 +21,7 @@ _NEUTRAL = "#8b95a0"
 _LETTER_IN = 0.062  # mean width of a letter of 7 points
 _SMALL = 1 / 3  # of the range of all points: what of it motions may take that are drawn again, larger
 _LEAST_WIDE = 0.15  # of the axis, for those
+_LEAST_LARGER = 2.0  # times, for which it is drawn again
 _PERIOD = "period-"
 _BETWEEN = "not judged"
 _HATCHES = {"quasi-periodic": "////", "chaotic": "xxxxxx", "transient": "....", "undecided": "---"}  # of words
@@ -316,12 +317,14 @@ def _small(columns: Sequence[Strobes], several: bool) -> tuple[list[Strobes], tu
 
 
 def _enlarged(axes, columns: list[Strobes], ends: tuple[float, float], above: float, inch: float, motions) -> None:
-    """The columns again, over the same parameter, in what is blank below or above them."""
+    """The columns again, over the same parameter, in what is blank below or above them, if there is room for it."""
     (bottom, top), (x_min, x_max) = axes.get_ylim(), axes.get_xlim()
     edges, room = cell_edges(np.unique([column.at for column in columns])), 0.12 * (top - bottom)
     low, high = bottom + 0.3 * room, ends[0] - room
     if above:
         low, high = ends[1] + room, top - 0.3 * room
+    if high - low < _LEAST_LARGER * (ends[1] - ends[0]):
+        return
     width = (edges[-1] - x_min) / (x_max - x_min)
     inner = axes.inset_axes((0.0, (low - bottom) / (top - bottom), width, (high - low) / (top - bottom)))
     _points(inner, columns, inch, motions)

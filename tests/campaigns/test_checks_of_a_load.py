@@ -3,7 +3,7 @@
 import pytest
 
 from campaigns.explore.answer import sentences
-from campaigns.explore.load import use_of
+from campaigns.explore.load import load, use_of
 from engine import load_scene
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
@@ -36,6 +36,12 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
     best = PULLS | {name: entry for known in KNOWN.values() for name, entry in known.items()}
     bedded = load_scene("tethered_buoy", IN_SCENE["sea bed"])
     assert checked(best, bedded, searched=True)[1] == "an irregular sea."
+
+
+def test_a_load_names_its_share_of_a_known_breaking_load_only():
+    row = PULLS | {"utilisation": 0.0173}
+    assert "1.7 % of the breaking load" in load([row], {"steepness": "kA"}, load_scene("tethered_buoy"))
+    assert "breaking load" not in load([PULLS], {"steepness": "kA"}, load_scene("tethered_buoy"))
 
 
 @pytest.mark.parametrize("name", KNOWN)

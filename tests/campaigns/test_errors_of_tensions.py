@@ -88,6 +88,23 @@ def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_toleran
     assert job.going(job.scene, None, None, {})[:3] == (job.scene, periods, state)
 
 
+@pytest.mark.parametrize(
+    ("changes", "followed"),
+    [
+        ({"floor.stiffness_Npm3": 1e5}, True),
+        ({"output.profiles": True}, True),
+        ({"motion.dimensions": 3}, False),
+    ],
+)
+def test_the_companion_of_a_run_in_a_plane_needs_no_lanes(changes, followed, monkeypatch):
+    run = sines(load_scene("tethered_buoy", changes), 90)
+    state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
+    monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
+    row = {"run_key": "of the run", "regime": "chaotic", "transient_periods": 30, "periods": 90.0}
+    companion = errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row)
+    assert (companion is not None) == followed
+
+
 @pytest.mark.slow
 def test_a_violent_stiff_snap_whose_largest_tension_moves_with_the_steps_says_so(tmp_path):
     """On 41 nodes at EA = 1e7 N largest tensions of default and tighter steps differ by more than 5 %."""

@@ -1,5 +1,6 @@
 """What a run says of itself, on motions made of known lines: period 2, a torus, a failed run, one without waves."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -66,6 +67,24 @@ def test_exponent_and_verdict_speak_of_the_same_part():
     verdict, exponent = run.verdict(), run.exponent()
     assert verdict.transient == 130 and exponent.details["periods"] == PERIODS - 130
     assert exponent.value == pytest.approx(-0.2 / np.log(2.0), abs=0.01)
+    assert "perturbations shrink" in verdict.reason
+
+
+@pytest.mark.parametrize(("ratio", "growth"), [(0.5, -0.2), (GOLDEN, 0.0), (GOLDEN, 0.3)])
+def test_a_run_has_one_number_for_the_growth_of_its_perturbations(ratio, growth):
+    run = moved(ratio, growth)
+    exponent = run.exponent()
+    for number in re.findall(r"(\S+ ± \S+) bits per period", str(run.verdict())):
+        assert number == f"{exponent.value:.3f} ± {exponent.error:.3f}"
+
+
+def test_the_snaps_of_a_run_are_one_of_its_facts():
+    """A tension that is zero in the first half of every wave, and in the second twice that at rest."""
+    run = moved(0.5)
+    pulls = np.where(np.arange(PERIODS * STEPS + 1) % STEPS >= STEPS // 2, 4000.0, 0.0)
+    pulls[0] = 2000.0
+    run.columns["tension_top_N"], run.columns["tension_top_high_N"] = pulls, pulls
+    assert facts(run)["snaps"] == "whole run: 310 in 1550 s; the hardest pulls with 4000.00 N (t = 2.5 s)"
 
 
 def test_a_column_is_told_by_its_name_or_refused_with_all_names():

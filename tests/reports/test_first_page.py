@@ -76,6 +76,8 @@ def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_ot
     assert all(((column.points < place.y0) | (column.points > place.y1)).all() for column in inside)
     OrbitDiagram(columns_of((8.0, 8.0)), LABELS, []).drawn()
     assert not drawn[1].axes[0].child_axes, "nothing small, nothing larger"
+    OrbitDiagram(columns_of((2.0, 8.0)), LABELS, []).drawn()
+    assert not drawn[2].axes[0].child_axes, "no room to draw it twice as high"
 
 
 def test_both_forms_hold_the_same(drawn):
