@@ -206,12 +206,6 @@ def test_the_list_of_campaigns_is_no_mistake(capsys, words):
     assert "buoy_sweep     Sweep of wave steepness" in said and "sweep          Sweep of any number" in said
 
 
-def test_a_campaign_is_run_by_its_name_too(capsys):
-    with pytest.raises(SystemExit) as ended:
-        every_campaign(["sweep", "--help"])
-    assert ended.value.code == 0 and "--vary" in capsys.readouterr().out
-
-
 @pytest.fixture
 def place(tmp_path, monkeypatch):
     for name, text in FILES.items():
