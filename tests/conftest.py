@@ -1,4 +1,5 @@
-"""Where all tests run in two processes, each compiles other kernels: side by side they would compile the same ones."""
+"""Where all tests run in several processes, each compiles other kernels, because side by side they would compile the
+same ones; and each begins with some of the longest tests."""
 
 import pytest
 
@@ -10,6 +11,30 @@ SCENES = (  # what most tests need: changes of the tethered buoy, and as of `eng
     ({"motion.dimensions": 3}, False, False),
     ({"solver.scheme": "paper-box"}, False, False),
 )
+LONGEST = "test_pages.py", "test_own_mooring_page.py", "test_lowest_versions.py"  # minutes each, last in the alphabet
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config, items):
+    """Put the longest tests at the beginnings of the blocks, of equal size, with which the processes start.
+
+    A long test that began last would keep one process busy when the others have ended.
+    """
+    processes = getattr(config, "workerinput", {}).get("workercount", 1)
+    longest, others = [], []
+    for item in items:
+        is_long = item.path.name in LONGEST and item.get_closest_marker("slow") is not None
+        (longest if is_long else others).append(item)
+    left = len(items)
+    items.clear()
+    for number in range(processes):
+        size = left // (processes - number)
+        first = longest[number::processes]
+        room = max(size - len(first), 0)
+        items += first + others[:room]
+        del others[:room]
+        left -= size
+    items += others
 
 
 @pytest.hookimpl(trylast=True)

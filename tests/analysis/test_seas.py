@@ -33,6 +33,18 @@ def test_the_exponent_of_several_seas_is_their_mean_within_its_error():
     assert not sea_lyapunov([np.zeros(20)]).found
 
 
+def test_errors_of_two_seas_join_as_independent_ones():
+    pair = [growth(400, np.random.default_rng(seed)) for seed in (1, 2)]
+    alone = [sea_lyapunov([growth_nats]).error for growth_nats in pair]
+    assert sea_lyapunov(pair).error == pytest.approx(np.hypot(*alone) / 2)
+
+
+def test_of_seas_that_scatter_more_than_their_errors_the_scatter_is_the_error():
+    rng = np.random.default_rng(5)
+    exponent = sea_lyapunov([growth(400, rng, mean) for mean in (-0.9, 0.0, 0.9)])
+    assert exponent.error == pytest.approx(np.std(exponent.details["seas"], ddof=1) / np.sqrt(3.0))
+
+
 def test_windows_that_grow_are_counted():
     assert growing_share([1, 1, -3, 1, 1, 1, -1, -1, 5], 2) == 0.5
 
@@ -63,7 +75,7 @@ def test_two_attractors_stay_two_responses():
 
 def test_starts_that_part_for_a_while_are_counted():
     apart = np.ones(100)
-    apart[20:50] = apart[70:] = 0.0
+    apart[5:10] = apart[20:50] = apart[70:] = 0.0  # five samples are a passing by
     answer = responses(np.stack([np.zeros((100, 1)), apart[:, None]]), [1.0], 0.01)
     assert (answer.together_at, answer.together_mean, answer.partings) == (20, 30, 1)
     assert answer.together_share == pytest.approx(60 / 80)

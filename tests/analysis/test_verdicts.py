@@ -155,14 +155,14 @@ def test_one_sample_far_outside_leaves_no_verdict(row):
 
 
 @pytest.mark.slow
-def test_at_least_nine_of_ten_records_of_the_snapping_buoy_are_chaotic_and_none_is_periodic():
+def test_eleven_of_twelve_records_of_the_snapping_buoy_are_chaotic_and_none_is_periodic():
     """Eq. (33) at the paper's parameters: consecutive pieces of one orbit, 400 periods each; displacement only."""
     snap, words = SnapOscillator(), []
-    for seed in range(20):
+    for seed in range(12):
         start = strobed_states(snap, (0.68, 0.0), 1, 500 + 400 * seed)[0]
         record = snap_motion(snap, start, 400, 48).displacement
         words.append(regime(record, snap.period / 48, snap.period, seed=seed).regime)
-    assert words.count("chaotic") >= 18
+    assert words.count("chaotic") >= 11
     assert not any(word.startswith("period-") for word in words)
 
 

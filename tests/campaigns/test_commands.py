@@ -109,6 +109,10 @@ FILES = {
     "kept/series.csv": table(ROWS),
     "whole/series.csv": table(ROWS),
     "whole/provenance.json": json.dumps({"campaign": "time_series"}),
+    "nothing.csv": "",
+    "no_row.csv": "time_s,elevation_m\n",
+    "one_column.csv": "time_s\n0\n1\n",
+    "nan_gauge.csv": "time_s,elevation_m\n0,0.1\n1,nan\n2,0.1\n",
     "image.csv": bytes(range(128, 256)),
     "latin1.csv": "t,höhe\n".encode("latin-1"),
     "table.xlsx": b"PK\x03\x04 and more",
@@ -204,12 +208,6 @@ def test_the_list_of_campaigns_is_no_mistake(capsys, words):
     assert every_campaign(words) == 0
     said = capsys.readouterr().out
     assert "buoy_sweep     Sweep of wave steepness" in said and "sweep          Sweep of any number" in said
-
-
-def test_a_campaign_is_run_by_its_name_too(capsys):
-    with pytest.raises(SystemExit) as ended:
-        every_campaign(["sweep", "--help"])
-    assert ended.value.code == 0 and "--vary" in capsys.readouterr().out
 
 
 @pytest.fixture

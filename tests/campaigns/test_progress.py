@@ -1,8 +1,9 @@
-"""A command says which step it is at, how much of it is done, and since when; in a file it does so rarely."""
+"""A command shows its stage, how much of it is done and the time since the start; in a file it does so rarely."""
 
 import io
 import sys
 import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -14,59 +15,67 @@ from campaigns.machinery.worker import run_jobs
 from engine import load_scene
 from tests.campaigns.fake_engine import sines
 
+KICKS = "sweep: step 3 of 9: kicks, 40 of 120 runs, 350 s simulated"
+
 
 class Terminal(io.StringIO):
     def isatty(self):
         return True
 
 
+class Passed(Exception):
+    """The seconds that a test draws are over."""
+
+
 @pytest.fixture
-def shown(monkeypatch):
-    """What three nested stages write in a second to a stream: its class -> lines."""
+def draw(monkeypatch):
+    """draw(seconds): draws the open stages for that long, on a clock that only drawing moves on."""
+    clock = SimpleNamespace(now_s=time.monotonic(), end_s=0.0)
 
-    def shown(stream):
-        monkeypatch.setattr(sys, "stderr", stream())
-        monkeypatch.setattr(progress, "FIRST_S", 0.0)
-        monkeypatch.setattr(progress, "LINE_S", 0.4)
-        with stage("sweep"), stage("step 3 of 9"), stage("kicks", 120, "runs", lambda: 40, lambda: "350 s simulated"):
-            time.sleep(1.4)
-        return sys.stderr.getvalue()
+    def sleep(seconds):
+        clock.now_s += seconds
+        if clock.now_s > clock.end_s:
+            raise Passed
 
-    return shown
+    def for_seconds(seconds):
+        clock.end_s = clock.now_s + seconds
+        with pytest.raises(Passed):
+            progress._keep_drawing()
 
-
-SAID = "sweep: step 3 of 9: kicks, 40 of 120 runs, 350 s simulated, "
-
-
-def test_a_file_gets_a_line_now_and_then_and_one_at_the_end(shown):
-    *lines, last = shown(io.StringIO).splitlines()
-    assert 2 <= len(lines) <= 6
-    assert all(line.startswith(SAID) for line in lines)
-    assert lines[0].endswith("0:00 since the start") or lines[0].endswith("0:01 since the start")
-    assert "ended after 0:01" in last
+    fake = SimpleNamespace(monotonic=lambda: clock.now_s, time=time.time, sleep=sleep)
+    with progress._lock, monkeypatch.context() as patch:  # the lock stops the thread of an earlier test
+        patch.setattr(progress, "_start_drawing", lambda: None)
+        patch.setattr(progress, "time", fake)
+        yield for_seconds
 
 
-def test_parts_are_numbered(monkeypatch):
-    monkeypatch.setattr(sys, "stderr", io.StringIO())
-    monkeypatch.setattr(progress, "FIRST_S", 0.0)
+def lines_of_kicks(draw, seconds, monkeypatch, stream=io.StringIO):
+    """What three nested stages of that length write to a stream."""
+    monkeypatch.setattr(sys, "stderr", stream())
+    with stage("sweep"), stage("step 3 of 9"), stage("kicks", 120, "runs", lambda: 40, lambda: "350 s simulated"):
+        draw(seconds)
+    return sys.stderr.getvalue()
+
+
+def test_a_file_gets_a_line_after_5_s_then_every_10_s_and_one_at_the_end(draw, monkeypatch):
+    times = "0:05 since the start", "0:15 since the start", "0:25 since the start", "ended after 0:30"
+    assert lines_of_kicks(draw, 30.0, monkeypatch).splitlines() == [f"{KICKS}, {words}" for words in times]
+
+
+def test_a_stage_that_is_over_before_5_s_writes_nothing(draw, monkeypatch):
+    assert lines_of_kicks(draw, 4.9, monkeypatch) == ""
+
+
+def test_parts_are_numbered(draw, capsys):
     with stage("sweep"):
-        progress.in_parts([lambda: None, lambda: time.sleep(0.6)])
-    assert sys.stderr.getvalue().startswith("sweep: part 2 of 2, 0:00 since the start")
+        progress.in_parts([lambda: None, lambda: draw(6.0)])
+    assert capsys.readouterr().err == "sweep: part 2 of 2, 0:05 since the start\n"
 
 
-def test_a_terminal_gets_one_line_with_a_bar_that_is_taken_away_in_the_end(shown):
-    drawn = shown(Terminal)
-    assert "\n" not in drawn
-    assert f"{SAID}00:01 since the start |" in drawn
+def test_a_terminal_gets_one_line_with_a_bar_that_is_taken_away_in_the_end(draw, monkeypatch):
+    drawn = lines_of_kicks(draw, 30.5, monkeypatch, Terminal)
+    assert "\n" not in drawn and f"{KICKS}, 00:30 since the start |" in drawn
     assert drawn.split("\r")[-1].strip() == ""
-
-
-@pytest.mark.parametrize("seconds", [0.0, 0.3])
-def test_what_is_over_at_once_writes_nothing(monkeypatch, seconds):
-    monkeypatch.setattr(sys, "stderr", io.StringIO())
-    with stage("sweep"), stage("runs", 10, "runs"):
-        time.sleep(seconds)
-    assert sys.stderr.getvalue() == ""
 
 
 def test_a_worker_reports_and_one_that_sees_no_folder_does_not(tmp_path, monkeypatch):
@@ -75,8 +84,8 @@ def test_a_worker_reports_and_one_that_sees_no_folder_does_not(tmp_path, monkeyp
     for length_s in (20.0, 50.0):
         report(1, length_s)
         assert reports(tmp_path) == {"a task": [1.0, length_s]}
-    reporter(tmp_path / "elsewhere", "a task")(2, 70.0)
-    reporter(None, "a task")(2, 70.0)
+    for folder in (tmp_path / "elsewhere", None):
+        reporter(folder, "a task")(2, 70.0)
     assert reports(tmp_path) == {"a task": [1.0, 50.0]}
 
 

@@ -72,27 +72,6 @@ def test_every_state_of_a_map_has_a_row(tmp_path, other):
     built_twice(tmp_path)
 
 
-@pytest.mark.parametrize(
-    ("words", "fault"),
-    [
-        (["--set", "waves.steepness=0.1"], "irregular waves"),
-        (["--vary", "water.depth_m", "21", "23"], "--vary"),
-        (["--vary", *"water.depth_m 21 23 2 water.depth_m 21 23 2".split()], "given twice"),
-        (["--snap-share", "0.01"], "--snap-share"),
-        (["--hours", "0"], "--hours"),
-        (["--set", "waves.jonswap.seed=3"], "use --seeds"),
-        (["--set", "waves.components=[{period_s=5, amplitude_m=0.3}]"], "--seeds"),
-        (
-            ["--set", "waves.jonswap.significant_height_m=2", "--vary", *f"{sea.HEIGHT} 1 2 2".split()],
-            "this campaign sets",
-        ),
-    ],
-)
-def test_an_order_that_cannot_be_is_refused_with_its_key(words, fault, tmp_path, capsys):
-    assert sea.main([*words, "--out", str(tmp_path / "out")]) == 2
-    assert fault in capsys.readouterr().err and not (tmp_path / "out").exists()
-
-
 def motion(amplitude, letter, tension):
     lengths = {"radius_min_m": 20.0, "radius_max_m": 21.0, "angle_min_rad": -0.1, "angle_max_rad": 0.1}
     return {"waves.amplitude_m": amplitude, "motion": letter, "status": "ok", "tension_top_max_N": tension, **lengths}

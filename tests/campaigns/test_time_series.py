@@ -294,18 +294,3 @@ def test_snaps_of_a_measured_tension_are_counted_once_though_the_line_rings(tmp_
     assert "20 snaps in 200 s" in capsys.readouterr().out
     taut_s = pandas.read_csv(tmp_path / "out" / "snaps.csv").taut_s
     np.testing.assert_allclose(taut_s, 2.0 + 10.0 * np.arange(20), atol=0.1)
-
-
-@pytest.mark.parametrize(
-    ("words", "fault"),
-    [
-        (["--snaps", "--column", "T"], "--snaps: given without times"),
-        (["--snaps", "--column", "T", "--time", "t", "--period", "5"], "--period: allowed without --snaps only"),
-        (["--column", "T", "--time", "t", "--static", "5"], "--static: allowed with --snaps only"),
-        (["--snaps", "--column", "T", "--time", "t", "--slack", "2"], "--slack: not below --least"),
-        (["--snaps", "--column", "T", "--time", "t", "--static", "-5"], "--static: given '-5'"),
-    ],
-)
-def test_options_of_snaps_that_mean_nothing_are_refused(tmp_path, words, fault, capsys):
-    assert main([str(tension_file(tmp_path)), *words, "--out", str(tmp_path / "out")]) == 2
-    assert fault in capsys.readouterr().err and not (tmp_path / "out").exists()

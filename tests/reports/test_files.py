@@ -177,6 +177,8 @@ def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, ca
         ("out_of_plane", of_plane, "does not name base and transient"),
         ("sweep", of_a_buoy, "does not name what was varied"),
         ("oscillator", (), "table.csv is missing"),
+        ("stability", (), "table.csv is missing"),
+        ("stability", of_accuracy, "or not those of this campaign"),
     ],
 )
 def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, capsys, campaign, columns, said):

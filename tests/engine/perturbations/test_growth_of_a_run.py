@@ -82,7 +82,7 @@ def test_sign_at_the_two_depths(depth_m, sign, periods):
     800 periods in 22.5 m and in 3800 in 21.0 m, where the motion wanders more: a fourth of that exponent, so that two
     errors tell its sign.
     """
-    depth = {"water.depth_m": depth_m, "output.tangent_vectors": 1}
+    depth = {"water.depth_m": depth_m, "output.tangent_vectors": 1, "tether.nodes": 11}
     scenes = [line(depth, {"start.buoy_velocity_mps": [push, 0.0, 0.0]}) for push in (0.0, 0.1, 0.2, 0.3)]
     runs = simulate_batch(scenes, periods=periods)
     assert all(run.status == "ok" for run in runs)

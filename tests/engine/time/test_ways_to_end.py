@@ -75,9 +75,9 @@ def test_a_run_ends_with_its_reason(name, dimensions):
     overrides, duration_s, allowed = ENDS[name]
     struck = STRUCK if dimensions == 3 and name not in IN_A_PLANE else {}
     scene = load_scene("tethered_buoy", struck | overrides | {"motion.dimensions": dimensions})
-    began = time.perf_counter()
+    began = time.process_time()
     run = simulate(scene, duration_s=duration_s)
-    assert time.perf_counter() - began < 60
+    assert time.process_time() - began < 60  # of this process: a busy machine does not count
     assert run.status in allowed, (run.status, run.message)
     assert run.message
     samples = len(run.columns["time_s"])
