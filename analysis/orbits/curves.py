@@ -190,17 +190,14 @@ class _Follower:
         """Points and parameters beside an orbit."""
         return orbit.points + by * direction[:, :-2], orbit.parameter + by * direction[0, -2:] * self.size
 
-    @property
-    def newton(self):
-        """How orbits are found."""
-        return SMOOTHLY if self.system.frozen is None else IN_STEPS
-
     def orbit_at(self, maps, guess, rows, slopes, vectors, space=None, newton=None):
         """The orbit at a guess (points (N, n), parameters (2,)), corrected orthogonally to two rows, and its Space.
 
         slopes (N, n, 2), vectors (n, k), space: of an orbit nearby, with which Newton's method begins.
         """
-        solved = corrected(maps, *guess, newton or self.newton, rows, real_span(vectors), slopes, space)
+        if newton is None:
+            newton = SMOOTHLY if self.system.frozen is None else IN_STEPS
+        solved = corrected(maps, *guess, newton, rows, real_span(vectors), slopes, space)
         orbit, space = described(solved, self.count)
         if not orbit.settled:
             raise NotSolved("the multipliers of the orbit are not known well")
@@ -210,6 +207,13 @@ class _Follower:
         """The direction in which the surface leaves an orbit with given parts (2,) along two rows, made of length 1."""
         direction = self.direction(*space.solve(np.zeros(slopes.shape[:2]), slopes, rows, parts))
         return direction / self.length(direction)
+
+    def plane(self, space, slopes, rows):
+        """Two directions (2, N, n + 2), orthonormal, in which the surface leaves an orbit. rows: tell them apart."""
+        first = self.leaving(space, slopes, rows, (1.0, 0.0))
+        second = self.leaving(space, slopes, rows, (0.0, 1.0))
+        second = second - (self.row(first) @ second[0]) * first
+        return np.array([first, second / self.length(second)])
 
     def first(self, points, parameters, step):
         """The point nearest to a start, and the direction (N, n + 2) of the curve there."""
@@ -224,31 +228,28 @@ class _Follower:
             rows[0] = self.system.row(vector, np.zeros(2))
         orbit, space = self.orbit_at(maps, (points, parameters), rows, slopes, vectors)
         for _ in range(2):
-            begin, beside = (self.leaving(space, slopes, rows, parts) for parts in np.eye(2))
-            beside = beside - (self.row(begin) @ beside[0]) * begin
-            plane = np.array([begin, beside / self.length(beside)])
+            plane = self.plane(space, slopes, rows)
             rows = np.array([self.row(direction) for direction in plane])
-        slope = []
+        slopes_of_test = []
         for direction in plane:
             guess = self.shifted(orbit, direction, PROBE * step)
             neighbour, _ = self.orbit_at(maps, guess, rows, slopes, orbit.vectors, space)
-            slope.append((self.test(neighbour) - self.test(orbit)) / (PROBE * step))
-        steepest = float(np.hypot(*slope))
+            slopes_of_test.append((self.test(neighbour) - self.test(orbit)) / (PROBE * step))
+        steepest = np.hypot(*slopes_of_test)
         if not steepest > 0.0:
             raise NoImage("the test function does not change near the event")
-        along, across = np.tensordot([[-slope[1], slope[0]], slope], plane, axes=1) / steepest
+        on_first, on_second = slopes_of_test / steepest
+        along, across = on_first * plane[1] - on_second * plane[0], on_first * plane[0] + on_second * plane[1]
         start = CurvePoint(orbit.parameter, np.zeros(2), orbit, 0.0, across, steepest)
-        point, _ = self.on_curve((orbit.points, orbit.parameter), along, start, step)
+        point, _ = self.on_curve((orbit.points, orbit.parameter), along, start, step, along)
         return point, along if along[0, -1] >= 0.0 else -along
 
-    def on_curve(self, guess, along, last, step, tangent=None, measured=True):
+    def on_curve(self, guess, along, last, step, tangent):
         """The point of the curve orthogonal to a direction `along`, near a guess, and how many orbits it took.
 
-        last: the point before. tangent: of the curve, where that is not `along`. measured: with errors.
+        last: the point before. tangent: of the curve, with which errors are measured; None: they are not.
         """
-        if tangent is None:
-            tangent = along
-        arguments = (*guess, along, last.across, last.slope, last.orbit.vectors, step, tangent, measured)
+        arguments = (*guess, along, last.across, last.slope, last.orbit.vectors, step, tangent)
         record = self.kept(arguments, lambda: self._record(*arguments))
         if record["failure"]:
             raise (NotSolved if record["numerical"] else NoImage)(record["failure"])
@@ -260,10 +261,12 @@ class _Follower:
             point, taken = self._solved(*arguments)
         except ArithmeticError as why:
             return {"failure": str(why), "numerical": isinstance(why, NotSolved)}
-        orbit = vars(point.orbit) | {name: getattr(point.orbit, name).astype(complex) for name in COMPLEX}
+        orbit = dict(vars(point.orbit))
+        for name in COMPLEX:
+            orbit[name] = np.stack([orbit[name].real, orbit[name].imag], axis=-1)
         return {"failure": "", "taken": taken} | vars(point) | {"orbit": orbit}
 
-    def _solved(self, points, parameters, along, across, slope, vectors, step, tangent, measured):
+    def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
         guess, space = (points, parameters), None
         rows = np.array([self.row(along), self.row(across)])
         maps = self.system.near(*guess)
@@ -282,7 +285,7 @@ class _Follower:
         if angle is None:
             raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
         errors, reason = np.full(2, np.inf), ""
-        if measured:
+        if tangent is not None:
             errors, reason = self.errors(orbit, space, beside, slope, by, tangent[0, -2:])
         return CurvePoint(orbit.parameter, errors, orbit, angle, across, slope, reason=reason), taken
 
@@ -338,8 +341,6 @@ class _Follower:
         shifts = np.abs([normal @ (end - orbit.parameter) for end in ends])
         alike, sharp = np.split(shifts, [self.system.meshes])
         moved = alike.max() + sharp.max(initial=0.0) + orbit.gap
-        if self.system.frozen is None:
-            moved += self.tolerance(beside.step)
         for k in range(2):
             if moved <= abs(along[1 - k]):
                 errors[k] = self.size[k] * moved / abs(along[1 - k])
@@ -382,7 +383,7 @@ class _Follower:
         return points, f"followed over {self.most} points", False
 
     def _next(self, last, tangent, step):
-        point, taken = self.on_curve(self.shifted(last.orbit, tangent, step), tangent, last, step)
+        point, taken = self.on_curve(self.shifted(last.orbit, tangent, step), tangent, last, step, tangent)
         chord = self.place(point.orbit) - self.place(last.orbit)
         if self.row(tangent) @ chord[0] < STRAIGHT * self.length(chord):
             raise NotSolved("the curve turns too sharply")
@@ -445,8 +446,8 @@ class _Follower:
         """The point of the curve at a share of the chord between two."""
         chord = self.place(end.orbit) - self.place(begin.orbit)
         length = self.length(chord)
-        guess = self.shifted(begin.orbit, chord, share)
-        return self.on_curve(guess, chord / length, begin, length, measured=measured)[0]
+        guess, along = self.shifted(begin.orbit, chord, share), chord / length
+        return self.on_curve(guess, along, begin, length, along if measured else None)[0]
 
     def _zero(self, name, function, begin, end):
         """The special point between two points."""
@@ -495,13 +496,13 @@ def _lost(name, begin, end, why):
 
 
 def _point_of(record):
-    """The CurvePoint of a record, in which arrays may be lists, and complex numbers pairs."""
-    orbit = record["orbit"]
-    arrays = {name: np.array(orbit[name]) for name in ("points", "parameter", "residuals")}
+    """The CurvePoint of a record, in which arrays may be lists, and complex numbers are pairs."""
+    orbit = dict(record["orbit"])
+    for name in "points", "parameter", "residuals", *COMPLEX:
+        orbit[name] = np.array(orbit[name])
     for name in COMPLEX:
-        values = np.array(orbit[name])
-        arrays[name] = values if np.iscomplexobj(values) else values @ [1.0, 1.0j]
+        orbit[name] = orbit[name] @ [1.0, 1.0j]
     values = {field.name: record[field.name] for field in fields(CurvePoint)}
-    for name in ("parameters", "errors", "across"):
+    for name in "parameters", "errors", "across":
         values[name] = np.array(values[name])
-    return CurvePoint(**values | {"orbit": Orbit(**orbit | arrays)})
+    return CurvePoint(**values | {"orbit": Orbit(**orbit)})
