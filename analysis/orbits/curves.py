@@ -17,6 +17,7 @@ Special points are zeros of functions of the multipliers, smooth along the curve
 Where the search between two points of the curve fails, that is told as a point which was not found.
 """
 
+from collections import namedtuple
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, replace
 
@@ -32,9 +33,10 @@ from analysis.orbits.spaces import Space
 SECANTS = 10
 PROBE = 0.1  # of a step: differences of g for the first direction
 ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
-COARSE = 0.03  # sigma, in longest steps, before the steps of a system are chosen again
 # of a system that is computed in steps: sigma, in longest steps, and to how much of a chord special points are sought
-ROUGH = 1e-3
+CLOSE, ROUGH = 1e-2, 1e-3
+# gaps: of a smooth system; of one in steps before they are chosen again; then, as its steps change a point by more
+SMOOTHLY, ROUGHLY, IN_STEPS = (NEAR_ORBITS._replace(tolerance=gap) for gap in (1e-11, 1e-4, 1e-6))
 CUSP = 0.05  # speed of the shadow at an extremum, beside that of its neighbours, below which it is a cusp
 RESONANCES = {"1:3": 2.0 * np.pi / 3.0, "1:4": 0.5 * np.pi}  # angles of torus points
 LEAP = 0.1  # of a test of special points at its zero, beside the smaller one of its neighbours: it is not continuous
@@ -50,8 +52,7 @@ class CurvePoint:
     errors (2,)       of each where the other is held; inf: not known, for the `reason`
     orbit             there; its parameter is the array (2,)
     angle_rad         of the multiplier that crosses the unit circle
-    place (n + 2,)    z_0 and the parameters in their sizes
-    across (n + 2,)   direction of the surface across the curve
+    across (N, n + 2) direction of the surface across the curve: changes of each point, and of the parameters
     slope             of the test function g along it
     kind              "", or of a special point: "cusp", "extremum" of the second parameter, "1:1", "fold-flip", "1:2",
                       "1:3", "1:4"
@@ -64,7 +65,6 @@ class CurvePoint:
     errors: np.ndarray
     orbit: Orbit
     angle_rad: float
-    place: np.ndarray
     across: np.ndarray
     slope: float
     kind: str = ""
@@ -138,6 +138,11 @@ def follow_curve(
     return Curve(kind, tuple(along), closed, (begin, end), tuple(follower.special(along, closed)))
 
 
+# Orbits on a line across the curve: direction (N, n + 2), rows (2, n + 2) to which they are corrected orthogonally,
+# slopes (N, n, 2) of the maps, step of the curve
+_Beside = namedtuple("_Beside", "across rows slopes step")
+
+
 @dataclass(frozen=True, eq=False)
 class _Follower:
     """What stays the same along a curve."""
@@ -154,8 +159,8 @@ class _Follower:
     sharper: OrbitMap | None
 
     def tolerance(self, step):
-        """Of sigma. Steps of a system scatter g alike after short and long steps of the curve."""
-        return ON_CURVE * step if self.system.frozen is None else ROUGH * self.longest
+        """Of sigma, the distance to g = 0. Steps of a system scatter g alike after short and long steps of a curve."""
+        return ON_CURVE * step if self.system.frozen is None else CLOSE * self.longest
 
     @property
     def size(self):
@@ -166,79 +171,84 @@ class _Follower:
         """g: with the multipliers that are known."""
         return float(np.prod(FACTORS[self.kind](orbit.multipliers)).real)
 
+    def place(self, orbit):
+        """(N, n + 2) of an orbit: its points, each with the parameters in their sizes."""
+        return self.direction(orbit.points, orbit.parameter / self.size)
+
+    def direction(self, change, rate):
+        """(N, n + 2) of changes (N, n) of the points and one (2,) of the parameters."""
+        return np.hstack([change, np.tile(rate, (len(change), 1))])
+
     def row(self, direction):
-        """Row (n + 2,) of the inner product with a direction (n + 2,)."""
-        return self.system.row(direction[:-2], direction[-2:])
+        """Row (n + 2,) of the inner product with a direction (N, n + 2), in what is seen of the first point."""
+        return self.system.row(direction[0, :-2], direction[0, -2:])
 
     def length(self, direction):
-        return self.system.length(direction[:-2], direction[-2:])
+        return self.system.length(direction[0, :-2], direction[0, -2:])
 
-    def orbit_at(self, maps, guess, rows, directions, slopes=None):
-        """The orbit at a guess (points (N, n), parameters (2,)), corrected orthogonally to two rows."""
-        solved = corrected(maps, *guess, NEAR_ORBITS, rows, directions, slopes)
-        orbit, _ = described(solved, self.count)
+    def shifted(self, orbit, direction, by):
+        """Points and parameters beside an orbit."""
+        return orbit.points + by * direction[:, :-2], orbit.parameter + by * direction[0, -2:] * self.size
+
+    def orbit_at(self, maps, guess, rows, slopes, vectors, space=None, newton=None):
+        """The orbit at a guess (points (N, n), parameters (2,)), corrected orthogonally to two rows, and its Space.
+
+        slopes (N, n, 2), vectors (n, k), space: of an orbit nearby, with which Newton's method begins.
+        """
+        if newton is None:
+            newton = SMOOTHLY if self.system.frozen is None else IN_STEPS
+        solved = corrected(maps, *guess, newton, rows, real_span(vectors), slopes, space)
+        orbit, space = described(solved, self.count)
         if not orbit.settled:
             raise NotSolved("the multipliers of the orbit are not known well")
-        return orbit
+        return orbit, space
 
-    def plane(self, maps, orbit, rows):
-        """Two directions, (2, N, n) and (2, 2), in which the surface leaves an orbit, orthonormal; slopes of the map.
+    def leaving(self, space, slopes, rows, parts):
+        """The direction in which the surface leaves an orbit with given parts (2,) along two rows, made of length 1."""
+        direction = self.direction(*space.solve(np.zeros(slopes.shape[:2]), slopes, rows, parts))
+        return direction / self.length(direction)
 
-        rows (2, n + 2): tell the directions apart. The first is orthogonal to the second row.
-        """
-        shots = shoot(maps, orbit.points, orbit.parameter)
-        slopes = slopes_of(maps, shots, orbit.points, orbit.parameter)
-        space = Space(shots.linearised, real_span(orbit.vectors), maps[0].abreast)
-        changes, rates = [], []
-        for right in np.eye(2):
-            change, rate = space.solve(np.zeros_like(orbit.points), slopes, rows, right)
-            for known_change, known_rate in zip(changes, rates, strict=True):
-                share = self.system.row(change[0], rate) @ np.append(known_change[0], known_rate)
-                change, rate = change - share * known_change, rate - share * known_rate
-            length = self.system.length(change[0], rate)
-            changes.append(change / length)
-            rates.append(rate / length)
-        return np.array(changes), np.array(rates), slopes
+    def plane(self, space, slopes, rows):
+        """Two directions (2, N, n + 2), orthonormal, in which the surface leaves an orbit. rows: tell them apart."""
+        first = self.leaving(space, slopes, rows, (1.0, 0.0))
+        second = self.leaving(space, slopes, rows, (0.0, 1.0))
+        second = second - (self.row(first) @ second[0]) * first
+        return np.array([first, second / self.length(second)])
 
     def first(self, points, parameters, step):
-        """The point nearest to a start, and the direction (n + 2,) of the curve there."""
+        """The point nearest to a start, and the direction (N, n + 2) of the curve there."""
         maps = self.system.near(points, parameters)
-        fixed = np.hstack([np.zeros((2, points.shape[1])), np.eye(2)])
         shots = shoot(maps, points, parameters)
-        multipliers, _, vectors = Space(shots.linearised, np.empty((points.shape[1], 0)), maps[0].abreast).multipliers(
-            self.count
-        )
-        rows = fixed
+        slopes = slopes_of(maps, shots, points, parameters)
+        space = Space(shots.linearised, np.empty((points.shape[1], 0)), maps[0].abreast)
+        multipliers, _, vectors = space.multipliers(self.count)
+        rows = np.hstack([np.zeros((2, points.shape[1])), np.eye(2)])
         if self.kind == "fold":  # there the surface is upright over the first parameter
             vector = vectors[:, np.argmin(np.abs(multipliers - 1.0))].real
-            rows = np.array([self.system.row(vector, np.zeros(2)), fixed[1]])
-        orbit = self.orbit_at(maps, (points, parameters), rows, real_span(vectors))
+            rows[0] = self.system.row(vector, np.zeros(2))
+        orbit, space = self.orbit_at(maps, (points, parameters), rows, slopes, vectors)
         for _ in range(2):
-            changes, rates, map_slopes = self.plane(maps, orbit, rows)
-            rows = np.array([self.system.row(c[0], r) for c, r in zip(changes, rates, strict=True)])
-        value, slopes = self.test(orbit), []
-        for change, rate in zip(changes, rates, strict=True):
-            by = PROBE * step
-            guess = orbit.points + by * change, orbit.parameter + by * rate * self.size
-            beside = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), map_slopes)
-            slopes.append((self.test(beside) - value) / by)
-        slope = float(np.hypot(*slopes))
-        if not slope > 0.0:
+            plane = self.plane(space, slopes, rows)
+            rows = np.array([self.row(direction) for direction in plane])
+        slopes_of_test = []
+        for direction in plane:
+            guess = self.shifted(orbit, direction, PROBE * step)
+            neighbour, _ = self.orbit_at(maps, guess, rows, slopes, orbit.vectors, space)
+            slopes_of_test.append((self.test(neighbour) - self.test(orbit)) / (PROBE * step))
+        steepest = np.hypot(*slopes_of_test)
+        if not steepest > 0.0:
             raise NoImage("the test function does not change near the event")
-        directions = np.hstack([changes[:, 0], rates])
-        tangent = np.array([-slopes[1], slopes[0]]) / slope @ directions
-        across = np.array(slopes) / slope @ directions
-        start = CurvePoint(orbit.parameter, np.zeros(2), orbit, 0.0, tangent, across, slope)
-        point, _ = self.on_curve((orbit.points, orbit.parameter), tangent, start, step)
-        return point, tangent if tangent[-1] >= 0.0 else -tangent
+        on_first, on_second = slopes_of_test / steepest
+        along, across = on_first * plane[1] - on_second * plane[0], on_first * plane[0] + on_second * plane[1]
+        start = CurvePoint(orbit.parameter, np.zeros(2), orbit, 0.0, across, steepest)
+        point, _ = self.on_curve((orbit.points, orbit.parameter), along, start, step, along)
+        return point, along if along[0, -1] >= 0.0 else -along
 
-    def on_curve(self, guess, along, last, step, tangent=None):
+    def on_curve(self, guess, along, last, step, tangent):
         """The point of the curve orthogonal to a direction `along`, near a guess, and how many orbits it took.
 
-        last: the point before. tangent: of the curve, where that is not `along`.
+        last: the point before. tangent: of the curve, with which errors are measured; None: they are not.
         """
-        if tangent is None:
-            tangent = along
         arguments = (*guess, along, last.across, last.slope, last.orbit.vectors, step, tangent)
         record = self.kept(arguments, lambda: self._record(*arguments))
         if record["failure"]:
@@ -251,90 +261,92 @@ class _Follower:
             point, taken = self._solved(*arguments)
         except ArithmeticError as why:
             return {"failure": str(why), "numerical": isinstance(why, NotSolved)}
-        orbit = vars(point.orbit) | {name: getattr(point.orbit, name).astype(complex) for name in COMPLEX}
+        orbit = dict(vars(point.orbit))
+        for name in COMPLEX:
+            orbit[name] = np.stack([orbit[name].real, orbit[name].imag], axis=-1)
         return {"failure": "", "taken": taken} | vars(point) | {"orbit": orbit}
 
     def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
-        guess, directions = (points, parameters), real_span(vectors)
-        smooth = self.system.frozen is None
-        for enough in [self.tolerance(step)] if smooth else [COARSE * self.longest, self.tolerance(step)]:
-            maps = self.system.near(*guess)
-            rows = np.array([self.row(along), self.row(across)])
-            orbit = self.orbit_at(maps, guess, rows, directions)
-            changes, rates, slopes = self.plane(maps, orbit, rows[::-1])
-            way = changes[0], rates[0]  # across, orthogonal to `along`
-            rows = np.array([self.row(along), self.system.row(changes[0, 0], rates[0])])
-            orbit, slope, taken = self.secants(maps, orbit, way, rows, step, slope, slopes, enough)
-            guess = orbit.points, orbit.parameter
-        return self.described(orbit, way, rows, step, slope, slopes, tangent), taken
+        guess, space = (points, parameters), None
+        rows = np.array([self.row(along), self.row(across)])
+        maps = self.system.near(*guess)
+        slopes = slopes_of(maps, shoot(maps, *guess), *guess)
+        if self.system.frozen is not None:  # roughly with the steps of the guess, then with those of the orbit
+            rough, space = self.orbit_at(maps, guess, rows, slopes, vectors, newton=ROUGHLY)
+            across = self.leaving(space, slopes, rows, (0.0, 1.0))
+            guess, vectors = self.shifted(rough, across, self.secant(rough, slope, step)), rough.vectors
+            maps, rows[1] = self.system.near(*guess), self.row(across)
+        orbit, space = self.orbit_at(maps, guess, rows, slopes, vectors, space)
+        across = self.leaving(space, slopes, rows, (0.0, 1.0))
+        rows[1] = self.row(across)
+        beside = _Beside(across, rows, slopes, step)
+        orbit, space, slope, by, taken = self.secants(maps, orbit, space, beside, slope, 1)
+        angle = angle_of(self.kind, orbit.multipliers)
+        if angle is None:
+            raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
+        errors, reason = np.full(2, np.inf), ""
+        if tangent is not None:
+            errors, reason = self.errors(orbit, space, beside, slope, by, tangent[0, -2:])
+        return CurvePoint(orbit.parameter, errors, orbit, angle, across, slope, reason=reason), taken
 
-    def secants(self, maps, orbit, way, rows, step, slope, slopes, enough):
-        """The orbit beside one, along the surface, with g = 0; the slope of g; orbits that were computed.
+    def secant(self, orbit, slope, step):
+        """How far g = 0 is from an orbit across the curve, half a step at most."""
+        return float(np.clip(-self.test(orbit) / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
+
+    def secants(self, maps, orbit, space, beside, slope, least):
+        """The orbit beside one, along the surface, near g = 0; its Space; the slope of g; how far g = 0 is; orbits that
+        were computed, `least` or more.
 
         A secant that leaves an interval in which g changes its sign gives way to the middle of that.
         """
-        change, rate = way
-        begin, directions = orbit, real_span(orbit.vectors)
-        sigma, value = 0.0, self.test(orbit)
+        across, rows, slopes, step = beside
+        begin, sigma, value = orbit, 0.0, self.test(orbit)
         sides = {}  # sign of g -> sigma
-        for taken in range(1, SECANTS + 1):
-            by = float(np.clip(-value / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
+        for taken in range(SECANTS + 1):
+            by = self.secant(orbit, slope, step)
+            if abs(by) < self.tolerance(step) and taken >= least:
+                return orbit, space, slope, by, taken
             sides[value > 0.0] = sigma
-            if abs(by) < enough and taken > 1:
-                break
             if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
                 by = 0.5 * sum(sides.values()) - sigma
             sigma += by
             if abs(sigma) > NEAR * step:
                 raise NotSolved("the curve turns too sharply")
-            guess = begin.points + sigma * change, begin.parameter + sigma * rate * self.size
-            orbit = self.orbit_at(maps, guess, rows, directions, slopes)
+            guess = self.shifted(begin, across, sigma)
+            orbit, space = self.orbit_at(maps, guess, rows, slopes, begin.vectors, space)
             following = self.test(orbit)
             if by and following != value:
                 slope = (following - value) / by
             value = following
-            if abs(by) < enough:
-                break
-        else:
-            raise NotSolved(f"{SECANTS} secants do not end on the curve")
-        return orbit, slope, taken
+        raise NotSolved(f"{SECANTS} secants do not end on the curve")
 
-    def described(self, orbit, way, rows, step, slope, slopes, tangent):
-        """The CurvePoint in the middle of those of all meshes, with errors from the others and the sharper system."""
-        angle = angle_of(self.kind, orbit.multipliers)
-        if angle is None:
-            raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
+    def errors(self, orbit, space, beside, slope, by, along):
+        """Errors (2,) of the parameters of an orbit, and why one is not known: from the orbits of the other meshes and
+        of the sharper system, and from the distance `by` to g = 0. along (2,): direction of the curve."""
         rivals = [(self.system, mesh) for mesh in range(1, self.system.meshes)]
         if self.sharper is not None:
             rivals.append((self.sharper, 0))
-        orbits, moved, reason, guess = [orbit], 0.0, "", (orbit.points, orbit.parameter)
+        # Other orbits move the curve across its direction a: by d x a / a_2 along key 1 where key 2 is held. At a fold
+        # they move it off the surface, too, so that sigma does not tell how far.
+        normal, guess = np.array([along[1], -along[0]]) / self.size, (orbit.points, orbit.parameter)
+        ends, errors, reason = [self.shifted(orbit, beside.across, by)[1]], np.full(2, np.inf), ""
         try:
             for system, mesh in rivals:
                 maps = system.near(*guess, mesh)
-                rival = self.orbit_at(maps, guess, rows, real_span(orbit.vectors), slopes)
-                orbits.append(self.secants(maps, rival, way, rows, step, slope, slopes, self.tolerance(step))[0])
+                rival = self.orbit_at(maps, guess, beside.rows, beside.slopes, orbit.vectors, space)
+                rival, _, _, by, _ = self.secants(maps, *rival, beside, slope, 0)
+                ends.append(self.shifted(rival, beside.across, by)[1])
         except ArithmeticError as why:
-            moved, reason = np.inf, f"errors are not known, because other steps lose the point: {why}"
-        # Other orbits move the curve across its direction a: by d x a / a_2 along key 1 where key 2 is held. At a fold
-        # they move it off the surface, too, so that sigma does not tell how far.
-        along = tangent[-2:]
-        across = np.array([along[1], -along[0]]) / self.size
-        shifts = np.array([across @ rival.parameter for rival in orbits])
+            return errors, f"errors are not known, because other steps lose the point: {why}"
+        shifts = np.abs([normal @ (end - orbit.parameter) for end in ends])
         alike, sharp = np.split(shifts, [self.system.meshes])
-        middle = int(np.argsort(alike)[len(alike) // 2])
-        orbit = orbits[middle]
-        moved += sum(abs(part - alike[middle]).max(initial=0.0) for part in (alike, sharp))
-        moved += max(orbit.gap, self.tolerance(step) if self.system.frozen is None else 0.0)
-        errors = np.full(2, np.inf)
+        moved = alike.max() + sharp.max(initial=0.0) + orbit.gap
         for k in range(2):
             if moved <= abs(along[1 - k]):
                 errors[k] = self.size[k] * moved / abs(along[1 - k])
-            elif not reason:
+            else:
                 reason = f"error {k + 1} is not known, because the curve is parallel to key {k + 1} there"
-        place = np.append(orbit.points[0], orbit.parameter / self.size)
-        return CurvePoint(
-            orbit.parameter, errors, orbit, angle, place, np.append(way[0][0], way[1]), slope, reason=reason
-        )
+        return errors, reason
 
     def one_way(self, first, tangent, step):
         """Points from the first one on, why they end, and whether they come back to it."""
@@ -342,7 +354,7 @@ class _Follower:
         while len(points) <= self.most:
             last = points[-1]
             try:
-                limit = self._beyond(last.parameters + step * tangent[-2:] * self.size)
+                limit = self._beyond(last.parameters + step * tangent[0, -2:] * self.size)
                 if limit is None:
                     point, taken = self._next(last, tangent, step)
                     limit = self._beyond(point.parameters)
@@ -361,28 +373,21 @@ class _Follower:
                 place = " and ".join(f"{value:.6g}" for value in last.parameters)
                 words = "numerical failure beyond" if isinstance(why, NotSolved) else "ends at"
                 return points, f"{words} {place}, with steps down to {self.least:g}: {why}", False
-            chord = point.place - last.place
+            chord = self.place(point.orbit) - self.place(last.orbit)
             if len(points) > 3 and self._passes(first, last, chord):
                 return [*points, first], "comes back to its beginning", True
             points.append(point)
             tangent = chord / self.length(chord)
-            if taken <= FEW:
+            if taken < FEW:
                 step = min(step * GROW, self.longest)
         return points, f"followed over {self.most} points", False
 
     def _next(self, last, tangent, step):
-        point, taken = self.on_curve(self._shifted(last.orbit, tangent, step), tangent, last, step)
-        chord = point.place - last.place
-        if self.row(tangent) @ chord < STRAIGHT * self.length(chord):
+        point, taken = self.on_curve(self.shifted(last.orbit, tangent, step), tangent, last, step, tangent)
+        chord = self.place(point.orbit) - self.place(last.orbit)
+        if self.row(tangent) @ chord[0] < STRAIGHT * self.length(chord):
             raise NotSolved("the curve turns too sharply")
         return point, taken
-
-    def _shifted(self, orbit, tangent, step):
-        """Points and parameters a step along a direction (n + 2,); the points after the first stay, as Newton's method
-        carries them along."""
-        points = orbit.points.copy()
-        points[0] += step * tangent[:-2]
-        return points, orbit.parameter + step * tangent[-2:] * self.size
 
     def _beyond(self, parameters):
         """(k, end) of the parameter that is out of its range; None within it."""
@@ -395,13 +400,12 @@ class _Follower:
     def _at_border(self, last, tangent, limit):
         """The point at which the curve reaches the end of the range of parameter k."""
         k, end = limit
-        step = (end - last.parameters[k]) / self.size[k] / tangent[-2 + k]
+        step = (end - last.parameters[k]) / self.size[k] / tangent[0, -2 + k]
         if abs(step) < 1e-9 * self.longest:
             raise NoImage("the curve begins at the end of the range")
-        guess = self._shifted(last.orbit, tangent, step)
+        guess = self.shifted(last.orbit, tangent, step)
         guess[1][k] = end
-        along = np.zeros(len(tangent))
-        along[-2 + k] = 1.0
+        along = self.direction(np.zeros_like(last.orbit.points), np.eye(2)[k])
         point = self.on_curve(guess, along, last, max(abs(step), self.least), tangent)[0]
         parameters = point.parameters.copy()
         parameters[k] = end  # but for rounding it is there already
@@ -409,8 +413,8 @@ class _Follower:
 
     def _passes(self, first, last, chord):
         """Whether the first point lies on a chord that begins at the last one."""
-        way, across = first.place - last.place, self.row(chord)
-        share = across @ way / self.length(chord) ** 2
+        way = self.place(first.orbit) - self.place(last.orbit)
+        share = self.row(chord) @ way[0] / self.length(chord) ** 2
         return 0.0 < share <= 1.0 and self.length(way - share * chord) < ON_CHORD * self.length(chord)
 
     def special(self, points, closed) -> Iterator[CurvePoint]:
@@ -420,7 +424,10 @@ class _Follower:
             for name, function in self._tests():
                 if function(begin.orbit) * function(end.orbit) < 0.0:
                     yield self._zero(name, function, begin, end)
-            if after is not None and (end.place[-1] - begin.place[-1]) * (after.place[-1] - end.place[-1]) < 0.0:
+            if after is None:
+                continue
+            rise, following_rise = end.parameters - begin.parameters, after.parameters - end.parameters
+            if rise[1] * following_rise[1] < 0.0:
                 yield self._extremum(begin, end, after)
 
     def _tests(self) -> Iterator[tuple[str, Callable]]:
@@ -435,13 +442,12 @@ class _Follower:
         if self.kind == "fold":
             yield "fold-flip", lambda orbit: float(np.prod(1.0 + orbit.multipliers).real)
 
-    def _between(self, begin, end, share):
+    def _between(self, begin, end, share, measured=False):
         """The point of the curve at a share of the chord between two."""
-        chord = end.place - begin.place
+        chord = self.place(end.orbit) - self.place(begin.orbit)
         length = self.length(chord)
-        points = begin.orbit.points + share * (end.orbit.points - begin.orbit.points)
-        parameters = begin.parameters + share * (end.parameters - begin.parameters)
-        return self.on_curve((points, parameters), chord / length, begin, length)[0]
+        guess, along = self.shifted(begin.orbit, chord, share), chord / length
+        return self.on_curve(guess, along, begin, length, along if measured else None)[0]
 
     def _zero(self, name, function, begin, end):
         """The special point between two points."""
@@ -457,7 +463,7 @@ class _Follower:
             share = brentq(value, 0.0, 1.0, xtol=1e-12 if self.system.frozen is None else ROUGH)
             if not abs(value(share)) <= LEAP * least:
                 raise NotSolved("its test function leaps")
-            return replace(looked[share], kind=name)
+            return replace(self._between(begin, end, share, measured=True), kind=name)
         except ArithmeticError as why:
             return _lost(name, begin, end, why)
 
@@ -471,12 +477,13 @@ class _Follower:
 
         try:
             share = minimize_scalar(depth, bounds=(0.0, 1.0), method="bounded", options=settings).x
-            point = self._between(before, after, share)
+            point = self._between(before, after, share, measured=True)
             sides = [self._between(before, after, share + by).parameters for by in (-0.05, 0.05)]
         except ArithmeticError as why:
             return _lost("extremum", before, after, why)
         speed = np.linalg.norm((sides[1] - sides[0]) / self.size) / 0.1
-        cusp = self.kind == "fold" and speed < CUSP * self.length(after.place - before.place)
+        chord = self.place(after.orbit) - self.place(before.orbit)
+        cusp = self.kind == "fold" and speed < CUSP * self.length(chord)
         return replace(point, kind="cusp" if cusp else "extremum")
 
 
@@ -489,13 +496,13 @@ def _lost(name, begin, end, why):
 
 
 def _point_of(record):
-    """The CurvePoint of a record, in which arrays may be lists, and complex numbers pairs."""
-    orbit = record["orbit"]
-    arrays = {name: np.array(orbit[name]) for name in ("points", "parameter", "residuals")}
+    """The CurvePoint of a record, in which arrays may be lists, and complex numbers are pairs."""
+    orbit = dict(record["orbit"])
+    for name in "points", "parameter", "residuals", *COMPLEX:
+        orbit[name] = np.array(orbit[name])
     for name in COMPLEX:
-        values = np.array(orbit[name])
-        arrays[name] = values if np.iscomplexobj(values) else values @ [1.0, 1.0j]
+        orbit[name] = orbit[name] @ [1.0, 1.0j]
     values = {field.name: record[field.name] for field in fields(CurvePoint)}
-    for name in ("parameters", "errors", "place", "across"):
+    for name in "parameters", "errors", "across":
         values[name] = np.array(values[name])
-    return CurvePoint(**values | {"orbit": Orbit(**orbit | arrays)})
+    return CurvePoint(**values | {"orbit": Orbit(**orbit)})

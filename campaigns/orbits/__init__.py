@@ -234,8 +234,9 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     from campaigns.explore.rows import after_transient, sound_part
 
     (key,), run = order.options.grid.keys, motions.run_in(order.options.start_from)
-    periods = int(run.columns["time_s"][-1] / run.scene.waves.period_s + 1e-6)
-    period = after_transient(run, sound_part(run.columns), periods // 2).get("strobed_period")
+    middle_s = 0.5 * (run.columns["time_s"][0] + run.columns["time_s"][-1])  # a run that goes on begins late
+    settled = after_transient(run, sound_part(run.columns), int(middle_s / run.scene.waves.period_s))
+    period = settled.get("strobed_period")
     if period is not None:
         yield "", job.labels[key.column.name], period, run.final_state.at_zero()
 
