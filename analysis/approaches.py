@@ -88,7 +88,8 @@ def approach_evidence(
         f"it {attraction} (leading multiplier {moduli[0]:.4f} ± {errors[0]:.1g}), "
         f"and {way}"
     )
-    return Evidence(ON_IT if on_it else NEARER, shown, moduli[0], passed, sentence)
+    name = ON_IT if on_it else NEARER
+    return Evidence(name, shown, moduli[0], passed, sentence)
 
 
 def _in_windows(differences: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -106,7 +106,8 @@ def _slope_of(growth, step_s, period, details):
         return no_exponent(ROSENSTEIN, f"only {growth.shape[1]} points have neighbours; {LEAST_CENTRES} are needed")
     time_s, curve = step_s * np.arange(len(growth)), growth.mean(axis=1)
     # Distances along one coordinate swing twice in a mean period.
-    region = scaling_region(time_s, curve, cycle=round(period / 2) if period >= 6.0 else 1)
+    cycle = round(period / 2) if period >= 6.0 else 1
+    region = scaling_region(time_s, curve, cycle=cycle)
     details |= {"time_s": locked(time_s), "curve": locked(curve), "region": region, "centres": growth.shape[1]}
     if not np.isfinite(region.slope):
         return no_exponent(ROSENSTEIN, region.reason, details=details)

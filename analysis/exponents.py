@@ -51,7 +51,8 @@ class Exponent:
         if np.isnan(self.value) and not self.reason:
             raise ValueError("reason: an exponent that is NaN must say why")
         object.__setattr__(self, "value", float(self.value))
-        object.__setattr__(self, "error", float(self.error) if np.isfinite(self.value) else np.nan)
+        error = float(self.error) if np.isfinite(self.value) else np.nan
+        object.__setattr__(self, "error", error)
 
     def __str__(self) -> str:
         if not self.found:

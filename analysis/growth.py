@@ -74,7 +74,8 @@ def growth_or_bursts(magnitude: ArrayLike, step: float, period: float, least_spa
     if period < 2.0 * step:
         raise ValueError(f"period: at least two steps are needed, given {period!r} with steps of {step!r}")
     if not envelope_of(y, step, WINDOW_PERIODS * period)[1].any():
-        return _without_rate("neither", "every value is zero" if len(y) else "there are no values")
+        reason = "every value is zero" if len(y) else "there are no values"
+        return _without_rate("neither", reason)
     lacking = []
     for span in (WINDOW_PERIODS * period, period):
         time, size = envelope_of(y, step, span)
@@ -133,7 +134,8 @@ def _straight_part(time, size, least_span):
         span, slope, error, begin, end = best
         reason, none = f"straight from {begin:.4g} to {end:.4g}, {span:+.2g} nats", np.empty(0)
         rate = Exponent(slope, error, NATS_PER_TIME, METHOD, reason)
-        return Growth("growth" if slope > 0 else "decay", reason, rate, begin, end, span, none, none)
+        kind = "growth" if slope > 0 else "decay"
+        return Growth(kind, reason, rate, begin, end, span, none, none)
     if straight:
         return "straight parts, but the record comes back to their level"
     return f"no straight part of {least_span:g} nats (the envelope spans {np.ptp(y):.2g} in all)"

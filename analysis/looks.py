@@ -200,7 +200,8 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         repeats = f"; yet the strobed state {estimate.reason}"
     if not later.found:
         too_few = f"perturbations over {len(known)} periods only: {2 * LEAST_PERIODS} are needed"
-        return look("transient" if _comes_nearer(estimate) else "undecided", too_few)
+        regime = "transient" if _comes_nearer(estimate) else "undecided"
+        return look(regime, too_few)
     exponent, bits = full.value, full.value * len(known)
     positive, grown = exponent > POSITIVE * full.error, bits > LEAST_BITS
     sentence = f"bits per period, of the tangent dynamics over {len(known)} periods"

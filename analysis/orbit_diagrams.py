@@ -63,8 +63,11 @@ def orbit_diagram(parameters: ArrayLike, strobed: Iterable[ArrayLike], last: int
     first = 0 if last is None else -checked_count(last, "last")
     arrays = [checked_series(points, f"strobed[{i}]")[first:] for i, points in enumerate(strobed)]
     values = np.unique(parameter)
-    columns = tuple(locked(np.concatenate([arrays[i] for i in np.flatnonzero(parameter == value)])) for value in values)
-    return OrbitDiagram(values, columns)
+    columns = []
+    for value in values:
+        together = [arrays[i] for i in np.flatnonzero(parameter == value)]
+        columns.append(locked(np.concatenate(together)))
+    return OrbitDiagram(values, tuple(columns))
 
 
 def density_image(

@@ -137,7 +137,11 @@ def _measure(x, n, rounding):
     square = np.sum(step[:-n] ** 2)
     multiplier = np.sum(step[:-n] * step[n:]) / square if square > 0.0 else 0.0
     last = size[-n:].max()
-    projected = last / (1.0 - multiplier) if multiplier < 1.0 else np.inf if last > 0.0 else 0.0
+    projected = 0.0
+    if multiplier < 1.0:
+        projected = last / (1.0 - multiplier)
+    elif last > 0.0:
+        projected = np.inf
     early, late = size[: len(size) // 2].max(), size[-(len(size) // 2) :].max()
     trend = 0.0
     if early != late:

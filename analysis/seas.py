@@ -158,7 +158,8 @@ def residence(flags: Sequence[ArrayLike]) -> Residence:
     lengths = [end - begin for series in flags for begin, end in spells_of(series)]
     total = sum(map(len, flags))
     share = sum(lengths) / total if total else math.nan
-    return Residence(share, float(np.mean(lengths)) if lengths else math.nan, len(lengths))
+    mean_length = float(np.mean(lengths)) if lengths else math.nan
+    return Residence(share, mean_length, len(lengths))
 
 
 def envelope(series: ArrayLike) -> np.ndarray:

@@ -82,7 +82,8 @@ def transverse_lyapunov(
     if events.shape != growth.shape:
         raise ValueError(f"released: {len(growth)} values are needed, given {events.shape}")
     (exponent,) = tangent_lyapunov(growth, transient_periods)
-    if count := int(events[transient_periods:].sum()):
+    count = int(events[transient_periods:].sum())
+    if count:
         return no_exponent(METHOD, f"loops were released in {count} of the periods that count", BITS_PER_PERIOD)
     return exponent
 

@@ -124,7 +124,8 @@ def regime(
     if points < LEAST_POINTS:
         reason = f"too short: {LEAST_POINTS} strobed points are needed, given {points}"
         return Verdict("undecided", reason, (), None, points, seed)
-    evidence = outlier_evidence(checked_columns(strobed if series is None else series))
+    judged = strobed if series is None else series
+    evidence = outlier_evidence(checked_columns(judged))
     if evidence:
         return Verdict("undecided", evidence[0].sentence, tuple(evidence), None, points, seed)
     estimate = detect_period(section, max_period, tolerance, scale)

@@ -62,7 +62,8 @@ def _campaigns() -> list[str]:
 
 def _parser_of(name: str) -> argparse.ArgumentParser:
     """The options of a command of `tether`."""
-    module = importlib.import_module(COMMANDS[name][0] if name in COMMANDS else f"campaigns.{name}")
+    path = COMMANDS[name][0] if name in COMMANDS else f"campaigns.{name}"
+    module = importlib.import_module(path)
     return getattr(module, "STUDY", module).parser()
 
 

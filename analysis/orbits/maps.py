@@ -58,7 +58,9 @@ class OrbitMap:
 
     def row(self, change: np.ndarray, rate: float) -> np.ndarray:
         """(n + 1,) of the inner product with a change (n,) of a point and one of the parameter, in what is seen."""
-        return np.append(change if self.seen is None else self.seen @ (self.seen.T @ change), rate)
+        if self.seen is not None:
+            change = self.seen @ (self.seen.T @ change)
+        return np.append(change, rate)
 
     def length(self, change: np.ndarray, rate: float) -> float:
         """Length of such a change."""

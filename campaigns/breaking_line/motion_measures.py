@@ -60,7 +60,8 @@ def front_speed(profiles: Profiles, theory: Theory) -> float:
     The edge itself, a kink of second order, is smeared: ln(speed) of contours of FRONT_SHARES, a parabola in the
     strain, is extrapolated to the static strain.
     """
-    far = min(theory.start.distance_m if theory.shocked else theory.length_m, theory.length_m - MARGIN_M)
+    unshocked_m = theory.start.distance_m if theory.shocked else theory.length_m
+    far = min(unshocked_m, theory.length_m - MARGIN_M)
     between = theory.length_m - far, theory.length_m - min(MARGIN_M, 0.1 * far)
     tensions = [share * theory.force_N for share in FRONT_SHARES]
     speeds = [contour_speed(profiles, profiles.tension_N, level, theory, between) for level in tensions]

@@ -112,7 +112,8 @@ def varied(
         symbol = key.rpartition(".")[2]
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
     column = Column(key, declared.unit.removesuffix("1"), symbol, meaning, digits)
-    return Varied(key, list_name, int(element) if element else None, values, column, part)
+    place = int(element) if element else None
+    return Varied(key, list_name, place, values, column, part)
 
 
 @dataclass(frozen=True)

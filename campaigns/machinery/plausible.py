@@ -72,7 +72,8 @@ def _line(scene) -> Iterator[Odd]:
     tether = scene.tether
     if not LINE_KGPM3[0] <= tether.density_kgpm3 <= LINE_KGPM3[1]:
         yield _density("tether.density_kgpm3", tether.density_kgpm3, LINE_KGPM3)
-    if (most := 0.25 * math.pi * (tether.length_m / SLENDER) ** 2) < tether.area_m2:
+    most = 0.25 * math.pi * (tether.length_m / SLENDER) ** 2
+    if most < tether.area_m2:
         allowed = f"at most {most:.3g}, of a line {SLENDER:g} times as long as thick (m2, not mm2?)"
         yield "tether.area_m2", tether.area_m2, allowed
     circle = 0.25 * math.pi * tether.diameter_m**2

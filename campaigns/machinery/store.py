@@ -72,7 +72,9 @@ class Store:
 
 def orbits_in(folder: Path | None) -> Store:
     """The orbits under the runs of a campaign (`campaigns.explore.multipliers`), beside their trajectories."""
-    return Store(None if folder is None else folder / "trajectories", ".orbit.json")
+    if folder is not None:
+        folder = folder / "trajectories"
+    return Store(folder, ".orbit.json")
 
 
 def plain(content: object) -> object:

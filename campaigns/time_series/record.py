@@ -152,7 +152,8 @@ def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[st
     for number, cells in enumerate(table.rows(), 1):
         for name, place in places.items():
             cell = cells[place]
-            if fault := _is_no_number(cell):
+            fault = _is_no_number(cell)
+            if fault:
                 wrong.setdefault((name, fault), [cell]).append(number)
             else:
                 values[name].append(float(cell))

@@ -206,7 +206,9 @@ def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Pan
 
 def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
     """A row of a folder beside the table."""
-    return Run(row if sweep.colours else {**row, "motion": ""})
+    if not sweep.colours:
+        row = {**row, "motion": ""}
+    return Run(row)
 
 
 def _capped(sweep: Sweep) -> list[Run]:

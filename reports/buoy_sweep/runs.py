@@ -152,7 +152,9 @@ class Sweep:
         parts = []
         for letter, values in places.items():
             text = f"{self.key.head} = {ranges(self.values, np.isin(self.values, list(values)))}"
-            parts.append(f"{text} ({letter})" if letter else text)
+            if letter:
+                text += f" ({letter})"
+            parts.append(text)
         return listed(parts)
 
 

@@ -95,7 +95,8 @@ class OrbitDiagram(NamedTuple):
             for place in range(bars + 1, len(heights)):
                 panels.append(figure.add_subplot(grid[place], sharex=top))
             enlarged = None if self.orbits else _small(self.columns, bool(self.motions))
-            inch = self._set_span(top, width_in, _NUMBERS_IN if enlarged else _EDGE_IN)
+            edge_in = _NUMBERS_IN if enlarged else _EDGE_IN
+            inch = self._set_span(top, width_in, edge_in)
             above = [figure.add_subplot(grid[place], sharex=top, ylim=(0.0, 1.0)) for place in range(bars)]
             for axes in above:
                 axes.axis("off")

@@ -164,7 +164,8 @@ def _steps(points: np.ndarray) -> str:
     moved = steps[np.any(steps != 0, axis=1)]
     parts = [f"M{points[0, 0]} {points[0, 1]}"]
     for i, j in moved.tolist():
-        parts.append(f"l{i}{j}" if j < 0 else f"l{i} {j}")
+        between = "" if j < 0 else " "
+        parts.append(f"l{i}{between}{j}")
     return "".join(parts)
 
 

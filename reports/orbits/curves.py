@@ -6,7 +6,7 @@ from operator import itemgetter
 
 import numpy as np
 
-from tables import Column, listed
+from tables import Column, listed, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..figures.regime_map import LINES
@@ -29,7 +29,7 @@ def drawn_curves(part: Folder, keys: Sequence[Column]) -> Iterator[Curve]:
     for number, group in groupby(sound, key=itemgetter("curve")):
         rows = list(group)
         look = next(colours)
-        along = [row for row in rows if np.isfinite(float(row["place"] if row["place"] != "" else np.nan))]
+        along = [row for row in rows if np.isfinite(number_of(row, "place"))]
         name = f"{rows[0]['kind']} of period {int(rows[0]['period'])} ({int(number)})"
         x, y = (series(along, key.name) for key in keys)
         yield Curve(x, y, name, LINES[rows[0]["kind"]], colour=look, width=1.2)

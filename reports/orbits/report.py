@@ -126,7 +126,8 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
         caption += f", up to {number(_FAR)}"
     events = []
     for kind, times in met.items():
-        events.append(count(times, kind, "torus points" if kind == "torus" else ""))
+        plural = "torus points" if kind == "torus" else ""
+        events.append(count(times, kind, plural))
     alt = f"Orbit diagram with {count(len(branches), 'branch', 'branches')} of orbits and {listed(events)}; see text."
     return diagram.figure(f"{caption}.", alt)
 
@@ -144,7 +145,8 @@ def _points_of_motions(folder: Folder, key: Column, motions: Sequence[Row], colo
         points = np.empty(0)
         if run is not None:
             points = strobed_radius(run, int(row.get("transient_periods") or 0))[:, 0]
-        columns.append(Strobes(row[key.name], points, row.get("regime") or "", row["motion"] if colours else ""))
+        letter = row["motion"] if colours else ""
+        columns.append(Strobes(row[key.name], points, row.get("regime") or "", letter))
     return columns
 
 

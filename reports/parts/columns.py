@@ -29,7 +29,10 @@ def table_of(
         heads.append(Head(column.head, column.unit, align, meaning=column.meaning))
     body = []
     for row in rows:
-        body.append([row] if isinstance(row, str) else [cells[column.name](row) for column in shown])
+        if isinstance(row, str):
+            body.append([row])
+        else:
+            body.append([cells[column.name](row) for column in shown])
     return Table(heads, body, caption)
 
 

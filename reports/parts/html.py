@@ -93,5 +93,6 @@ def _numbers(values: Iterable[float], digits: int = 6) -> list[float | None]:
     """The values with so many significant digits, None for what is not finite."""
     rounded = []
     for value in values:
-        rounded.append(float(f"{value:.{digits}g}") if math.isfinite(value) else None)
+        written = float(f"{value:.{digits}g}") if math.isfinite(value) else None
+        rounded.append(written)
     return rounded

@@ -52,7 +52,8 @@ def _place(row: Row, atlas: Atlas) -> tuple[str, ...]:
     place = []
     for key in atlas.keys:
         value = row[key.name]
-        place.append(str(value) if key.digits is None else f"{value:.9g}")
+        name = str(value) if key.digits is None else f"{value:.9g}"
+        place.append(name)
     return tuple(place)
 
 

@@ -32,7 +32,7 @@ from ..parts import (
     shown_on,
     table_of,
 )
-from ..sweep.quantities import batched, measured, over_key
+from ..sweep.quantities import batched, measured, over_key, series
 
 _MOST = 12  # columns of one table
 _SHOWN = 120  # peak periods of the picture, or 1.6 times the time until the starts are together
@@ -103,9 +103,8 @@ def _picture(folder: Folder, cells: Folder) -> Items:
     seas = []
     for seed in sorted({row["sea"] for row in over_time.table}):
         rows = [row for row in having(over_time.table, sea=seed) if math.isfinite(row["responses"])]
-        series = [np.array([row[name] for row in rows]) for name in ("period", "responses", "apart")]
         if rows:
-            seas.append(tuple(series))
+            seas.append(tuple(series(rows, name) for name in ("period", "responses", "apart")))
     if seas:
         yield Figure(
             responses_over_time(seas, cell["distance"]), _RESPONSES, "Number of responses and distance over time."
@@ -170,12 +169,13 @@ def _maps(cells: Folder, keys: Sequence[str]) -> Items:
             return
         yield Figure(over_key(cells.table, columns[0], shown, {}), "Bars: one standard error.", "Panels over the key.")
         return
-    x, y = (np.array([row[key] for row in cells.table]) for key in keys)
+    x, y = (series(cells.table, key) for key in keys)
     places = np.unique(x), np.unique(y)
     across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)
 
     def laid(values, nothing):
-        grid = np.full((len(places[1]), len(places[0])), nothing, dtype=object if nothing == "" else float)
+        kind = object if nothing == "" else float
+        grid = np.full((len(places[1]), len(places[0])), nothing, dtype=kind)
         grid[up, across] = values
         return grid
 

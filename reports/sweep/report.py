@@ -161,7 +161,8 @@ def _warnings(keys: Sequence[Column], rows) -> Notice:
         runs = sum(phrase in str(row["message"]) for row in rows)
         if runs:
             lines.append(f"In {runs} of {len(rows)} runs {words} (column `message`).")
-    return limits("Runs that failed" if failed else "Runs that hold less", lines, _SOUND)
+    title = "Runs that failed" if failed else "Runs that hold less"
+    return limits(title, lines, _SOUND)
 
 
 def _tables(columns: Mapping[str, Column], key_cells: Mapping[str, Callable], rows) -> list[Table]:

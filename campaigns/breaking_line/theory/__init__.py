@@ -100,6 +100,7 @@ def _theory(law, mass, length, force, decay, until) -> Theory:
     motion = fitted_break(law, mass, length, force, decay, until)
     speeds, shock = break_theory(motion.case), motion.shock
     through = len(shock.time_s) > 0 and shock.place_m[-1] <= 1e-6 * length
-    arrival = float(min(motion.valid_until_s, speeds.front_arrival_s, shock.time_s[-1] if through else math.inf))
+    shock_arrival_s = shock.time_s[-1] if through else math.inf
+    arrival = float(min(motion.valid_until_s, speeds.front_arrival_s, shock_arrival_s))
     work = simple_wave_work(motion.case)
     return Theory(length, force, speeds, motion.start, motion, work, arrival, motion.lost_J(arrival))

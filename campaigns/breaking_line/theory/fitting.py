@@ -73,7 +73,8 @@ def fitted_break(parameters, mass, length, tension0, decay_s, until_s, lines=400
     start, at_rest = shock_start(case), riemann(case.law, case.strain0)
     front_arrival = case.length / wave_speed(case.law, case.strain0)
     shocked = start.distance_m < case.length and start.time_s < until
-    planned = _planned(case, start if shocked else None, lines)
+    planned_start = start if shocked else None
+    planned = _planned(case, planned_start, lines)
     born_m = case.length - start.distance_m
     first = (start.time_s, born_m, start.strain, start.strain, start.speed_mps, start.emission_s)
     for room in ROOM:

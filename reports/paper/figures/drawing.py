@@ -66,7 +66,8 @@ def _settings(source) -> str:
         words.append({"full": "constant buoyancy"}.get(scene.buoy.submergence, scene.buoy.submergence))
     if scene.waves is not None:
         words.append(f"waves above still water: {scene.waves.above_still_water}")
-    words.append("in a plane" if scene.motion.dimensions == 2 else "in three dimensions")
+    space = "in a plane" if scene.motion.dimensions == 2 else "in three dimensions"
+    words.append(space)
     return ", ".join(words)
 
 
