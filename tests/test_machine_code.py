@@ -33,14 +33,14 @@ def test_every_source_counts_by_name_and_code(tmp_path, monkeypatch):
     package = tmp_path / "package"
     package.mkdir()
     endings = (".py", ".toml")
-    found = {hash_of(package, endings=endings)}
+    results = {hash_of(package, endings=endings)}
     for name, content in (("a.py", "x"), ("a.py", "y"), ("b.py", "y"), ("inner/c.toml", ""), ("inner/c.toml", "x = 1")):
         (package / name).parent.mkdir(exist_ok=True)
         (package / name).write_text(content)
-        found.add(hash_of(package, endings=endings))
-    assert len(found) == 6
+        results.add(hash_of(package, endings=endings))
+    assert len(results) == 6
     (package / "notes.md").write_text("nothing of this compiles")
-    assert hash_of(package, endings=endings) in found
+    assert hash_of(package, endings=endings) in results
 
 
 def test_the_hash_of_the_engine_takes_in_kernels_scenes_and_the_store(monkeypatch):
@@ -95,12 +95,12 @@ def test_a_comment_in_a_scene_file_leaves_its_hash(text, same):
 def test_a_damaged_note_of_a_hash_is_not_believed(tmp_path, damage):
     (tmp_path / "a.py").write_text("x = 1")
     files = {"a.py": tmp_path / "a.py"}
-    found = code_hash(files, tmp_path / "notes")
+    results = code_hash(files, tmp_path / "notes")
     (tmp_path / "notes").mkdir()
-    assert code_hash(files, tmp_path / "notes") == found
+    assert code_hash(files, tmp_path / "notes") == results
     (note,) = (tmp_path / "notes").iterdir()
     note.write_bytes(damage)
-    assert code_hash(files, tmp_path / "notes") == found and note.read_text() == found
+    assert code_hash(files, tmp_path / "notes") == results and note.read_text() == results
 
 
 def test_the_latest_folders_of_a_name_stay(tmp_path, monkeypatch):
@@ -252,7 +252,7 @@ for dimensions in map(int, sys.argv[1:]):
 def test_code_stored_by_one_process_each_is_told_apart_where_both_are_loaded(tmp_path):
     """The tension law takes the planar record or the spatial one; Table 1 has T = EA eps = 5000 N, EA = 50 kN."""
 
-    def said(*dimensions):
+    def printed(*dimensions):
         environment = os.environ | {"TETHER_CACHE_DIR": str(tmp_path)}
         run = subprocess.run(
             [sys.executable, "-c", LAW, *dimensions], env=environment, capture_output=True, text=True, check=True
@@ -260,21 +260,22 @@ def test_code_stored_by_one_process_each_is_told_apart_where_both_are_loaded(tmp
         return run.stdout.split()
 
     law = ["5000.0", "50000.0"]
-    assert said("2") == law
-    assert said("3") == law
-    assert said("2", "3") == law * 2
-    assert said("3", "2") == law * 2
+    assert printed("2") == law
+    assert printed("3") == law
+    assert printed("2", "3") == law * 2
+    assert printed("3", "2") == law * 2
 
 
 def test_plain_numba_may_call_a_kernel_that_calls_others():
     p, tables = record_of(load_scene("tethered_buoy", {"tether.nodes": 5}), kept := [])[0], np.concatenate(kept)
-    Y, found = np.random.default_rng(0).normal(size=(5, 6)), []
+    Y, results = np.random.default_rng(0).normal(size=(5, 6)), []
 
     @numba.njit
     def by_numba(p, tables, Y, Q, X):
         shape(p, tables, Y, Q, X)
 
     for call in (shape, by_numba):
-        found.append((np.zeros((5, NODE_WIDTH)), np.zeros((5, 2))))
-        call(p, tables, Y, *found[-1])
-    assert np.array_equal(found[0][0], found[1][0]) and np.array_equal(found[0][1], found[1][1]) and found[0][1].any()
+        results.append((np.zeros((5, NODE_WIDTH)), np.zeros((5, 2))))
+        call(p, tables, Y, *results[-1])
+    (first_Q, first_X), (second_Q, second_X) = results
+    assert np.array_equal(first_Q, second_Q) and np.array_equal(first_X, second_X) and first_X.any()

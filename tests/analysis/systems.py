@@ -164,3 +164,9 @@ def henon_step(z, a, b=0.3):
     """`henon` in the same way."""
     x, y = z
     return np.array([1.0 - a * x * x + y, b * x]), lambda vectors: np.array([[-2.0 * a * x, 1.0], [b, 0.0]]) @ vectors
+
+
+def henon_plane(z, p):
+    """Henon's map (x, y) -> (a - x^2 + y, b x) over both of its parameters p = (a, b), in the same way."""
+    (a, b), (x, y) = p, z
+    return np.array([a - x * x + y, b * x]), lambda vectors: np.array([[-2.0 * x, 1.0], [b, 0.0]]) @ vectors

@@ -42,10 +42,10 @@ def test_a_torus_has_exponent_zero(name, samples, noise, bound):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TRUTH)
 def test_noise_of_one_per_cent_costs_a_fifth_and_the_truth_lies_within_two_errors_in_nine_of_ten(name):
-    """20 seeds of noise on the same motion."""
-    result = [wolf_lyapunov(*record(name, noise=0.01, seed=seed)) for seed in range(20)]
+    """10 seeds of noise on the same motion."""
+    result = [wolf_lyapunov(*record(name, noise=0.01, seed=seed)) for seed in range(10)]
     assert result[0].value == pytest.approx(TRUTH[name], rel=0.2, abs=3e-3)
-    assert sum(abs(item.value - TRUTH[name]) < 2.0 * item.error for item in result) >= 18
+    assert sum(abs(item.value - TRUTH[name]) < 2.0 * item.error for item in result) >= 9
 
 
 @pytest.mark.parametrize("estimate", [wolf_lyapunov, rosenstein_lyapunov])

@@ -42,8 +42,8 @@ def normal(*shape):
     return np.random.default_rng(0).normal(size=shape)
 
 
-def section(series, step_s=0.1, period_s=5.0, **more):
-    return poincare_section(series, step_s, period_s, **more)
+def section(series, step_s=0.1, period_s=5.0, **options):
+    return poincare_section(series, step_s, period_s, **options)
 
 
 REFUSED = [

@@ -32,21 +32,21 @@ def bouncing(time_s):
 def test_a_bouncing_body_has_the_times_speeds_and_peaks_of_the_closed_form(step_s):
     time_s = step_s * np.arange(round(20.3 * ROUND_S / step_s))
     tension_N, rate_mps = bouncing(time_s + 1.0)
-    found = detect_snaps(tension_N, step_s, STATIC_N, rate_mps=rate_mps, impact_Nspm=IMPACT_NSPM)
+    detected = detect_snaps(tension_N, step_s, STATIC_N, rate_mps=rate_mps, impact_Nspm=IMPACT_NSPM)
     count = 20
-    assert len(found) == count
+    assert len(detected) == count
     # 5 % of the static tension is passed a little after the spring is met: x = 0.05 T_s/k at nearly the same speed
     late_s = 0.05 * STATIC_N / STIFFNESS_NPM / SPEED_MPS
     begins_s = ROUND_S * np.arange(1, count + 1) - 1.0
-    np.testing.assert_allclose(found.taut_s, begins_s + late_s, atol=0.6 * step_s + 1e-4)
-    np.testing.assert_allclose(found.onset_s, begins_s - FLIGHT_S - late_s, atol=0.6 * step_s + 1e-4)
-    np.testing.assert_allclose(found.duration_s, FLIGHT_S + 2.0 * late_s, atol=1.2 * step_s + 2e-4)
-    np.testing.assert_allclose(found.taut_speed_mps, SPEED_MPS, rtol=0.01)
-    np.testing.assert_allclose(found.peak_N, PEAK_N, rtol=0.125 * (RADPS * step_s) ** 2 + 1e-9)
-    np.testing.assert_allclose(found.peak_s, begins_s + RISE_S, atol=0.51 * step_s)
-    np.testing.assert_allclose(found.rise_s, found.peak_s - found.taut_s)
-    np.testing.assert_allclose(found.peak_over_static, PEAK_N / STATIC_N, rtol=1e-3)
-    np.testing.assert_allclose(found.peak_over_impact, PEAK_N / (SPEED_MPS * IMPACT_NSPM), rtol=0.01)
+    np.testing.assert_allclose(detected.taut_s, begins_s + late_s, atol=0.6 * step_s + 1e-4)
+    np.testing.assert_allclose(detected.onset_s, begins_s - FLIGHT_S - late_s, atol=0.6 * step_s + 1e-4)
+    np.testing.assert_allclose(detected.duration_s, FLIGHT_S + 2.0 * late_s, atol=1.2 * step_s + 2e-4)
+    np.testing.assert_allclose(detected.taut_speed_mps, SPEED_MPS, rtol=0.01)
+    np.testing.assert_allclose(detected.peak_N, PEAK_N, rtol=0.125 * (RADPS * step_s) ** 2 + 1e-9)
+    np.testing.assert_allclose(detected.peak_s, begins_s + RISE_S, atol=0.51 * step_s)
+    np.testing.assert_allclose(detected.rise_s, detected.peak_s - detected.taut_s)
+    np.testing.assert_allclose(detected.peak_over_static, PEAK_N / STATIC_N, rtol=1e-3)
+    np.testing.assert_allclose(detected.peak_over_impact, PEAK_N / (SPEED_MPS * IMPACT_NSPM), rtol=0.01)
 
 
 STEP_S, LENGTH_S, RINGING_S = 0.001, 30.0, 0.054
@@ -126,8 +126,8 @@ def test_times_and_counts_know_no_unit_and_no_zero_of_time():
 
 
 def test_a_slack_interval_that_began_before_the_record_has_no_onset_and_one_that_does_not_end_is_none():
-    found = detect_snaps(square((4.0, 9.0), (21.0, 22.0)), STEP_S, STATIC_N)
-    assert np.isnan(found.onset_s).tolist() == [True, False] == np.isnan(found.duration_s).tolist()
+    detected = detect_snaps(square((4.0, 9.0), (21.0, 22.0)), STEP_S, STATIC_N)
+    assert np.isnan(detected.onset_s).tolist() == [True, False] == np.isnan(detected.duration_s).tolist()
 
 
 def test_thresholds_are_options():
@@ -150,8 +150,8 @@ def test_the_peak_between_samples_counts_where_it_is_known():
     tension_N = BY_HAND["one snap"][0]
     tension_N = tension_N[20:-30]
     coarse, high_N = tension_N[::50], np.append(tension_N[0], tension_N[1:].reshape(-1, 50).max(axis=1))
-    found = detect_snaps(coarse, 50 * STEP_S, STATIC_N, high_N=high_N)
-    assert found.peak_N[0] == tension_N.max() > coarse.max()
+    detected = detect_snaps(coarse, 50 * STEP_S, STATIC_N, high_N=high_N)
+    assert detected.peak_N[0] == tension_N.max() > coarse.max()
 
 
 def test_the_table_has_a_row_a_snap_and_units():

@@ -71,8 +71,8 @@ def test_what_fails_is_a_row_and_has_no_error(tmp_path):
     broken = [row for row in rows if row["nodes"] in ("6", "641")]
     early = [row for row in chosen(rows, method="midpoint", kind="point") if row not in broken]
     points = [row for row in chosen(rows, kind="point", work="regular") if row not in (*broken, *early)]
-    for found, status in ((broken, "error"), (early, "newton-failed"), (points, "ok")):
-        assert found and all(row["status"] == status and row["error"] == "" for row in found)
+    for selected, status in ((broken, "error"), (early, "newton-failed"), (points, "ok")):
+        assert selected and all(row["status"] == status and row["error"] == "" for row in selected)
     series = chosen(orders_of(tmp_path / "out"), method="midpoint", kind="time")[0]
     assert series["order"] == "" and "newton-failed" in series["note"]
     run = KnownErrors(failing=("esdirk43",))(load_scene("tethered_buoy"), duration_s=50.0)
@@ -101,9 +101,9 @@ def test_other_codes_run_beside_the_middle_round_of_ours():
     def jobs(kind, rounds):
         return [Job({"work": work, "round": k, "kind": kind}, None) for k in rounds for work in "ab"]
 
-    found = side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3)
-    said = " ".join("{kind}-{work}-{round}".format(**job.labels) for job in found)
-    assert said == "ours-a-0 ours-b-0 ours-a-1 theirs-a-0 ours-b-1 theirs-b-0 ours-a-2 ours-b-2"
+    selected = side_by_side(jobs("ours", range(3)), jobs("theirs", [0]), 3)
+    printed = " ".join("{kind}-{work}-{round}".format(**job.labels) for job in selected)
+    assert printed == "ours-a-0 ours-b-0 ours-a-1 theirs-a-0 ours-b-1 theirs-b-0 ours-a-2 ours-b-2"
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ import pytest
 from campaigns.explore.answer import sentences
 from campaigns.explore.load import load, use_of
 from engine import load_scene
+from tables import OTHER_MOTION
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
 KNOWN = {
@@ -54,6 +55,22 @@ def test_what_a_row_knows_was_checked(name):
 def test_what_a_scene_has_was_checked(name):
     passed, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
     assert name in passed and name not in missing
+
+
+def test_the_error_of_the_largest_tension_is_told_in_kN_and_per_cent():
+    line, *_ = sentences([PULLS | KNOWN["grid and steps"]], "steepness", "kA", load_scene("tethered_buoy"))
+    assert "1 kN (± 0.03 kN)" in line and "grid and steps (± 3 %)" in line
+
+
+@pytest.mark.parametrize(("dimensions", "doubted"), [(2, True), (3, False)])
+def test_loops_speak_against_a_tension_in_a_plane_alone(dimensions, doubted):
+    words_of_use = use_of(PULLS | {"dimensions": dimensions, "loop_releases": 3}, load_scene("tethered_buoy"), True)
+    assert ("3 loops released in a plane" in words_of_use) is doubted
+
+
+def test_a_motion_that_becomes_another_one_is_not_for_design():
+    words_of_use = use_of(PULLS | {"message": f"with more nodes it {OTHER_MOTION}"}, load_scene("tethered_buoy"), True)
+    assert words_of_use == f"Not for design: with smaller elements and steps it {OTHER_MOTION}."
 
 
 def test_other_motions_were_looked_for_where_a_share_is_known():

@@ -129,8 +129,8 @@ def test_help_tells_every_option_and_loads_nothing_heavy():
     """All in one process: what is loaded stays so."""
     pages = python("-c", ASKED, *HELPS).stdout.split("\f")[:-1]
     for page, parts in zip(pages, HELPS.values(), strict=True):
-        told, loaded = page.split("loaded:")
-        assert all(part in told for part in parts.split()) and "[N ...]" not in told
+        statement, loaded = page.split("loaded:")
+        assert all(part in statement for part in parts.split()) and "[N ...]" not in statement
         assert not HEAVY & set(loaded.split())
 
 
@@ -186,10 +186,10 @@ def test_tether_is_one_name_for_all_commands(capsys):
 )
 def test_the_tab_key_completes_a_line(tmp_path, line, word):
     """The variables are those of the shell function of argcomplete."""
-    asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "words"), "COMP_LINE": line}
-    asked["COMP_POINT"] = str(len(line))
+    requested = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "words"), "COMP_LINE": line}
+    requested["COMP_POINT"] = str(len(line))
     program = "from campaigns.__main__ import installed; installed()"
-    subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=os.environ | asked, check=True)
+    subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=os.environ | requested, check=True)
     assert word in (tmp_path / "words").read_text().replace("\013", " ").split()
 
 
@@ -206,8 +206,8 @@ def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
 @pytest.mark.parametrize("words", [[], ["--help"]])
 def test_the_list_of_campaigns_is_no_mistake(capsys, words):
     assert every_campaign(words) == 0
-    said = capsys.readouterr().out
-    assert "buoy_sweep     Sweep of wave steepness" in said and "sweep          Sweep of any number" in said
+    printed = capsys.readouterr().out
+    assert "buoy_sweep     Sweep of wave steepness" in printed and "sweep          Sweep of any number" in printed
 
 
 @pytest.fixture
@@ -227,10 +227,10 @@ def listing(place):
 def test_the_answer_says_what_to_do(place, capsys, module, words):
     before, parts = listing(place), MISTAKES[module][words]
     assert importlib.import_module(module).main(words.split()) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
+    printed = capsys.readouterr()
+    assert printed.out == ""
     parts = [parts] if isinstance(parts, str) else parts
-    counts = {part: said.err.count(part) for part in parts}
+    counts = {part: printed.err.count(part) for part in parts}
     assert all(counts.values()) and (len(parts) > 1 or sum(counts.values()) == 1), counts
     assert listing(place) == before
 
@@ -258,7 +258,7 @@ def test_a_folder_that_is_gone(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize(
-    ("asked", "answer", "code", "part"),
+    ("requested", "answer", "code", "part"),
     [
         # root may write anywhere, so the answer of the system is put in its mouth
         ("os.access", False, 2, "cannot be written to; allowed: a folder that can"),
@@ -267,13 +267,13 @@ def test_a_folder_that_is_gone(tmp_path, monkeypatch, capsys):
         ("engine.load_scene", KeyboardInterrupt(), 130, "interrupted; nothing was run or written"),
     ],
 )
-def test_what_the_system_does_not_give_is_one_line(place, capsys, monkeypatch, asked, answer, code, part):
+def test_what_the_system_does_not_give_is_one_line(place, capsys, monkeypatch, requested, answer, code, part):
     def answered(*_):
         if isinstance(answer, BaseException):
             raise answer
         return answer
 
-    monkeypatch.setattr(asked, answered, raising=False)
+    monkeypatch.setattr(requested, answered, raising=False)
     assert buoy_sweep.main(["--out", "new"]) == code
     assert part in capsys.readouterr().err
 

@@ -13,13 +13,9 @@ from reports.orbits.curves import curve_items
 from reports.parts.content import Figure, Table
 from reports.parts.folder import Folder
 from tables import Column
+from tests.analysis.systems import henon_plane as henon
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.test_orbit_tree import KEY, HenonLine, grown
-
-
-def henon(z, p):
-    (a, b), (x, y) = p, z
-    return np.array([a - x * x + y, b * x]), lambda V: np.array([[-2.0 * x, 1.0], [b, 0.0]]) @ V
 
 
 class HenonPlane:

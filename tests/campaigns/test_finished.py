@@ -46,17 +46,17 @@ def test_a_row_that_another_attempt_may_mend_keeps_it_open(tmp_path):
 
 
 def test_the_key_tells_orders_code_and_libraries_apart(monkeypatch):
-    asked = {"kicks": 8, "set": ["water.depth_m=25"]}
-    usual = finished.order_key("campaigns.sweep", asked, VERSIONS)
-    assert usual == finished.order_key("campaigns.sweep", dict(reversed(asked.items())), VERSIONS)
+    requested = {"kicks": 8, "set": ["water.depth_m=25"]}
+    usual = finished.order_key("campaigns.sweep", requested, VERSIONS)
+    assert usual == finished.order_key("campaigns.sweep", dict(reversed(requested.items())), VERSIONS)
     others = [
-        finished.order_key("campaigns.basins", asked, VERSIONS),
-        finished.order_key("campaigns.sweep", asked | {"kicks": 9}, VERSIONS),
-        finished.order_key("campaigns.sweep", asked | {"set": ["water.depth_m=26"]}, VERSIONS),
-        finished.order_key("campaigns.sweep", asked, {"numpy": "2.1"}),
+        finished.order_key("campaigns.basins", requested, VERSIONS),
+        finished.order_key("campaigns.sweep", requested | {"kicks": 9}, VERSIONS),
+        finished.order_key("campaigns.sweep", requested | {"set": ["water.depth_m=26"]}, VERSIONS),
+        finished.order_key("campaigns.sweep", requested, {"numpy": "2.1"}),
     ]
     monkeypatch.setattr(finished, "made_by", lambda settings, *sources: "other code")
-    others.append(finished.order_key("campaigns.sweep", asked, VERSIONS))
+    others.append(finished.order_key("campaigns.sweep", requested, VERSIONS))
     assert usual not in others
 
 

@@ -10,6 +10,7 @@ from analysis.orbits import NoImage, OrbitMap
 from campaigns.orbits.tables import tables
 from campaigns.orbits.tree import SHARP, Tree
 from tables import Column
+from tests.analysis.systems import henon_plane
 from tests.campaigns.conftest import rows_of
 
 B = 0.3
@@ -19,8 +20,7 @@ NAMES = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "
 
 
 def henon(z, a):
-    x, y = z
-    return np.array([a - x * x + y, B * x]), lambda V: np.array([[-2.0 * x, 1.0], [B, 0.0]]) @ V
+    return henon_plane(z, (a, B))
 
 
 class Seen:

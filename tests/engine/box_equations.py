@@ -244,21 +244,21 @@ def unknowns(scene):
     return list(range(12)) if bent else [0, 3, 4, 5, 7, 8]
 
 
-def equations(scene, stage, Y, D, C_tilde, F, **more):
+def equations(scene, stage, Y, D, C_tilde, F, **settings):
     """Residual at Y moved by D, stage = (cq, cv, in_motion); in space with bending one row more: theta1 of the first
     frame is zero, it does not roll."""
-    r = residual(scene, *stage, moved(Y, D), C_tilde, F, **more)
+    r = residual(scene, *stage, moved(Y, D), C_tilde, F, **settings)
     return np.append(r, D[0, 6]) if D.shape[1] == 12 and scene.tether.bending_stiffness_Nm2 > 0 else r
 
 
-def jacobian(scene, stage, Y, C_tilde, F, **more):
+def jacobian(scene, stage, Y, C_tilde, F, **settings):
     """d equations / d D at D = 0, by complex step; unknowns node by node."""
     columns = []
     for k in range(len(Y)):
         for i in unknowns(scene):
             D = np.zeros((len(Y), 6 if scene.motion.dimensions == 2 else 12), complex)
             D[k, i] = 1j * STEP
-            columns.append(equations(scene, stage, Y, D, C_tilde, F, **more).imag / STEP)
+            columns.append(equations(scene, stage, Y, D, C_tilde, F, **settings).imag / STEP)
     return np.array(columns).T
 
 

@@ -20,10 +20,10 @@ QUIET = {"solver.newton_tolerance": 1e-14, "solver.max_newton_iterations": 50}  
 WHOLE_STARTER_S = 1e-6  # of a run from a state out of equilibrium: its rates come from steps this short
 
 
-def held(*place, **more):
+def held(*place, **keys):
     """Overrides for an upper end held at (x, z) or (x, y, z), m from the anchor; `more` keys of the end."""
     x, *y, z = (float(p) for p in place)
-    return {"end": {"kind": "held", "position_m": [x, *(y or [0.0]), z], **more}, "buoy": None}
+    return {"end": {"kind": "held", "position_m": [x, *(y or [0.0]), z], **keys}, "buoy": None}
 
 
 def free(x=0.0, z=0.0):

@@ -33,10 +33,10 @@ def rest_of(changes, depth_m):
         return None
 
 
-@pytest.mark.parametrize("more", [{}, FLOOR, {"anchor.position_m": [0.0, 0.0, 2.0]}], ids=["", "floor", "anchor"])
+@pytest.mark.parametrize("further", [{}, FLOOR, {"anchor.position_m": [0.0, 0.0, 2.0]}], ids=["", "floor", "anchor"])
 @pytest.mark.parametrize("current", CURRENTS.values(), ids=CURRENTS)
-def test_the_least_depth_is_where_the_sphere_at_rest_touches_the_water(current, more):
-    changes = {"current": current, **more}
+def test_the_least_depth_is_where_the_sphere_at_rest_touches_the_water(current, further):
+    changes = {"current": current, **further}
     deep = rest_of(changes, 60.0)
     Y, s = deep.motion.Y, deep.s
     top_m = deep.scene.anchor.position_m[2] + np.trapezoid((1.0 + Y[:, 0]) * np.sin(Y[:, 4]), s)

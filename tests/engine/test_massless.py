@@ -54,9 +54,9 @@ class Reference:
 
     def water(self, t, x, z):
         psi, over = self.k * x - self.omega * t, self.A * self.omega / math.sinh(self.k * self.H)
-        more, less = over * math.cosh(self.k * z), over * math.sinh(self.k * z)
+        cosine_part, less = over * math.cosh(self.k * z), over * math.sinh(self.k * z)
         c, s = math.cos(psi), math.sin(psi)
-        return np.array([more * c, less * s]), self.omega * np.array([more * s, -less * c])
+        return np.array([cosine_part * c, less * s]), self.omega * np.array([cosine_part * s, -less * c])
 
     def wet(self, t, x, z):
         """Share of the volume in the water, and its share of the section."""
@@ -98,9 +98,9 @@ def compared(submergence, count):
 @pytest.mark.parametrize(("submergence", "count", "steps"), [("full", 4, 160), ("spherical-cap", 2, 960)])
 def test_ten_periods_follow_the_equations_of_motion(submergence, count, steps):
     scene, starts, after = compared(submergence, count)
-    found = massless_runs(scene, starts, 10, steps)
-    assert (found.measures[:, :, 0].min(1) < scene.tether.length_m).all()  # slack, and taut again
-    assert np.abs(found.strobed[:, -1] - after).max() < 1e-6
+    result = massless_runs(scene, starts, 10, steps)
+    assert (result.measures[:, :, 0].min(1) < scene.tether.length_m).all()  # slack, and taut again
+    assert np.abs(result.strobed[:, -1] - after).max() < 1e-6
 
 
 @pytest.mark.parametrize("changes", [DEEP, CAP, {}])
@@ -169,9 +169,9 @@ def test_a_start_that_flies_off_is_not_a_number_and_disturbs_no_other():
     starts = starts_of(scene)
     wild = starts.copy()
     wild[1] = 0.0, 1e6, 0.0, 1e6
-    calm, found = massless_runs(scene, starts, 5), massless_runs(scene, wild, 5)
-    assert np.isnan(found.measures[1]).all() and np.isnan(found.strobed[1, 1:]).all()
-    assert np.array_equal(found.strobed[[0, 2, 3]], calm.strobed[[0, 2, 3]])
+    calm, result = massless_runs(scene, starts, 5), massless_runs(scene, wild, 5)
+    assert np.isnan(result.measures[1]).all() and np.isnan(result.strobed[1, 1:]).all()
+    assert np.array_equal(result.strobed[[0, 2, 3]], calm.strobed[[0, 2, 3]])
 
 
 IRREGULAR = {"waves.steepness": None, "waves.jonswap": {"significant_height_m": 1.0}}

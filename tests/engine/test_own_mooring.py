@@ -87,13 +87,13 @@ def test_a_buoy_floats_where_the_stretched_rope_lets_it_reach_a_trough(share):
 )
 @pytest.mark.parametrize("material", ropes.materials())
 def test_what_is_written_is_a_scene_of_these_values(material, changes):
-    asked = mooring(rope=ropes.rope_of(material, 0.05), **changes)
-    assert asked.faults() == []
-    text = scene_text(asked, "mine")
+    wanted = mooring(rope=ropes.rope_of(material, 0.05), **changes)
+    assert wanted.faults() == []
+    text = scene_text(wanted, "mine")
     scene = scene_from_toml(text)
-    assert scene.tether.density_kgpm3 * scene.tether.area_m2 == pytest.approx(asked.rope.mass_kgpm, rel=1e-3)
+    assert scene.tether.density_kgpm3 * scene.tether.area_m2 == pytest.approx(wanted.rope.mass_kgpm, rel=1e-3)
     assert scene.buoy.added_mass_kg == pytest.approx(1025.0 * math.pi * 27.0 / 12.0, rel=1e-4)
-    assert (scene.waves is None) == (asked.wave_height_m == 0.0) and scene.floor is not None
+    assert (scene.waves is None) == (wanted.wave_height_m == 0.0) and scene.floor is not None
     lines = text.splitlines()
     values = [line for line in lines if re.match(r"(?!name|title)\w+ = ", line)]
     assert len(values) > 15

@@ -34,29 +34,29 @@ def test_it_repeats_to_the_last_bit_and_its_derivative_is_that_of_differences(ca
     V = np.random.default_rng(1).normal(size=(len(z), 3))
     V = derivative(V)
     V /= np.linalg.norm(V, axis=0)
-    for v, found in zip(V.T, derivative(V).T, strict=True):
+    for v, computed in zip(V.T, derivative(V).T, strict=True):
         ahead, behind = (image(z + h * v, AT)[0] for h in (1e-6, -1e-6))
-        assert found == pytest.approx((ahead - behind) / 2e-6, abs=1e-4 * np.abs(found).max())
+        assert computed == pytest.approx((ahead - behind) / 2e-6, abs=1e-4 * np.abs(computed).max())
 
 
 def test_it_begins_at_the_strobe_after_a_state_and_goes_where_a_run_does(cable, settled):
     """The state is .3 of a period and part of a step past a strobe."""
     longer = simulate(scene_at(AT), periods=32)
     per_period = cable.samples_of(scene_at(AT))
-    found = cable.history([cable.first], AT)
-    assert list(found) == list(longer.columns) and len(found["time_s"]) == per_period
+    computed = cable.history([cable.first], AT)
+    assert list(computed) == list(longer.columns) and len(computed["time_s"]) == per_period
     last = {name: column[31 * per_period : 32 * per_period] for name, column in longer.columns.items()}
-    assert found["radius_m"] == pytest.approx(last["radius_m"], abs=2e-3)
+    assert computed["radius_m"] == pytest.approx(last["radius_m"], abs=2e-3)
     x, z, u, w = cable.seen.T @ cable.first
     omega = 2.0 * math.pi / scene_at(AT).waves.period_s
     assert (math.hypot(x, z), (x * u + z * w) * omega / math.hypot(x, z)) == pytest.approx(
-        (found["radius_m"][0], found["radius_rate_mps"][0]), abs=1e-9
+        (computed["radius_m"][0], computed["radius_rate_mps"][0]), abs=1e-9
     )
-    assert found["tension_top_high_N"].max() == pytest.approx(last["tension_top_high_N"].max(), rel=2e-3)
+    assert computed["tension_top_high_N"].max() == pytest.approx(last["tension_top_high_N"].max(), rel=2e-3)
     rare = PeriodMap(lambda value: scene_at(value, **{"output.step_s": 5.0}), settled.final_state, AT)
     for name in ("tension_top_low_N", "tension_top_high_N"):  # one sample has the extremes of all of the period
         extreme = np.min if "low" in name else np.max
-        assert extreme(rare.history([rare.first], AT)[name]) == pytest.approx(extreme(found[name]), rel=0.02)
+        assert extreme(rare.history([rare.first], AT)[name]) == pytest.approx(extreme(computed[name]), rel=0.02)
 
 
 def test_an_orbit_is_what_the_run_settles_on_and_what_a_run_from_its_state_keeps(cable, settled):

@@ -33,8 +33,8 @@ print(json.dumps([pieces, loaded()]))
 
 def loaded(which):
     """Kernels with the types of their arguments that a process has: after the pieces, and after runs as well."""
-    said = subprocess.run([sys.executable, "-c", PROGRAM, which], capture_output=True, text=True, check=True)
-    return json.loads(said.stdout)
+    printed = subprocess.run([sys.executable, "-c", PROGRAM, which], capture_output=True, text=True, check=True)
+    return json.loads(printed.stdout)
 
 
 @pytest.mark.slow

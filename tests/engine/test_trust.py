@@ -55,22 +55,22 @@ def test_a_small_part_of_the_largest_tension_is_not_told():
 
 
 @pytest.mark.parametrize(
-    ("period_s", "steepness", "told"),
+    ("period_s", "steepness", "statement"),
     [(5.0, 0.13, ""), (50.0, 1e-4, ""), (50.0, 0.016, "too long to be linear"), (5.0, 0.6, "a wave of 5 s breaks")],
 )
-def test_waves_that_are_not_linear_are_told(period_s, steepness, told):
+def test_waves_that_are_not_linear_are_told(period_s, steepness, statement):
     """T = 50 s in 21 m: L = 712 m, and H L^2/depth^3 = 198 of kA = 0.016; deep water breaks at 0.142 pi."""
     scene = load_scene("tethered_buoy", {"waves.period_s": period_s, "waves.steepness": steepness, "tether.nodes": 9})
     message = simulate(scene, duration_s=0.1).message
-    assert (told in message) if told else message == ""
+    assert (statement in message) if statement else message == ""
 
 
 def test_a_table_jumps_where_its_samples_begin_or_end_in_motion():
     omega, amplitude = 2 * np.pi, 0.01
     sine, cosine = (amplitude * wave(omega * TIMES) for wave in (np.sin, np.cos))
     cut = TIMES[: 1 + 80 + 5]  # ends where a cosine is fastest, nearly
-    found = jumps_of(line(moved(sine)).end)
-    assert [(t, speed) for t, speed, _ in found] == [
+    computed = jumps_of(line(moved(sine)).end)
+    assert [(t, speed) for t, speed, _ in computed] == [
         (0.0, pytest.approx(omega * amplitude, rel=0.05)),
         (4.0, pytest.approx(omega * amplitude, rel=0.05)),
     ]
@@ -79,40 +79,40 @@ def test_a_table_jumps_where_its_samples_begin_or_end_in_motion():
     assert jumps_of(line(moved([0.0, 0.1, 0.1, 0.0], [0.0, 1.0, 2.0, 3.0])).end) == []
 
 
-@pytest.mark.parametrize("largest_s, least_N, told", [
+@pytest.mark.parametrize("largest_s, least_N, statement", [
     (0.04, 90.0, "at t = 0 s"), (2.0, 90.0, ""), (4.0, 90.0, "at t = 4 s"), (2.0, -130.0, "at t = 4 s"),
 ])  # fmt: skip
-def test_a_jump_is_told_only_where_it_makes_the_largest_force(largest_s, least_N, told):
+def test_a_jump_is_told_only_where_it_makes_the_largest_force(largest_s, least_N, statement):
     """Of either sign: the least tension is that of the stop at the end."""
     scene, smooth = (line(moved(0.05 * wave(2 * np.pi * TIMES))) for wave in (np.sin, np.cos))
     high, low = np.full(len(TIMES), 100.0), np.full(len(TIMES), 100.0)
     high[np.searchsorted(TIMES, largest_s - 1e-9)] = 120.0
     low[-1] = least_N
     columns = {"time_s": TIMES, "tension_top_high_N": high, "tension_top_low_N": low}
-    said = blows(Run(scene, 1.0).record, scene, columns)
+    stated = blows(Run(scene, 1.0).record, scene, columns)
     assert blows(Run(smooth, 1.0).record, smooth, columns) == ""
-    assert told in said and said.count("at t =") == bool(told)
+    assert statement in stated and stated.count("at t =") == bool(statement)
 
 
-@pytest.mark.parametrize("nodes, told", [(3, True), (21, False)])
-def test_a_grid_too_coarse_at_rest_is_told(nodes, told):
+@pytest.mark.parametrize("nodes, warned", [(3, True), (21, False)])
+def test_a_grid_too_coarse_at_rest_is_told(nodes, warned):
     run = ran(line(DRY, SLACK, nodes=nodes), duration_s=0.1)
     fine = ran(line(DRY, SLACK, nodes=321), duration_s=0.1).columns["tension_top_N"][0]
     off = abs(run.columns["tension_top_N"][0] / fine - 1)
-    assert (off > 0.05) == told == ("at rest" in run.message)
+    assert (off > 0.05) == warned == ("at rest" in run.message)
 
 
 def test_steps_too_long_for_the_largest_tension_are_told():
     """A buoy that begins to heave: backward Euler damps its first swing, by half as much in steps half as long."""
     heaving = away(1900.0, 3e6) | {"solver.integrator": "backward-euler"}
-    said = "in steps twice as long"
+    stated = "in steps twice as long"
     coarse, fine = (
         ran(line(STILL, heaving, {"solver.step_s": step_s}, tension=linear(3e6)), duration_s=1.0)
         for step_s in (0.05, 0.0005)
     )
     largest = [run.columns["tension_top_high_N"].max() for run in (coarse, fine)]
     assert largest[0] < 0.95 * largest[1]
-    assert said in coarse.message and said not in fine.message
+    assert stated in coarse.message and stated not in fine.message
     off = float(re.search(r"holds to (\S+) N, because", coarse.message)[1])
     assert off == pytest.approx(largest[1] - largest[0], rel=0.6)  # by the method's own order, 1
 
@@ -125,11 +125,11 @@ def test_what_is_lost_in_the_step_to_the_largest_tension_is_its_error_though_it_
     assert "holds to 30 N" in unresolved(run.record, run.tables, run.scene, columns)
 
 
-@pytest.mark.parametrize("overrides, told", [
+@pytest.mark.parametrize("overrides, warned", [
     ({}, True), ({"tether.drag_normal": 0.001}, False), ({"tether.damping_critical": 0.1}, False),
     ({"waves.steepness": 0.001}, False),
 ])  # fmt: skip
-def test_a_slack_line_that_nothing_calms_is_told(overrides, told):
+def test_a_slack_line_that_nothing_calms_is_told(overrides, warned):
     undamped = {"tether.drag_normal": 0.0, "tether.drag_tangential": 0.0, "tether.nodes": 11, "waves.steepness": 0.1}
     run = simulate(load_scene("tethered_buoy", undamped | overrides), periods=6)
-    assert ("neither drag nor damping" in run.message) == told
+    assert ("neither drag nor damping" in run.message) == warned

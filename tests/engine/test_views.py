@@ -27,8 +27,8 @@ def moved(ratio: float, growth: float | None = None, scene: str = "tethered_buoy
     columns = {name: known.get(name, np.zeros(len(turns))) for name in COLUMNS}
     wobble = 0.1 * np.sin(np.arange(PERIODS))
     tangent = None if growth is None else TangentGrowth(5.0, (growth + wobble)[:, None], np.zeros(PERIODS))
-    said = {"status": "ok", "message": ""} | ending
-    return Trajectory(load_scene(scene), columns=columns, statistics={}, tangent=tangent, **said)
+    ended = {"status": "ok", "message": ""} | ending
+    return Trajectory(load_scene(scene), columns=columns, statistics={}, tangent=tangent, **ended)
 
 
 def test_a_motion_of_period_2():
@@ -51,9 +51,9 @@ def test_a_torus_needs_perturbations_to_be_told():
 
 
 def test_the_exponent_is_that_of_the_tangent_dynamics_where_it_was_carried():
-    found = moved(GOLDEN, 0.05).exponent()
-    assert abs(found.value - 0.05 / np.log(2.0)) < 2.0 * found.error + 1e-3 and "tangent" in found.method
-    assert found.details["periods"] == PERIODS - PERIODS // 3
+    computed = moved(GOLDEN, 0.05).exponent()
+    assert abs(computed.value - 0.05 / np.log(2.0)) < 2.0 * computed.error + 1e-3 and "tangent" in computed.method
+    assert computed.details["periods"] == PERIODS - PERIODS // 3
     assert moved(GOLDEN, 0.05).exponent(transient_periods=100).details["periods"] == PERIODS - 100
     assert "Wolf" in moved(0.5).exponent().method
 
@@ -116,8 +116,8 @@ def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
         run = replace(moved(0.5, -0.2), scene=load_scene("tethered_buoy", changes))
         time_s = run.columns["time_s"]
         run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
-        said = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {whole}", later)))
-        assert facts(run)["tension"] == said
+        text = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {whole}", later)))
+        assert facts(run)["tension"] == text
 
 
 def test_an_exponent_says_over_which_periods():
@@ -260,8 +260,8 @@ def test_a_run_that_blew_up_is_drawn_as_far_as_it_goes(tmp_path):
 def test_the_command_runs_a_scene_and_saves_its_figure(tmp_path, capsys):
     words = ["tethered_buoy", "--set", "tether.nodes=5", "waves.steepness=0.01", "--periods", "6"]
     assert main([*words, "--out", str(tmp_path / "run.png")]) == 0
-    said = capsys.readouterr().out
-    assert "6 wave periods, 30 s" in said and "undecided: too short" in said and "run.png" in said
+    text = capsys.readouterr().out
+    assert "6 wave periods, 30 s" in text and "undecided: too short" in text and "run.png" in text
     assert [path.name for path in tmp_path.iterdir()] == ["run.png"]
 
 

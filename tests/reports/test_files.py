@@ -144,7 +144,7 @@ PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajector
 
 
 @pytest.mark.parametrize(
-    ("part", "content", "said"),
+    ("part", "content", "phrase"),
     [
         ("columns.csv", None, "older version"),
         ("columns.csv", "name,unit\n", "its first line is not name,unit,symbol,meaning,digits"),
@@ -158,7 +158,7 @@ PARTS = ("table.csv", "columns.csv", "scene.toml", "provenance.json", "trajector
         ("provenance.json", json.dumps({"campaign": "other"}), "names the campaign 'other'"),
     ],
 )
-def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, capsys, part, content, said):
+def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, capsys, part, content, phrase):
     """content: of the file in place of its own, None where it is taken away."""
     folder = campaign(tmp_path / "out", [0.13], periods=5, transient=1)
     if content is None:
@@ -167,11 +167,11 @@ def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, ca
         (folder / part).write_text(content, encoding="utf-8")
     files = sorted(folder.iterdir())
     assert main([str(folder)]) == 2
-    assert said in capsys.readouterr().err and sorted(folder.iterdir()) == files
+    assert phrase in capsys.readouterr().err and sorted(folder.iterdir()) == files
 
 
 @pytest.mark.parametrize(
-    ("campaign", "columns", "said"),
+    ("campaign", "columns", "phrase"),
     [
         ("accuracy", of_accuracy, "does not describe the works"),
         ("out_of_plane", of_plane, "does not name base and transient"),
@@ -181,16 +181,16 @@ def test_a_part_that_cannot_be_used_is_named_and_nothing_is_written(tmp_path, ca
         ("stability", of_accuracy, "or not those of this campaign"),
     ],
 )
-def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, capsys, campaign, columns, said):
+def test_a_folder_that_does_not_say_what_its_report_needs_is_refused(tmp_path, capsys, campaign, columns, phrase):
     place = folder_at(tmp_path / "out", campaign, [{"status": "ok"}], columns)
     if not columns:
         (place / "table.csv").unlink()
     assert main([str(place)]) == 2
-    assert said in capsys.readouterr().err
+    assert phrase in capsys.readouterr().err
 
 
 def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
-    for place, said in ((tmp_path, [f"{part} is missing" for part in PARTS]), (tmp_path / "no", ["no such folder"])):
+    for place, phrase in ((tmp_path, [f"{part} is missing" for part in PARTS]), (tmp_path / "no", ["no such folder"])):
         assert main([str(place)]) == 2
         message = capsys.readouterr().err
-        assert all(words in message for words in said) and list(tmp_path.iterdir()) == []
+        assert all(words in message for words in phrase) and list(tmp_path.iterdir()) == []

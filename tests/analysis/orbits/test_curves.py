@@ -4,14 +4,9 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap, follow_curve
+from tests.analysis.systems import henon_plane as henon
 
 CLOSE = 1e-8
-
-
-def henon(z, p):
-    a, b = p
-    x, y = z
-    return np.array([a - x * x + y, b * x]), lambda V: np.array([[-2.0 * x, 1.0], [b, 0.0]]) @ V
 
 
 def cusp(z, p):

@@ -96,11 +96,11 @@ def test_recoil_of_a_line_that_moves_as_told():
     profiles = SimpleNamespace(
         time_s=np.array([0.0, 0.1]), s_m=s, x_m=np.array([x0, folded]), z_m=np.array([0.0 * s, z])
     )
-    found = measures.recoil(profiles, 0.1)
-    assert found["recoil_m"] == found["recoil_120ms_m"] == pytest.approx(10.0)
-    assert found["x_min_m"] == pytest.approx(-0.45) and found["left_of_fixed_end_m"] == pytest.approx(4.0)
-    assert found["vertical_m"] == pytest.approx(1.2) and found["vertical_beyond_m"] == pytest.approx(0.1)
-    assert found["buckled_m"] == pytest.approx(5.0)
+    measured = measures.recoil(profiles, 0.1)
+    assert measured["recoil_m"] == measured["recoil_120ms_m"] == pytest.approx(10.0)
+    assert measured["x_min_m"] == pytest.approx(-0.45) and measured["left_of_fixed_end_m"] == pytest.approx(4.0)
+    assert measured["vertical_m"] == pytest.approx(1.2) and measured["vertical_beyond_m"] == pytest.approx(0.1)
+    assert measured["buckled_m"] == pytest.approx(5.0)
 
 
 def scene_of(case, **changes):

@@ -42,8 +42,8 @@ def ended(tmp_path, monkeypatch):
 
         monkeypatch.setattr(motions.starts, "run", counted)
         starts = [(0, Start("kick", (x, 0.0))) for x in KICKS]
-        found = motions.run_starts("kicks", starts, beside)
-        return [motions.at[0].index(motion) for motion in found], len(on_the_line)
+        motions_of_kicks = motions.run_starts("kicks", starts, beside)
+        return [motions.at[0].index(motion) for motion in motions_of_kicks], len(on_the_line)
 
     return run
 

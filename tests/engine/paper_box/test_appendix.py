@@ -103,10 +103,10 @@ def letters(scene, Y, water):
     return y
 
 
-def wrong_rows(found, right):
+def wrong_rows(computed, right):
     """Numbers of the rows (13, n) that differ by more than rounding of their largest entry (or of 1)."""
     size = np.maximum(np.abs(right).max(1), 1.0)
-    return set(1 + np.flatnonzero(np.abs(found - right).max(1) > ROUNDING * size))
+    return set(1 + np.flatnonzero(np.abs(computed - right).max(1) > ROUNDING * size))
 
 
 def test_the_print_is_wrong_where_it_is_said_to_be_and_nowhere_else():

@@ -29,14 +29,17 @@ def run_of(nodes, step_s, *parts, duration_s=1.0, accelerations=False):
     """A run with its line kept: of the paper's scheme, or of the conservation form where step_s is None."""
     solver = {"solver.scheme": "paper-box", "solver.step_s": step_s} if step_s else {"solver.rtol": 1e-5}
     scene = line({"output.profiles": True, "output.step_s": 0.1}, solver, *parts, nodes=nodes)
-    found = run_boxed(scene, duration_s, accelerations=accelerations) if step_s else simulate(scene, None, duration_s)
-    assert found.status == "ok", found.message
-    return found
+    if step_s:
+        computed = run_boxed(scene, duration_s, accelerations=accelerations)
+    else:
+        computed = simulate(scene, None, duration_s)
+    assert computed.status == "ok", computed.message
+    return computed
 
 
-def places(found):
+def places(computed):
     """Nodes (3, samples, n), m."""
-    return np.stack([getattr(found.profiles, f"{axis}_m") for axis in "xyz"])
+    return np.stack([getattr(computed.profiles, f"{axis}_m") for axis in "xyz"])
 
 
 def calm(nodes, step_s, accelerations=False):
@@ -60,8 +63,8 @@ def test_a_moved_end_shakes_the_line_as_in_the_conservation_form(motion):
     assert np.ptp(limit[0][:, 40]) > 0.05  # its middle moves
     errors = []
     for nodes, step_s in ((6, 0.02), (11, 0.01), (21, 0.005)):
-        found = places(run_of(nodes, step_s, moved))
-        errors.append(np.abs(found - limit[:, :, :: 80 // (nodes - 1)]).max())
+        computed = places(run_of(nodes, step_s, moved))
+        errors.append(np.abs(computed - limit[:, :, :: 80 // (nodes - 1)]).max())
     assert errors[-1] < 0.015
     assert errors[0] / errors[2] > 8, errors  # 16 at order 2, on grids fine enough for the bends at the ends
 
@@ -87,19 +90,19 @@ def small(**overrides):
 
 
 def test_progress_is_told_and_every_sample_is_there():
-    told = []
-    found = run_boxed(small(**{"output.profiles": True, "solver.step_s": 0.0125}), 2.0, told.append)
-    assert len(found.columns["time_s"]) == 41 and found.profiles.strain.shape == (41, 7)
-    assert told == sorted(told) and 0 < told[-1] <= 1
+    progress = []
+    computed = run_boxed(small(**{"output.profiles": True, "solver.step_s": 0.0125}), 2.0, progress.append)
+    assert len(computed.columns["time_s"]) == 41 and computed.profiles.strain.shape == (41, 7)
+    assert progress == sorted(progress) and 0 < progress[-1] <= 1
     tight = run_boxed(small(**{"solver.newton_tolerance": 1e-12, "solver.step_s": 0.0125}), 2.0)
-    assert tight.statistics["newton_iterations"] > found.statistics["newton_iterations"]
+    assert tight.statistics["newton_iterations"] > computed.statistics["newton_iterations"]
 
 
 @pytest.mark.slow
 def test_turns_that_the_nodes_do_not_resolve():
     """With the other guard away the turns reach the bound next; both numbers are in the statistics."""
     scene = load_scene("tethered_buoy", {**SNAP, "tether.nodes": 21, "solver.step_s": 0.005})
-    found = run_boxed(scene, 8.0, most_gap=math.inf)
-    assert found.status == "turn-unresolved"
-    assert found.statistics["max_turn_rad"] > math.pi / 2 and found.statistics["closure_m"] > 0.2
-    assert f"{found.statistics['max_turn_rad']:.3g} rad" in found.message
+    computed = run_boxed(scene, 8.0, most_gap=math.inf)
+    assert computed.status == "turn-unresolved"
+    assert computed.statistics["max_turn_rad"] > math.pi / 2 and computed.statistics["closure_m"] > 0.2
+    assert f"{computed.statistics['max_turn_rad']:.3g} rad" in computed.message

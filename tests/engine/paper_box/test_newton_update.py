@@ -172,9 +172,9 @@ def test_update_solves_the_printed_equations(law, end, dimensions):
             moved[i, k] += 1j * STEP
             columns.append(residual(moved).imag / STEP)
     J, r = np.array(columns).T, residual(Y).real
-    code, found, _ = newton_update(line, Y, water, 1.0 + DT, Level(1.0, Y_old, water_old, P(line, Y_old, water_old)))
+    code, computed, _ = newton_update(line, Y, water, 1.0 + DT, Level(1.0, Y_old, water_old, P(line, Y_old, water_old)))
     assert code == 0
-    update, exact = found[0].T[:, active].ravel(), np.linalg.solve(J, -r)
+    update, exact = computed[0].T[:, active].ravel(), np.linalg.solve(J, -r)
     size = np.abs(exact.reshape(n, -1)).max(0)
     assert np.all(np.abs((update - exact).reshape(n, -1)) <= 1e-6 * size)
     assert np.all(np.abs(J @ update + r) <= 1e-6 * (np.abs(J) @ np.abs(exact) + np.abs(r)))

@@ -13,7 +13,7 @@ from engine.perturbations.tangent import period_of
 from tests.engine.lines import assert_same, line, ran
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6, "tether.nodes": 21}
-ASKED = {
+CARRIED = {
     "in the plane": {"output.tangent_vectors": 2},
     "across": {"output.lateral_growth": True},
     "both": {"output.tangent_vectors": 2, "output.lateral_growth": True},
@@ -21,19 +21,20 @@ ASKED = {
 PARTS = ("growth_nats", "released", "lateral_nats")
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_only_where_it_is_asked_and_without_a_trace(asked):
+@pytest.mark.parametrize("carried", CARRIED)
+def test_only_where_it_is_asked_and_without_a_trace(carried):
     """Neither the motion nor the other growth differ by a bit; a longer run begins alike."""
-    plain, run, longer = (ran(line(STEEP, keys), p) for keys, p in (({}, 6.5), (ASKED[asked], 6.5), (ASKED[asked], 9)))
+    plain = ran(line(STEEP), 6.5)
+    run, longer = (ran(line(STEEP, CARRIED[carried]), periods) for periods in (6.5, 9))
     assert plain.tangent is None
     for name, column in plain.columns.items():
         np.testing.assert_array_equal(column, run.columns[name])
-    vectors, across = ASKED[asked].get("output.tangent_vectors", 0), asked != "in the plane"
+    vectors, across = CARRIED[carried].get("output.tangent_vectors", 0), carried != "in the plane"
     assert run.tangent.period_s == 5.0
     assert run.tangent.growth_nats.shape == (6, vectors) and run.tangent.released.shape == (6,)
     assert np.isfinite(run.tangent.growth_nats).all()
     assert (run.tangent.lateral_nats is not None) == across
-    both = ran(line(STEEP, ASKED["both"]), 6.5).tangent
+    both = ran(line(STEEP, CARRIED["both"]), 6.5).tangent
     np.testing.assert_array_equal(longer.tangent.growth_nats[:6], run.tangent.growth_nats)
     if vectors:
         np.testing.assert_array_equal(both.growth_nats, run.tangent.growth_nats)
@@ -42,14 +43,14 @@ def test_only_where_it_is_asked_and_without_a_trace(asked):
         np.testing.assert_array_equal(both.lateral_nats, run.tangent.lateral_nats)
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_releases_are_told_in_their_period(asked):
+@pytest.mark.parametrize("carried", CARRIED)
+def test_releases_are_told_in_their_period(carried):
     """The shipped scene in 21.6 m releases its first loop between 53 and 54 s, in the eleventh period."""
-    run = ran(line({"water.depth_m": 21.6}, ASKED[asked]), 12)
+    run = ran(line({"water.depth_m": 21.6}, CARRIED[carried]), 12)
     assert run.statistics["loop_releases"] >= 1
     assert run.tangent.released[10] == 1.0
     assert not run.tangent.released[:10].any(), "the small steps of the sudden start are no release"
-    stopped = simulate(line({"water.depth_m": 21.6, "solver.loop_release": False}, ASKED[asked]), 12)
+    stopped = simulate(line({"water.depth_m": 21.6, "solver.loop_release": False}, CARRIED[carried]), 12)
     assert stopped.status == "turn-unresolved"
     assert len(stopped.tangent.growth_nats) == int(stopped.statistics["end_time_s"] // 5.0) == 10
 
@@ -58,11 +59,11 @@ def test_a_step_that_ends_with_a_period_belongs_to_it():
     assert [period_of(t, 5.0, 3) for t in (0.1, 5.0, 5.001, 10.0, 99.0)] == [0, 0, 1, 1, 2]
 
 
-@pytest.mark.parametrize("asked", ASKED)
+@pytest.mark.parametrize("carried", CARRIED)
 @pytest.mark.parametrize("periods", [6.5, 0.5])
-def test_saved_and_loaded(periods, asked, tmp_path):
+def test_saved_and_loaded(periods, carried, tmp_path):
     """Also without a complete period, and with one of many digits."""
-    run = ran(line(STEEP, ASKED[asked], {"waves.period_s": 5.0 + 1e-13 * math.pi}), periods)
+    run = ran(line(STEEP, CARRIED[carried], {"waves.period_s": 5.0 + 1e-13 * math.pi}), periods)
     run.save(tmp_path / "run.nc")
     again = Trajectory.load(tmp_path / "run.nc")
     assert_same(again, run)

@@ -63,11 +63,11 @@ def test_it_solves_the_linearised_equations_in_space(end, wet, law, GI, turns):
     scene = scene_of(end, wet, tension=LAWS[law])
     state, dC_tilde = state_of(rng, scene, angles(rng, turns)), rng.normal(size=(NODES, 2))
     exact = space_response(scene, *state, dC_tilde, GI)
-    found = kernel_response(scene, *state, dC_tilde)
+    computed = kernel_response(scene, *state, dC_tilde)
     assert np.abs(exact[:, [0, 2, 3, 5]]).max() < 1e-9 * np.abs(exact).max(), "nothing moves in the plane"
     for column in (0, 1):
         expected = exact[:, 1 + 3 * column]
-        assert np.abs(found[:, column] - expected).max() < 1e-8 * np.abs(expected).max()
+        assert np.abs(computed[:, column] - expected).max() < 1e-8 * np.abs(expected).max()
 
 
 def test_a_turn_of_pi_is_like_its_neighbours():
@@ -76,14 +76,14 @@ def test_a_turn_of_pi_is_like_its_neighbours():
     scene = scene_of("buoy", True)
     Y, C_tilde, F = state_of(rng, scene, angles(rng, 0.3))
     dC_tilde = rng.normal(size=(NODES, 2))
-    found = []
+    computed = []
     for turn in (np.pi - 1e-7, np.pi, np.pi + 1e-7):
         bent = Y.copy()
         bent[5:, 4] += turn - (Y[5, 4] - Y[4, 4])
-        found.append(kernel_response(scene, bent, C_tilde, F, dC_tilde))
-    scale = np.abs(found[1]).max(axis=0)
-    assert np.all(np.abs(found[0] + found[2] - 2 * found[1]) < 1e-9 * scale)
-    assert np.all(np.abs(found[2] - found[0]) < 1e-4 * scale)
+        computed.append(kernel_response(scene, bent, C_tilde, F, dC_tilde))
+    scale = np.abs(computed[1]).max(axis=0)
+    assert np.all(np.abs(computed[0] + computed[2] - 2 * computed[1]) < 1e-9 * scale)
+    assert np.all(np.abs(computed[2] - computed[0]) < 1e-4 * scale)
 
 
 def current(w):
@@ -120,21 +120,21 @@ def growths(scene, duration_s):
     planar = Carried(run, start[None])
     across, rates = np.ascontiguousarray(start[:, [0, 2]]), np.zeros((len(start), 2))
     weights = np.tile([1.0, run.weight], (len(start), 1))
-    found = []
+    computed = []
     for count in run.chunks():
         for i in range(count):
             before = planar.growth[0]
             planar.follow(i)
-            found.append((run.carry_lateral(i, 1, weights, across, rates), planar.growth[0] - before))
-    return np.array(found), across, planar.vectors[0]
+            computed.append((run.carry_lateral(i, 1, weights, across, rates), planar.growth[0] - before))
+    return np.array(computed), across, planar.vectors[0]
 
 
 @pytest.mark.parametrize("name", RUNS)
 def test_across_is_along_on_an_upright_tether(name):
     overrides, duration_s = RUNS[name]
-    found, across, along = growths(line(overrides, nodes=21), duration_s)
-    assert len(found) > 15
-    assert np.abs(found[:, 0] - found[:, 1]).max() < 1e-7
-    assert np.abs(found.sum(axis=0)).max() > 0.5, "the perturbation was meant to do something"
+    computed, across, along = growths(line(overrides, nodes=21), duration_s)
+    assert len(computed) > 15
+    assert np.abs(computed[:, 0] - computed[:, 1]).max() < 1e-7
+    assert np.abs(computed.sum(axis=0)).max() > 0.5, "the perturbation was meant to do something"
     assert np.abs(across - along[:, [0, 2]]).max() < 1e-6
     assert np.abs(along[:, [1, 3]]).max() < 1e-6

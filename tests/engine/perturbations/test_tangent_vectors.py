@@ -171,10 +171,10 @@ def faults(run, vectors):
 def test_carried_perturbation_is_the_derivative(name):
     overrides, duration_s = RUNS[name]
     run = Run(line(overrides, nodes=21), duration_s)
-    found = np.array(list(faults(run, run.direction(5))))
-    assert found[-1, 0] >= duration_s
-    assert found[:, 1].max() < TOLERANCE
-    assert found[:, 2].max() < TOLERANCE
+    computed = np.array(list(faults(run, run.direction(5))))
+    assert computed[-1, 0] >= duration_s
+    assert computed[:, 1].max() < TOLERANCE
+    assert computed[:, 2].max() < TOLERANCE
     if overrides.items() >= STEEP.items():
         assert run.state["min_strain"] < 0, "the run was meant to go slack"
 
@@ -182,12 +182,12 @@ def test_carried_perturbation_is_the_derivative(name):
 def test_through_a_loop_release():
     """The shipped scene in 21.6 m releases its first loop after 53 s; run and copies do so after the same step."""
     run = Run(line({"water.depth_m": 21.6}), 56.0)
-    found = np.array(list(faults(run, run.direction(5))))
-    released = np.flatnonzero(found[:, 3])
+    computed = np.array(list(faults(run, run.direction(5))))
+    released = np.flatnonzero(computed[:, 3])
     assert len(released) == run.state["releases"] >= 1
-    assert len(found) > released[0] + 20, "the run was meant to go on after the release"
-    assert found[:, 1].max() < TOLERANCE
-    assert found[:, 2].max() < TOLERANCE
+    assert len(computed) > released[0] + 20, "the run was meant to go on after the release"
+    assert computed[:, 1].max() < TOLERANCE
+    assert computed[:, 2].max() < TOLERANCE
 
 
 NODES, SPEED = 5, (0.8, 0.1)
@@ -218,9 +218,9 @@ def growths(scene):
 @pytest.fixture(scope="module")
 def eigenvalues():
     """lambda (1/s) of small motions about the rest of the leaning line."""
-    found = rates(equilibrium(leaning()), 10.0)
-    assert np.all(found.real < 0), "the line was meant to be stable"
-    return found
+    computed = rates(equilibrium(leaning()), 10.0)
+    assert np.all(computed.real < 0), "the line was meant to be stable"
+    return computed
 
 
 @pytest.mark.parametrize(
@@ -230,11 +230,11 @@ def eigenvalues():
 def test_growths_are_those_of_the_stability_function(method, A, step_s, eigenvalues):
     decays = [np.log(abs(stability(A, A[-1], step_s * value))) / step_s for value in eigenvalues]
     expected = np.sort(decays)[::-1]
-    found = growths(leaning(integrator=method, step_s=step_s))
+    computed = growths(leaning(integrator=method, step_s=step_s))
     count = len(expected)
     gaps = np.append(-np.diff(expected) > 0.1, True)
     assert gaps.sum() >= 5
-    sums = np.cumsum(expected)[gaps], np.cumsum(found[:count])[gaps]
+    sums = np.cumsum(expected)[gaps], np.cumsum(computed[:count])[gaps]
     assert sums[1] == pytest.approx(sums[0], rel=1e-5)
     # nothing else is left after one step: the rest loses all but rounding in each
-    assert np.all(found[count:] < -20 / step_s)
+    assert np.all(computed[count:] < -20 / step_s)

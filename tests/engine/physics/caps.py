@@ -18,8 +18,8 @@ def afloat(changes=None, depth_m=20.0, **tether):
     soft = {"tether.density_kgpm3": 1027.0, "tether.tension.stiffness_N": 40.0, "tether.nodes": 5}
     still = {"waves": None, "water.depth_m": depth_m, "buoy.drag": 0.0, "tether.drag_normal": 0.0}
     still |= {"tether.drag_tangential": 0.0, "tether.diameter_m": 1e-3}
-    more = {f"tether.{key}": value for key, value in tether.items()}
-    return load_scene("tethered_buoy", CAP | soft | still | more | (changes or {}))
+    of_tether = {f"tether.{key}": value for key, value in tether.items()}
+    return load_scene("tethered_buoy", CAP | soft | still | of_tether | (changes or {}))
 
 
 def clipped(h, D):

@@ -97,9 +97,9 @@ def test_a_line_that_lies_on_the_bed_in_part(dimensions):
         scene = line(DRY, held(x, z), {"floor": BED, "motion.dimensions": dimensions, "tether.tension": linear(EA)},
                      nodes=nodes, **CHAIN)  # fmt: skip
         motion = equilibrium(scene)
-        found = EA * motion.Y[[0, -1], 0]
+        computed = EA * motion.Y[[0, -1], 0]
         expected = H, np.hypot(H, WEIGHT * (CHAIN["length_m"] - lying))
-        errors.append(np.abs(found / expected - 1).max())
+        errors.append(np.abs(computed / expected - 1).max())
         lowest = positions(motion.Y, motion.h)[:, -1].min()
         assert lowest < 0.0
     assert errors[0] < 2e-3

@@ -48,8 +48,8 @@ def test_what_friction_holds_creeps_as_its_regularisation_says(dimensions):
     start = rest.Y.copy()
     start[:, 0] += wave
     motion = Motion(scene, 0.2, start=start)
-    found = [(t, (Y[:, 0] - rest.Y[:, 0]) @ wave / (wave @ wave)) for t, Y in motion.states()]
-    (t0, before), (t1, after) = found[1], found[-1]
+    computed = [(t, (Y[:, 0] - rest.Y[:, 0]) @ wave / (wave @ wave)) for t, Y in motion.states()]
+    (t0, before), (t1, after) = computed[1], computed[-1]
     m, c, stiff = WEIGHT / G, MU * WEIGHT / V_S, EA * (math.pi / length) ** 2
     rate = (c - math.sqrt(c**2 - 4 * m * stiff)) / (2 * m)
     assert math.log(before / after) / (t1 - t0) == pytest.approx(rate, rel=0.02)

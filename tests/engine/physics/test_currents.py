@@ -63,15 +63,15 @@ def exact(current, t):
     points = {"time_s": np.full(200, t), "x_m": PLACES[:, 0], "y_m": PLACES[:, 1], "height_m": PLACES[:, 2]}
     axes = {name: current[name] for name in AXES if name in current}
     clipped = np.stack([np.clip(points[name], axis[0], axis[-1]) for name, axis in axes.items()], axis=-1)
-    found = np.zeros((200, 3))
+    computed = np.zeros((200, 3))
     for component, name in enumerate("xyz"):
         if f"velocity_{name}_mps" in current:
             values, grid = np.array(current[f"velocity_{name}_mps"]), []
             for at, axis in enumerate(axes.values()):
                 values = np.repeat(values, 2, axis=at) if len(axis) == 1 else values
                 grid.append([axis[0], axis[0] + 1.0] if len(axis) == 1 else axis)
-            found[:, component] = RegularGridInterpolator(grid, values)(clipped)
-    return found
+            computed[:, component] = RegularGridInterpolator(grid, values)(clipped)
+    return computed
 
 
 @pytest.mark.parametrize("name", CURRENTS)

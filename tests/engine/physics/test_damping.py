@@ -36,8 +36,8 @@ def ringing(nodes, *changes):
     assert run.status == "ok", run.message
     t, z = run.columns["time_s"], run.columns["z_m"] - run.columns["z_m"][0]
     late = t > 5.0  # faster motions are gone
-    found = root(C)
-    shapes = np.exp(found.real * t) * np.stack([np.cos(found.imag * t), np.sin(found.imag * t)])
+    computed = root(C)
+    shapes = np.exp(computed.real * t) * np.stack([np.cos(computed.imag * t), np.sin(computed.imag * t)])
     return np.linalg.lstsq(shapes[:, late].T, z[late])[1][0] / np.sum(z[late] ** 2)
 
 
@@ -69,12 +69,12 @@ def test_what_is_told_as_tension_has_the_damping(dimensions, integrator):
     more = {"motion.dimensions": dimensions, "solver.integrator": integrator, "solver.step_s": 0.005}
     more |= {"start.buoy_velocity_mps": [0.0, 0.0, 0.3], "output.profiles": True}
     run = simulate(line(RINGING, more, {"tether.damping_Ns": 5 * C}, nodes=9), duration_s=2.0)
-    strain, told = run.profiles.strain[:, -1], run.columns["tension_top_N"]
+    strain, tension_N = run.profiles.strain[:, -1], run.columns["tension_top_N"]
     viscous = 5 * C * np.gradient(strain, 0.05, edge_order=2)
     assert np.abs(viscous[1:-1]).max() > 290.0
-    assert np.abs(told - EA * strain - viscous)[1:-1].max() < 1.0
-    np.testing.assert_array_equal(run.profiles.tension_N[:, -1], told)
-    assert np.all(run.columns["tension_top_high_N"] >= told)
+    assert np.abs(tension_N - EA * strain - viscous)[1:-1].max() < 1.0
+    np.testing.assert_array_equal(run.profiles.tension_N[:, -1], tension_N)
+    assert np.all(run.columns["tension_top_high_N"] >= tension_N)
 
 
 def test_a_share_of_critical_is_that_of_an_element():

@@ -56,8 +56,8 @@ def test_the_velocity_on_a_circle_is_the_rate_of_the_stated_round(t, R=0.2, T=1.
         r = np.sin(0.5 * np.pi * min(at / ramp, 1.0)) ** 2
         return R * r * np.array([np.cos(2 * np.pi * at / T + phase), 0.0, -np.sin(2 * np.pi * at / T + phase)])
 
-    found = velocity(moved(law="circular", **rounds), t)
-    assert found == pytest.approx((place(t + 1e-4) - place(t - 1e-4)) / 2e-4, abs=1e-5)
+    computed = velocity(moved(law="circular", **rounds), t)
+    assert computed == pytest.approx((place(t + 1e-4) - place(t - 1e-4)) / 2e-4, abs=1e-5)
 
 
 def test_a_table_is_passed_through_monotonically_and_at_rest_before_and_after():
@@ -104,5 +104,5 @@ def test_a_clamp_points_along_the_line_between_the_ends_unless_told_otherwise():
     assert [upwards[f"below_{axis}"] for axis in "xyz"] == [0.0, 0.0, 1.0]
     p = parameters_of(line(SPACE, clamped, held(3.0, 4.0, 12.0, rotation="clamped")))[0]
     for name in ("below", "above"):
-        found = [p[f"{name}_{axis}"] for axis in "xyz"]
-        assert found == pytest.approx([3 / 13, 4 / 13, 12 / 13], rel=1e-15)
+        computed = [p[f"{name}_{axis}"] for axis in "xyz"]
+        assert computed == pytest.approx([3 / 13, 4 / 13, 12 / 13], rel=1e-15)

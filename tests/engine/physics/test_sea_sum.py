@@ -154,9 +154,9 @@ def test_two_halves_of_a_wave_are_the_wave(capped, angle):
     half = {"period_s": 5.0, "amplitude_m": 0.3, "direction_rad": angle}
     halves = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half, half]})
     one = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half | {"amplitude_m": 0.6}]})
-    expected, found, alone = (simulate(scene, periods=2).columns for scene in (whole, halves, one))
+    expected, field, alone = (simulate(scene, periods=2).columns for scene in (whole, halves, one))
     for name in ("x_m", "z_m"):
-        assert np.abs(found[name] - expected[name]).max() < 1e-9
+        assert np.abs(field[name] - expected[name]).max() < 1e-9
         assert np.array_equal(alone[name], expected[name])
 
 
@@ -191,8 +191,8 @@ def test_a_drawn_sea_has_more_waves_for_a_longer_run_unless_a_key_says_how_many(
     period_s = drawn.waves.period_s
     assert enough_waves(drawn, 256 * period_s) == {}
     assert enough_waves(drawn, 1000 * period_s) == {"waves.jonswap.components": 256}
-    told = sea(0, **{"waves.jonswap": {"significant_height_m": 1.0, "components": 8}})
-    assert enough_waves(told, 1000 * period_s) == {}
+    stated_sea = sea(0, **{"waves.jonswap": {"significant_height_m": 1.0, "components": 8}})
+    assert enough_waves(stated_sea, 1000 * period_s) == {}
     keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1, "waves.relative_width": 0.2}
     assert enough_waves(sea(0, **keys), 1000 * period_s) == {"waves.component_count": 192}
     assert enough_waves(load_scene("tethered_buoy"), 1000 * period_s) == {}

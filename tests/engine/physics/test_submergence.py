@@ -29,11 +29,11 @@ def total(p, tables, in_motion, place, V, V_tilde, N, F):
     """e and D of the end with its cap."""
     e, _, whole = upper_end_of(p, tables, T, CV, in_motion, N, V, V_tilde, F)
     if len(V) == 3:
-        more, rows = cap_end_3d(p, tables, T, CQ, CV, in_motion, tuple(place), tuple(V), tuple(V_tilde), F)
+        of_cap, rows = cap_end_3d(p, tables, T, CQ, CV, in_motion, tuple(place), tuple(V), tuple(V_tilde), F)
     else:
-        found = cap_end(p, tables, T, CQ, CV, in_motion, *place, *V, *V_tilde, F)
-        more, rows = found[:2], (found[2:4], found[4:])
-    return e + more, whole + rows
+        computed = cap_end(p, tables, T, CQ, CV, in_motion, *place, *V, *V_tilde, F)
+        of_cap, rows = computed[:2], (computed[2:4], computed[4:])
+    return e + of_cap, whole + rows
 
 
 def drawn(axes):

@@ -108,8 +108,8 @@ def test_deep_and_shallow_water(depth, period):
     moved = min(10 / k, depth)
     for z in (depth * s, depth - moved * s, depth - moved * (1 - s), 0.9 * depth * s):
         X = np.column_stack([9 * s, z])
-        found = direct(k, 0.2, depth, 7.0, X, omega=omega)
-        assert np.max(np.abs(waves_at(sea, 7.0, X) - found)) < 1e-12 * 0.2 * omega * max(1, 1 / (k * depth))
+        field = direct(k, 0.2, depth, 7.0, X, omega=omega)
+        assert np.max(np.abs(waves_at(sea, 7.0, X) - field)) < 1e-12 * 0.2 * omega * max(1, 1 / (k * depth))
 
 
 @pytest.mark.parametrize("ramp", [0.0, 8.0])

@@ -63,18 +63,18 @@ def transverse(k, strain, EI, mass=MASS):
 def test_a_line_vibrates_as_a_tensioned_pinned_beam(strain, EI, dimensions, direction, water):
     """In whatever direction it lies; added mass slows transverse motion and leaves axial motion alone."""
     mass = MASS + WATERS[water] * 1027.0 * 5e-4
-    found = frequencies(equilibrium(taut(strain, EI, water, direction, dimensions)), 10.0)
-    assert distance(found, transverse(box(K, H), strain, EI, mass), dimensions - 1) < 2e-7
-    assert distance(found, np.sqrt(EA / MASS) * box(K, H)) < 2e-7
+    modes = frequencies(equilibrium(taut(strain, EI, water, direction, dimensions)), 10.0)
+    assert distance(modes, transverse(box(K, H), strain, EI, mass), dimensions - 1) < 2e-7
+    assert distance(modes, np.sqrt(EA / MASS) * box(K, H)) < 2e-7
     power = 2 if EI and strain == 0 else 1
-    assert distance(found[:1], transverse(K[:1], strain, EI, mass)) < power * (K[0] * H) ** 2 / 12 * 1.1
+    assert distance(modes[:1], transverse(K[:1], strain, EI, mass)) < power * (K[0] * H) ** 2 / 12 * 1.1
 
 
 def test_the_frequencies_come_in_no_other_place():
-    found = frequencies(equilibrium(taut(0.02, 2.0)), 10.0)
+    modes = frequencies(equilibrium(taut(0.02, 2.0)), 10.0)
     every = box(np.arange(1, NODES - 1) * np.pi / LENGTH, H)
     both = np.concatenate([transverse(every, 0.02, 2.0), np.sqrt(EA / MASS) * every])
-    slow = found[found < 200]
+    slow = modes[modes < 200]
     assert slow.size == np.count_nonzero(both < 200)
     assert distance(both, slow) < 1e-7
 
@@ -86,8 +86,8 @@ def test_a_compressed_line_buckles(water):
     motion = Motion(taut(0.0, EI, water, nodes=nodes))
     motion.Y[:] = 0.0
     motion.Y[:, 0] = strain
-    found, mass = rates(motion, 10.0), MASS + WATERS[water] * 1027.0 * 5e-4
-    growing = np.sort(found.real[(found.real > 1e-4) & (np.abs(found.imag) < 1e-6)])
+    modes, mass = rates(motion, 10.0), MASS + WATERS[water] * 1027.0 * 5e-4
+    growing = np.sort(modes.real[(modes.real > 1e-4) & (np.abs(modes.imag) < 1e-6)])
     squares = -square(box(np.arange(1, nodes - 1) * np.pi / LENGTH, LENGTH / (nodes - 1)), strain, EI, mass)
     assert growing == pytest.approx(np.sort(np.sqrt(squares[squares > 0])), rel=1e-7)
     assert growing.size == int(np.floor(np.sqrt(2) * fastest))  # P k^2 > EI k^4

@@ -35,8 +35,8 @@ def test_a_fault_is_named_shown_and_told_what_is_allowed(row):
     faults = faults_of(changes_of(sets, changes))
     lines = [line for line in faults if line.startswith(f"{key}: ")]
     assert lines and (row not in TABLES["refused"]["alone"] or len(faults) == 1), faults
-    told = [line.partition("allowed")[2] if given else line.removeprefix(key) for line in lines if given in line]
-    assert any(allowed in words for words in told), lines
+    statement = [line.partition("allowed")[2] if given else line.removeprefix(key) for line in lines if given in line]
+    assert any(allowed in words for words in statement), lines
 
 
 def test_every_fault_is_reported_at_once_those_between_values_among_them():

@@ -123,8 +123,8 @@ def test_none_removes_and_a_scalar_creates_its_section():
 
 
 def test_a_keyword_is_the_end_of_a_key():
-    said = load_scene("tethered_buoy", {"tether.nodes": 21}, steepness=0.1, depth_m=22.0, waves=None)
-    assert said == load_scene("tethered_buoy", {"tether.nodes": 21, "water.depth_m": 22.0, "waves": None})
+    scene = load_scene("tethered_buoy", {"tether.nodes": 21}, steepness=0.1, depth_m=22.0, waves=None)
+    assert scene == load_scene("tethered_buoy", {"tether.nodes": 21, "water.depth_m": 22.0, "waves": None})
 
 
 @pytest.mark.parametrize(
@@ -165,8 +165,8 @@ def test_numpy_values_and_whole_numbers_are_numbers():
 
 @pytest.mark.parametrize(("text", "key", "value"), [*TABLES["assignments"], ("waves=none", "waves", None)])
 def test_an_assignment_is_a_key_and_a_toml_value(text, key, value):
-    found = parse_assignment(text)
-    assert found == (key, value) and type(found[1]) is type(value)
+    computed = parse_assignment(text)
+    assert computed == (key, value) and type(computed[1]) is type(value)
 
 
 @pytest.mark.parametrize(

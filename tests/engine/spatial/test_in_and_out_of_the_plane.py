@@ -39,7 +39,7 @@ SCENES = {
 
 
 def both(*parts, duration_s):
-    runs = [ran(line(*parts, {"output.profiles": True}, more), duration_s=duration_s) for more in ({}, SPACE)]
+    runs = [ran(line(*parts, {"output.profiles": True}, changes), duration_s=duration_s) for changes in ({}, SPACE)]
     assert not runs[1].profiles.y_m.any() and not runs[1].columns["offplane_m"].any()
     return runs
 

@@ -96,8 +96,8 @@ def test_the_rope_rests_as_the_localised_buckle():
     slack, EI, GI = tether.length_m - x[-1, 2], tether.bending_stiffness_Nm2, tether.torsion_stiffness_Nm2
     m = brentq(lambda m: slack_of(scene, m) - slack, fold_of(scene), 1 - 1e-12)
     torque = torque_of(scene, m)
-    found = [np.linalg.norm(forces(Y, tether.tension)[120]), GI * Y[0, 10], np.hypot(*x[:, :2].T).max()]
-    assert found == pytest.approx([torque**2 / (4 * EI * m**2), torque, slack / 2], rel=1e-2)
+    computed = [np.linalg.norm(forces(Y, tether.tension)[120]), GI * Y[0, 10], np.hypot(*x[:, :2].T).max()]
+    assert computed == pytest.approx([torque**2 / (4 * EI * m**2), torque, slack / 2], rel=1e-2)
     steepest = 2 * m**2 - 1  # 1 - cos theta = 2 (1 - m^2) in the middle
     assert axes_of(Y)[0][:, 2].min() == pytest.approx(steepest, abs=0.02) and steepest < -0.2
 

@@ -108,8 +108,8 @@ def budget(scene, duration_s):
             continue
         (t, dt, _), Ys, Ks = run.T[0], run.Ys[0], run.Ks[0]
         start = end if end is not None else (books.energy(Ys[0]), books.momentum(Ys[0]))
-        found = [books.rates(t + A[i].sum() * dt, Ys[i], Ks[i]) for i in range(s)]
-        powers, outside, inner = (dt * sum(A[-1, i] * found[i][j] for i in range(s)) for j in range(3))
+        computed = [books.rates(t + A[i].sum() * dt, Ys[i], Ks[i]) for i in range(s)]
+        powers, outside, inner = (dt * sum(A[-1, i] * computed[i][j] for i in range(s)) for j in range(3))
         end = books.energy(Ys[-1]), books.momentum(Ys[-1])
         rows["t"].append(t + dt)
         rows["energy"].append(end[0] - start[0])
@@ -160,10 +160,10 @@ def test_nothing_rises_but_by_the_error_in_space():
 @pytest.mark.parametrize("step_s", [0.004, 0.001])
 def test_damping_methods_gain_nothing(integrator, step_s):
     in_space = balance(21, "esdirk43", 0.002).max()
-    found = balance(21, integrator, step_s)
-    assert found.max() <= 1.02 * in_space
+    computed = balance(21, integrator, step_s)
+    assert computed.max() <= 1.02 * in_space
     if integrator == "backward-euler":
-        assert found.max() <= 1e-12 and np.all(np.diff(found) < 1e-4)
+        assert computed.max() <= 1e-12 and np.all(np.diff(computed) < 1e-4)
 
 
 @pytest.mark.parametrize("step_s", [0.004, 0.001])
@@ -200,19 +200,19 @@ def books(name, nodes):
     return budget(line({**overrides, "solver.rtol": 1e-3}, nodes=nodes), duration_s)
 
 
-def gaps(found):
+def gaps(computed):
     """Of the whole budget, of its mechanical part, and of momentum, over what was passed."""
-    work, passed = found["work"].sum(1), found["passed"][-1]
-    outside = found["energy"][:, :2].sum(1) + found["inner"] - work
-    impulse = np.abs(found["momentum"] - found["impulse"]).max() / found["passed_impulse"][-1]
-    return np.abs(found["energy"].sum(1) - work).max() / passed, np.abs(outside).max() / passed, impulse
+    work, passed = computed["work"].sum(1), computed["passed"][-1]
+    outside = computed["energy"][:, :2].sum(1) + computed["inner"] - work
+    impulse = np.abs(computed["momentum"] - computed["impulse"]).max() / computed["passed_impulse"][-1]
+    return np.abs(computed["energy"].sum(1) - work).max() / passed, np.abs(outside).max() / passed, impulse
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name not in FAST)) for name in CASES])
 def test_budgets_close(name):
-    found = books(name, CASES[name][2])
-    assert np.ptp(found["energy"], axis=0).max() > 0.05 * found["passed"][-1]  # it does not only leave as it came
-    energy, outside, impulse = gaps(found)
+    computed = books(name, CASES[name][2])
+    assert np.ptp(computed["energy"], axis=0).max() > 0.05 * computed["passed"][-1]  # it does not only leave as it came
+    energy, outside, impulse = gaps(computed)
     assert energy < 1e-3
     assert outside < 1e-5
     assert impulse < 1e-5

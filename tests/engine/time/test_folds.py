@@ -44,7 +44,7 @@ def test_the_chord_of_a_fold_is_five_per_cent_too_short():
 def test_a_run_tells_of_folds_where_they_move_its_largest_tension(wrong, scene, dimensions):
     run, fine = (run_of(scene, **{"motion.dimensions": dimensions}, **more) for more in ({}, FINE))
     assert run.status == fine.status == "ok"
-    largest, right = (float(found.columns["tension_top_high_N"].max()) for found in (run, fine))
+    largest, right = (float(each_run.columns["tension_top_high_N"].max()) for each_run in (run, fine))
     off = abs(largest / right - 1.0)
     assert off > WRONG if wrong else off < RIGHT
     stated = re.search(r"folds .* by up to (\d+)%", run.message)

@@ -44,8 +44,8 @@ def assert_continues(whole, parts):
     for record, names in (("tangent", ("growth_nats", "lateral_nats", "released")), ("profiles", PROFILES)):
         if getattr(whole, record) is not None:
             for name in names:
-                found, expected = (getattr(getattr(run, record), name) for run in (joined, whole))
-                assert np.array_equal(found, expected), name
+                values, expected = (getattr(getattr(run, record), name) for run in (joined, whole))
+                assert np.array_equal(values, expected), name
     counted = {name: number for name, number in whole.statistics.items() if name != "wall_s"}
     assert {name: joined.statistics[name] for name in counted} == counted
 
@@ -80,19 +80,19 @@ def test_in_lanes_too_and_through_files(tmp_path, of, lengths):
             part.save(tmp_path / f"{i}{number}.nc")
             parts[i].append(Trajectory.load(tmp_path / f"{i}{number}.nc"))
         starts = [tmp_path / f"{i}{number}.nc" for i in range(3)]
-    for scene, found in zip(scenes, parts, strict=True):
-        assert_continues(simulate(scene, periods=sum(lengths)), found)
-        assert found[-1].final_state.digest() == simulate(scene, periods=sum(lengths)).final_state.digest()
+    for scene, pieces in zip(scenes, parts, strict=True):
+        assert_continues(simulate(scene, periods=sum(lengths)), pieces)
+        assert pieces[-1].final_state.digest() == simulate(scene, periods=sum(lengths)).final_state.digest()
 
 
 def test_a_run_that_ends_goes_on_among_the_others_as_long_as_somebody_says():
     """To other lengths, and from its sixth period on with perturbations."""
     steepness, lengths, shares = (0.02, 0.04, 0.06), (3, 9, 6), []
-    found: dict[int, Trajectory] = {}
+    pieces: dict[int, Trajectory] = {}
 
     def then(number, part):
-        found[number] = found[number].followed_by(part) if number in found else part
-        done = round(found[number].columns["time_s"][-1] / part.scene.waves.period_s)
+        pieces[number] = pieces[number].followed_by(part) if number in pieces else part
+        done = round(pieces[number].columns["time_s"][-1] / part.scene.waves.period_s)
         more = CARRIED if done >= 6 else {}
         return (scene_of({**SMALL, **more, **kA[number]}), 3, part) if done < lengths[number] else None
 
@@ -100,7 +100,7 @@ def test_a_run_that_ends_goes_on_among_the_others_as_long_as_somebody_says():
     scenes = [scene_of({**SMALL, **value}) for value in kA]
     assert len(list(simulate_each(scenes, periods=[3, 3, 3], progress=shares.append, then=then))) == 6
     assert all(0.0 <= share <= 1.0 for share in shares) and shares[-1] == 1.0
-    for scene, length, run in zip(scenes, lengths, found.values(), strict=True):
+    for scene, length, run in zip(scenes, lengths, pieces.values(), strict=True):
         assert np.array_equal(simulate(scene, periods=length).columns["radius_m"], run.columns["radius_m"])
-    growth = found[1].tangent.growth_nats
-    assert np.isnan(growth[:6]).all() and np.isfinite(growth[6:]).all() and found[0].tangent is None
+    growth = pieces[1].tangent.growth_nats
+    assert np.isnan(growth[:6]).all() and np.isfinite(growth[6:]).all() and pieces[0].tangent is None

@@ -77,10 +77,10 @@ def directions(rng, turn, dimensions):
     return beta
 
 
-def assert_solved(scene, stage, Y, C_tilde, F, **more):
-    still, viscosity = np.zeros((NODES, 12 if Y.shape[1] == 13 else 6)), more.get("viscosity")
-    r = equations(scene, stage, Y, still, C_tilde, F, twist=scene.end.twist_rad, **more)
-    J = jacobian(scene, stage, Y, C_tilde, F, **more)
+def assert_solved(scene, stage, Y, C_tilde, F, **settings):
+    still, viscosity = np.zeros((NODES, 12 if Y.shape[1] == 13 else 6)), settings.get("viscosity")
+    r = equations(scene, stage, Y, still, C_tilde, F, twist=scene.end.twist_rad, **settings)
+    J = jacobian(scene, stage, Y, C_tilde, F, **settings)
     assert len(J) == len(J.T) == len(r)
     D = Stage(scene).update(*stage, Y, C_tilde, F, viscosity)
     exact = np.linalg.solve(J, -r).reshape(NODES, -1)

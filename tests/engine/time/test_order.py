@@ -105,14 +105,14 @@ def test_order_in_time(name, integrator, spectral_radius, order, steps, dimensio
 def test_order_in_space(name, stretching):
     overrides, end_s, cap_m = GRIDS[name]
     at, duration_s = (-1, end_s) if end_s else (0, 0.01)
-    found = []  # x, z (m), tension (N) at every node; r, theta, tension of the upper end
+    computed = []  # x, z (m), tension (N) at every node; r, theta, tension of the upper end
     for nodes in (21, 41, 81, 161):
         grid = {"tether.nodes": nodes, "tether.grid_stretching": stretching, "output.step_s": duration_s}
         run = run_of(overrides, grid, duration_s=duration_s, step_s=0.01, newton_tolerance=1e-14)
         along = np.stack([run.profiles.x_m[at], run.profiles.z_m[at], run.profiles.tension_N[at]])
-        found.append((along, np.array([run.columns[key][at] for key in ("radius_m", "angle_rad", "tension_top_N")])))
+        computed.append((along, np.array([run.columns[key][at] for key in ("radius_m", "angle_rad", "tension_top_N")])))
     along, top = [], []
-    for (coarse, coarse_top), (fine, fine_top) in pairwise(found):
+    for (coarse, coarse_top), (fine, fine_top) in pairwise(computed):
         difference = np.abs(fine[:, ::2] - coarse)
         along.append([np.hypot(*difference[:2]).max(), difference[2].max()])
         top.append(np.abs(fine_top - coarse_top))

@@ -38,10 +38,12 @@ def test_in_time(law, dimensions, method, order):
     ends = []
     for step_s in 0.1 / 2.0 ** np.arange(4 if order == 2 else 3):
         solver = {"solver.integrator": method, "solver.step_s": float(step_s), "solver.newton_tolerance": 1e-14}
-        more = {"output.step_s": 0.1, "output.profiles": True, "motion.dimensions": dimensions}
+        changes = {"output.step_s": 0.1, "output.profiles": True, "motion.dimensions": dimensions}
         end = held(20.4, -3.0 if law == "bed" else 1.0, motion=MOVED)
-        run = simulate(line(SOFT, LAWS[law], end, solver, more, {"solver.max_newton_iterations": 40}), duration_s=1.5)
+        run = simulate(
+            line(SOFT, LAWS[law], end, solver, changes, {"solver.max_newton_iterations": 40}), duration_s=1.5
+        )
         assert run.status == "ok", run.message
         ends.append(np.concatenate([run.profiles.x_m[-1], run.profiles.z_m[-1]]))
-    found = orders(np.linalg.norm(np.diff(ends, axis=0), axis=1))
-    assert found[-1] > order - 0.2, found
+    slopes = orders(np.linalg.norm(np.diff(ends, axis=0), axis=1))
+    assert slopes[-1] > order - 0.2, slopes

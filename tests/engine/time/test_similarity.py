@@ -42,16 +42,16 @@ def factor(unit):
 
 def in_other_units(section, units, above=""):
     """A section of a scene, as a table, with its numbers counted in the new units."""
-    found = {}
+    changed = {}
     for name, value in section.items():
         key = f"{above}{name}"
         if isinstance(value, dict):
-            found[name] = in_other_units(value, units, f"{key}.")
+            changed[name] = in_other_units(value, units, f"{key}.")
         elif isinstance(value, str | bool | None) or key not in units or POWERS[units[key]] == (0, 0, 0):
-            found[name] = value
+            changed[name] = value
         else:
-            found[name] = (np.array(value) * factor(units[key])).tolist()
-    return found
+            changed[name] = (np.array(value) * factor(units[key])).tolist()
+    return changed
 
 
 @pytest.mark.parametrize("space", [{}, SPACE], ids=["plane", "space"])

@@ -44,26 +44,27 @@ CHANGES = {
 
 @pytest.mark.parametrize("key", CHANGES)
 def test_another_scene_takes_the_state_over_and_says_so(key, first):
-    value, said = CHANGES[key]
-    found = simulate(scene_of({**SMALL, key: value}), periods=1, start=first.final_state)
-    assert found.status == "ok" and said in found.began and bool(said) == found.began.startswith("went on at t = 20 s")
-    for name in SEEN if "clock" not in said else ():
-        assert found.columns[name][0] == first.columns[name][-1]
-    seen = np.append(first.columns["radius_m"][-1], found.columns["radius_m"][:4])
+    value, statement = CHANGES[key]
+    later_run = simulate(scene_of({**SMALL, key: value}), periods=1, start=first.final_state)
+    assert later_run.status == "ok" and statement in later_run.began
+    assert bool(statement) == later_run.began.startswith("went on at t = 20 s")
+    for name in SEEN if "clock" not in statement else ():
+        assert later_run.columns[name][0] == first.columns[name][-1]
+    seen = np.append(first.columns["radius_m"][-1], later_run.columns["radius_m"][:4])
     assert np.abs(np.diff(seen)).max() < 0.05  # m, between samples 0.1 s apart at most: no jump
-    assert np.allclose(np.diff(found.columns["time_s"]), found.scene.sample_step_s())
-    assert found.columns["time_s"][0] == (0.0 if "clock" in said else 20.0)
-    if not said:
+    assert np.allclose(np.diff(later_run.columns["time_s"]), later_run.scene.sample_step_s())
+    assert later_run.columns["time_s"][0] == (0.0 if "clock" in statement else 20.0)
+    if not statement:
         assert np.array_equal(
-            found.columns["radius_m"], simulate(first.scene, periods=1, start=first).columns["radius_m"]
+            later_run.columns["radius_m"], simulate(first.scene, periods=1, start=first).columns["radius_m"]
         )
-    if found.profiles is not None:
-        late = found.columns["time_s"] > found.profiles.time_s[0] - 1e-9  # the last step of before kept none
-        assert found.profiles.time_s == pytest.approx(found.columns["time_s"][late])
-        assert found.profiles.z_m[:, -1] == pytest.approx(found.columns["z_m"][late])
+    if later_run.profiles is not None:
+        late = later_run.columns["time_s"] > later_run.profiles.time_s[0] - 1e-9  # the last step of before kept none
+        assert later_run.profiles.time_s == pytest.approx(later_run.columns["time_s"][late])
+        assert later_run.profiles.z_m[:, -1] == pytest.approx(later_run.columns["z_m"][late])
         assert late.sum() >= len(late) - 3
-    saved = Trajectory.from_bytes(found.to_bytes())
-    assert saved.began == found.began and saved.final_state.digest() == found.final_state.digest()
+    saved = Trajectory.from_bytes(later_run.to_bytes())
+    assert saved.began == later_run.began and saved.final_state.digest() == later_run.final_state.digest()
 
 
 def test_a_state_with_its_clock_at_zero_goes_the_same_way(first):
@@ -185,8 +186,8 @@ def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, 
     assert swing[0] == pytest.approx(displacement, abs=1e-9) and abs(run.columns["radius_rate_mps"][0]) < 1e-9
     at = np.flatnonzero(swing[1:] * swing[:-1] < 0.0)
     passes = run.columns["time_s"][at] + 0.02 * swing[at] / (swing[at] - swing[at + 1])
-    found = np.pi * (len(passes) - 1) / (passes[-1] - passes[0])
-    assert found == pytest.approx(getattr(natural_frequencies(scene), f"{axis}_radps"), rel=within)
+    frequency_radps = np.pi * (len(passes) - 1) / (passes[-1] - passes[0])
+    assert frequency_radps == pytest.approx(getattr(natural_frequencies(scene), f"{axis}_radps"), rel=within)
 
 
 @pytest.mark.parametrize("place", [[3.0, 0.0, -4.0], [-2.0, 0.0, 1.0]], ids=["slack", "stretched"])

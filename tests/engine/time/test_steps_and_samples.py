@@ -179,8 +179,8 @@ def test_dense_output_keeps_the_order_of_the_method(integrator, order):
 @pytest.mark.parametrize("integrator", ["esdirk43", "generalized-alpha"])
 def test_profiles_agree_with_samples(integrator):
     """The tension is that of the law; profiles may be rarer than samples."""
-    asked = {**STEEP, "output.profiles": True, "solver.integrator": integrator}
-    run = ran(line(asked), 4)
+    requested = {**STEEP, "output.profiles": True, "solver.integrator": integrator}
+    run = ran(line(requested), 4)
     columns, lines = run.columns, run.profiles
     assert np.array_equal(lines.time_s, columns["time_s"])
     assert lines.x_m.shape == (401, 41) and lines.s_m[0] == 0 and lines.s_m[-1] == pytest.approx(20.0, rel=1e-14)
@@ -192,7 +192,7 @@ def test_profiles_agree_with_samples(integrator):
     assert np.allclose(lines.tension_N, 5e4 * lines.strain)
     speed = np.hypot(columns["radius_rate_mps"], columns["radius_m"] * columns["angle_rate_radps"])
     assert np.allclose(lines.speed_mps[:, -1], speed)
-    rarer = ran(line(asked, {"output.profiles_step_s": 0.5}), 4).profiles
+    rarer = ran(line(requested, {"output.profiles_step_s": 0.5}), 4).profiles
     assert np.allclose(rarer.time_s, 0.5 * np.arange(41)) and np.allclose(rarer.x_m, lines.x_m[::10], atol=1e-12)
 
 
@@ -211,8 +211,8 @@ def test_tension_extremes_bracket_the_samples_and_see_what_lies_between():
 @pytest.mark.parametrize("scheme", ["conservation", "paper-box"])
 def test_rates_are_the_derivatives_of_the_samples(scheme):
     steps = {"output.step_s": 0.05, "solver.step_s": 0.05, "tether.nodes": 7} if scheme == "paper-box" else {}
-    asked = {"waves.steepness": 0.016, "water.depth_m": 22.5, "solver.scheme": scheme, "output.step_s": 0.01, **steps}
-    columns = ran(line(asked), duration_s=8.0).columns
+    waves = {"waves.steepness": 0.016, "water.depth_m": 22.5, "solver.scheme": scheme, "output.step_s": 0.01}
+    columns = ran(line(waves, steps), duration_s=8.0).columns
     span = columns["time_s"][2:] - columns["time_s"][:-2]
     for name, rate in (("radius_m", "radius_rate_mps"), ("angle_rad", "angle_rate_radps")):
         off = (columns[name][2:] - columns[name][:-2]) / span - columns[rate][1:-1]
