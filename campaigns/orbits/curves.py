@@ -108,9 +108,9 @@ def curve(plane: Plane, kind: str, value: float, points: np.ndarray, most: int) 
 
     settings = STEPS | {"most": most, "count": COUNT, "kept": kept, "sharper": plane.sharper_maps}
     followed = follow_curve(plane.maps, kind, points, place, plane.low, plane.high, **settings)
-    rows = [[_point(point) for point in part] for part in (followed.points, followed.special)]
-    result = {"reason": "", "points": rows[0], "special": rows[1]}
-    return result | {"closed": followed.closed, "begins": followed.ends[0], "ends": followed.ends[1]}, []
+    begins, ends = followed.ends
+    points, special = [*map(_point, followed.points)], [*map(_point, followed.special)]
+    return {"reason": "", "points": points, "special": special, "begins": begins, "ends": ends}, []
 
 
 def _point(point) -> dict:
@@ -119,8 +119,8 @@ def _point(point) -> dict:
         "errors": [finite(error) for error in point.errors],
         "angle_rad": point.angle_rad,
         "special": point.kind,
-        "found": point.found,
-        "reason": point.reason,
+        "status": "ok" if point.found else "not-found",
+        "message": point.reason,
     }
 
 
@@ -160,21 +160,21 @@ def _rows(label: Row, result: dict, event: dict, plane: Plane) -> Iterator[Row]:
     changes, and those of the second key grow in proportion."""
     first, second = plane.line.scenes.key.column, plane.key.column
     floor = event["error"] or 0.0
+    of_grid = "" if event.get("finer") else "errors are those of this grid alone"
     label = label | {"begins": result["begins"], "ends": result["ends"]}
     for part in ("points", "special"):
         for place, point in enumerate(result[part]):
-            error, other = point["errors"]
-            scale = max(1.0, floor / error) if error and point["found"] else 1.0
-            yield label | {
+            error = point["errors"][0]
+            scale = max(1.0, floor / error) if error and point["status"] == "ok" else 1.0
+            row = label | point
+            errors = [known and scale * known for known in point["errors"]]
+            yield row | {
                 PLACE.name: place if part == "points" else None,
                 first.name: point["values"][0],
                 second.name: point["values"][1],
-                "error_1": None if error is None else scale * error,
-                "error_2": None if other is None else scale * other,
-                "angle_rad": point["angle_rad"],
-                "special": point["special"],
-                "status": "ok" if point["found"] else "not-found",
-                "message": point["reason"],
+                "error_1": errors[0],
+                "error_2": errors[1],
+                "message": point["message"] or of_grid,
             }
 
 
