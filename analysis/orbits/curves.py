@@ -19,7 +19,7 @@ Where the search between two points of the curve fails, that is told as a point 
 
 from collections import namedtuple
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
@@ -129,7 +129,7 @@ def follow_curve(
     follower = _Follower(
         system, kind, np.asarray(low, float), np.asarray(high, float), least, longest, most, count, kept, sharper
     )
-    first, tangent = follower.first(np.asarray(points, float), np.asarray(parameters, float), step)
+    first, tangent = follower.first(points, parameters, step)
     along, end, closed = follower.one_way(first, tangent, step)
     begin = end
     if not closed:
@@ -157,10 +157,6 @@ class _Follower:
     count: int
     kept: Kept
     sharper: OrbitMap | None
-
-    def tolerance(self, step):
-        """Of sigma, the distance to g = 0. Steps of a system scatter g alike after short and long steps of a curve."""
-        return ON_CURVE * step if self.system.frozen is None else CLOSE * self.longest
 
     @property
     def size(self):
@@ -253,7 +249,7 @@ class _Follower:
         record = self.kept(arguments, lambda: self._record(*arguments))
         if record["failure"]:
             raise (NotSolved if record["numerical"] else NoImage)(record["failure"])
-        return _point_of(record), record["taken"]
+        return _point_of(record["point"]), record["taken"]
 
     def _record(self, *arguments):
         """The point as `kept` has it, or why there is none."""
@@ -264,7 +260,7 @@ class _Follower:
         orbit = dict(vars(point.orbit))
         for name in COMPLEX:
             orbit[name] = np.stack([orbit[name].real, orbit[name].imag], axis=-1)
-        return {"failure": "", "taken": taken} | vars(point) | {"orbit": orbit}
+        return {"failure": "", "taken": taken, "point": vars(point) | {"orbit": orbit}}
 
     def _solved(self, points, parameters, along, across, slope, vectors, step, tangent):
         guess, space = (points, parameters), None
@@ -284,14 +280,15 @@ class _Follower:
         angle = angle_of(self.kind, orbit.multipliers)
         if angle is None:
             raise NoImage("no pair of multipliers is on the unit circle: it has become two reals of product 1")
-        errors, reason = np.full(2, np.inf), ""
+        point = CurvePoint(orbit.parameter, np.full(2, np.inf), orbit, angle, across, slope)
         if tangent is not None:
             errors, reason = self.errors(orbit, space, beside, slope, by, tangent[0, -2:])
-        return CurvePoint(orbit.parameter, errors, orbit, angle, across, slope, reason=reason), taken
+            point = replace(point, errors=errors, reason=reason)
+        return point, taken
 
     def secant(self, orbit, slope, step):
         """How far g = 0 is from an orbit across the curve, half a step at most."""
-        return float(np.clip(-self.test(orbit) / slope, -0.5 * step, 0.5 * step)) if slope else PROBE * step
+        return float(np.clip(-self.test(orbit) / slope, -0.5 * step, 0.5 * step))
 
     def secants(self, maps, orbit, space, beside, slope, least):
         """The orbit beside one, along the surface, near g = 0; its Space; the slope of g; how far g = 0 is; orbits that
@@ -300,11 +297,13 @@ class _Follower:
         A secant that leaves an interval in which g changes its sign gives way to the middle of that.
         """
         across, rows, slopes, step = beside
+        # steps of a system scatter g alike after short and long steps of a curve
+        enough = ON_CURVE * step if self.system.frozen is None else CLOSE * self.longest
         begin, sigma, value = orbit, 0.0, self.test(orbit)
         sides = {}  # sign of g -> sigma
         for taken in range(SECANTS + 1):
             by = self.secant(orbit, slope, step)
-            if abs(by) < self.tolerance(step) and taken >= least:
+            if abs(by) < enough and taken >= least:
                 return orbit, space, slope, by, taken
             sides[value > 0.0] = sigma
             if len(sides) == 2 and not min(sides.values()) < sigma + by < max(sides.values()):
@@ -314,10 +313,9 @@ class _Follower:
                 raise NotSolved("the curve turns too sharply")
             guess = self.shifted(begin, across, sigma)
             orbit, space = self.orbit_at(maps, guess, rows, slopes, begin.vectors, space)
-            following = self.test(orbit)
-            if by and following != value:
-                slope = (following - value) / by
-            value = following
+            last_value, value = value, self.test(orbit)
+            if by and value != last_value:
+                slope = (value - last_value) / by
         raise NotSolved(f"{SECANTS} secants do not end on the curve")
 
     def errors(self, orbit, space, beside, slope, by, along):
@@ -383,7 +381,8 @@ class _Follower:
         return points, f"followed over {self.most} points", False
 
     def _next(self, last, tangent, step):
-        point, taken = self.on_curve(self.shifted(last.orbit, tangent, step), tangent, last, step, tangent)
+        guess = self.shifted(last.orbit, tangent, step)
+        point, taken = self.on_curve(guess, tangent, last, step, tangent)
         chord = self.place(point.orbit) - self.place(last.orbit)
         if self.row(tangent) @ chord[0] < STRAIGHT * self.length(chord):
             raise NotSolved("the curve turns too sharply")
@@ -495,14 +494,13 @@ def _lost(name, begin, end, why):
     return replace(begin, parameters=middle, errors=half, kind=name, found=False, reason=reason)
 
 
-def _point_of(record):
+def _point_of(values):
     """The CurvePoint of a record, in which arrays may be lists, and complex numbers are pairs."""
-    orbit = dict(record["orbit"])
-    for name in "points", "parameter", "residuals", *COMPLEX:
-        orbit[name] = np.array(orbit[name])
-    for name in COMPLEX:
-        orbit[name] = orbit[name] @ [1.0, 1.0j]
-    values = {field.name: record[field.name] for field in fields(CurvePoint)}
+    values, orbit = dict(values), dict(values["orbit"])
     for name in "parameters", "errors", "across":
         values[name] = np.array(values[name])
+    for name in "points", "parameter", "residuals":
+        orbit[name] = np.array(orbit[name])
+    for name in COMPLEX:
+        orbit[name] = orbit[name] @ np.array([1.0, 1.0j])
     return CurvePoint(**values | {"orbit": Orbit(**orbit)})

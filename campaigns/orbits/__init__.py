@@ -234,9 +234,9 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     from campaigns.explore.rows import after_transient, sound_part
 
     (key,), run = order.options.grid.keys, motions.run_in(order.options.start_from)
-    middle_s = 0.5 * (run.columns["time_s"][0] + run.columns["time_s"][-1])  # a run that goes on begins late
-    settled = after_transient(run, sound_part(run.columns), int(middle_s / run.scene.waves.period_s))
-    period = settled.get("strobed_period")
+    times_s = run.columns["time_s"]  # a run that goes on begins late
+    middle = int(times_s[len(times_s) // 2] / run.scene.waves.period_s)
+    period = after_transient(run, sound_part(run.columns), middle).get("strobed_period")
     if period is not None:
         yield "", job.labels[key.column.name], period, run.final_state.at_zero()
 

@@ -22,7 +22,7 @@ from tables import MESSAGE, STATUS, Column, Row, finite, write_table
 
 FOLDER = "curves"
 # m of what is seen, and shares of the ranges; below `least` steps of time scatter an orbit by more than the curve moves
-STEPS = {"step": 0.2, "least": 0.03, "longest": 0.2}
+STEPS = {"step": 0.3, "least": 0.03, "longest": 0.5}
 KNOWN = 0.02  # of the range of the first key: an event this near to a curve of its kind and period lies on it
 CURVE = Column("curve", "", "curve", "number of the curve, from 1 on", 0)
 PLACE = Column("place", "", "place", "number of the point along the curve, from 0 on; empty for a special point", 0)
@@ -108,9 +108,9 @@ def curve(plane: Plane, kind: str, value: float, points: np.ndarray, most: int) 
 
     settings = STEPS | {"most": most, "count": COUNT, "kept": kept, "sharper": plane.sharper_maps}
     followed = follow_curve(plane.maps, kind, points, place, plane.low, plane.high, **settings)
-    rows = [[_point(point) for point in part] for part in (followed.points, followed.special)]
-    result = {"reason": "", "points": rows[0], "special": rows[1]}
-    return result | {"closed": followed.closed, "begins": followed.ends[0], "ends": followed.ends[1]}, []
+    begins, ends = followed.ends
+    points, special = [*map(_point, followed.points)], [*map(_point, followed.special)]
+    return {"reason": "", "points": points, "special": special, "begins": begins, "ends": ends}, []
 
 
 def _point(point) -> dict:
@@ -119,8 +119,8 @@ def _point(point) -> dict:
         "errors": [finite(error) for error in point.errors],
         "angle_rad": point.angle_rad,
         "special": point.kind,
-        "found": point.found,
-        "reason": point.reason,
+        "status": "ok" if point.found else "not-found",
+        "message": point.reason,
     }
 
 
@@ -160,21 +160,21 @@ def _rows(label: Row, result: dict, event: dict, plane: Plane) -> Iterator[Row]:
     changes, and those of the second key grow in proportion."""
     first, second = plane.line.scenes.key.column, plane.key.column
     floor = event["error"] or 0.0
+    of_grid = "" if event.get("finer") else "errors are those of this grid alone"
     label = label | {"begins": result["begins"], "ends": result["ends"]}
     for part in ("points", "special"):
         for place, point in enumerate(result[part]):
-            error, other = point["errors"]
-            scale = max(1.0, floor / error) if error and point["found"] else 1.0
-            yield label | {
+            error = point["errors"][0]
+            scale = max(1.0, floor / error) if error and point["status"] == "ok" else 1.0
+            row = label | point
+            errors = [known and scale * known for known in point["errors"]]
+            yield row | {
                 PLACE.name: place if part == "points" else None,
                 first.name: point["values"][0],
                 second.name: point["values"][1],
-                "error_1": None if error is None else scale * error,
-                "error_2": None if other is None else scale * other,
-                "angle_rad": point["angle_rad"],
-                "special": point["special"],
-                "status": "ok" if point["found"] else "not-found",
-                "message": point["reason"],
+                "error_1": errors[0],
+                "error_2": errors[1],
+                "message": point["message"] or of_grid,
             }
 
 
