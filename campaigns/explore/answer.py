@@ -299,7 +299,7 @@ def starts(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
     interval = f" (95 % interval {low:.0f} to {high:.0f} %)" if math.isfinite(low) else ""
     other = "the motion from rest" if from_rest(usual) else f"motion {usual['motion']}"
     return (
-        f"{sentence}. At {symbol} = {worst[key]:.4g} {kicks} kicks{interval} end in motion {worst['motion']}, which "
+        f"{sentence}. At {symbol} = {worst[key]:.4g}, {kicks} kicks{interval} end in motion {worst['motion']}, which "
         f"pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
     )
 
