@@ -35,6 +35,8 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
     elif parts["shock"]:
         times = number_of(worst, PEAK) / number_of(motions[0], PEAK)
         yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as A."
+    used = use_of(worst, scene, searched=True)
+    yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
     if parts["shock"]:
         yield _shock(parts["shock"], across)
     if PHASE in across and parts["shock"]:
@@ -49,8 +51,6 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
         yield f"It depends on how it is computed: {'; '.join(unsure)}."
     else:
         yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
-    used = use_of(worst, scene, searched=True)
-    yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
 
 
 def _of_motion(row: Row) -> str:

@@ -133,8 +133,9 @@ def snap_peaks(rows: Sequence[Row], keys: Mapping[str, str]) -> str:
     if hardest is not None:
         middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
         parts.append(f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}.")
-        speed = greatest(rows, "snap_speed_max_mps")
-        parts.append(f"Snap speed up to {number(number_of(speed, 'snap_speed_max_mps'), 2)} m/s.")
+        speed_mps = number_of(greatest(rows, "snap_speed_max_mps") or {}, "snap_speed_max_mps")
+        if speed_mps > 0.0:  # else the ends come together while the line becomes taut
+            parts.append(f"Snap speed up to {number(speed_mps, 2)} m/s.")
     slack = [share for share in numbers_of(rows, "slack_fraction") if math.isfinite(share)]
     if slack:
         parts.append(f"Slack {span([100.0 * share for share in slack], places=0)} % of the time.")
@@ -299,7 +300,7 @@ def starts(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
     interval = f" (95 % interval {low:.0f} to {high:.0f} %)" if math.isfinite(low) else ""
     other = "the motion from rest" if from_rest(usual) else f"motion {usual['motion']}"
     return (
-        f"{sentence}. At {symbol} = {worst[key]:.4g} {kicks} kicks{interval} end in motion {worst['motion']}, which "
+        f"{sentence}. At {symbol} = {worst[key]:.4g}, {kicks} kicks{interval} end in motion {worst['motion']}, which "
         f"pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
     )
 

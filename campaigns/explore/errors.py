@@ -127,7 +127,8 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     if transient is None or run is None:
         return None
     orbits = orbits_in(plan.how.out)
-    scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=UNFOLLOWED), _period(row)
+    without_ramp = UNFOLLOWED | {"waves.ramp_s": 0.0}  # the waves of the last state have grown
+    scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=without_ramp), _period(row)
     if period and f"{NEARER}: " in (row.get("evidence") or ""):
         run, transient = orbit_ahead(run, orbits)[0].run, 0  # a run on the orbit, from its first moment on
     if run.final_state is None or scene.motion.dimensions == 3:

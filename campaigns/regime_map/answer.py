@@ -1,4 +1,4 @@
-"""What a map says, in a few sentences: where it is chaotic, where it pulls hardest, where the start decides."""
+"""What a map says, in a few lines: where it pulls hardest, where it is chaotic, where the start decides."""
 
 import math
 from collections import Counter
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
 from operator import itemgetter
 
-from campaigns.answers import greatest, kilonewton, numbers_of
+from campaigns.answers import greatest, kilonewton, line, numbers_of
 from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO, TENSION
 from tables import CHAOTIC, EMPTY, FAILED, OPEN, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
@@ -24,24 +24,25 @@ def sentences(
     if not computed:
         yield from _of_the_screen(coarse, keys)
         return
-    finer, screened = len(cells) - len(coarse), len(coarse) - len(computed)
-    rest = "none is only screened"
-    if screened:
-        rest = f"{screened} are only screened with a massless tether"
-    yield from _regimes(computed, motions, keys)
     peak = greatest(cells, TENSION.name)
     if peak is not None:
-        yield _peak(peak, motions, keys)
-        yield from _use([row for row in motions if number_of(row, TENSION.name) > 0.0], keys, scene)
+        loads = [_peak(peak, motions, keys)]
+        loads += _use([row for row in motions if number_of(row, TENSION.name) > 0.0], keys, scene)
+        yield line("LOAD", " ".join(loads))
+    yield line("MOTIONS", " ".join(_regimes(computed, motions, keys)))
     several = [count for count in numbers_of(computed, "motions") if count > 1]
     if several:
-        yield f"On {_share(len(several), computed)} of the map the start decides: up to {max(several):.0f} motions."
+        share = _share(len(several), computed)
+        yield line("STARTS", f"on {share} of the map the start decides: up to {max(several):.0f} motions.")
     cheap = sum(row.get("verdict") == "cheap" for row in motions)
-    yield f"{cheap} of {len(motions)} motions were classified by one test instead of two: they repeat at one look."
-    yield f"{len(computed)} cells of the coarse grid and {finer} finer ones are computed; {rest}."
+    if cheap:
+        yield line("CHECK", f"{cheap} of {len(motions)} motions were classified by one test instead of two.")
+    screened = len(coarse) - len(computed)
+    if screened:
+        yield line("OPEN", f"{screened} of {len(coarse)} cells were only screened with a massless tether.")
     failed = list(map(itemgetter("source"), cells)).count(FAILED)
     if failed:
-        yield f"{failed} cells have no result; the column message of cells/table.csv says why."
+        yield line("OPEN", f"{failed} cells have no result; the column message of cells/table.csv says why.")
 
 
 def _is_coarse(row: Row) -> bool:
@@ -65,7 +66,7 @@ def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Col
         undecided += word in OPEN
     parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
     shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
-    yield f"Rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
+    yield f"rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
     chaotic = {_place(row, keys) for row in filter(_is_coarse, motions) if row.get("regime") == CHAOTIC}
     if len(chaotic) > counts[CHAOTIC]:
         yield f"Some motion is chaotic on {_share(len(chaotic), computed)} of the map."
@@ -74,7 +75,7 @@ def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Col
 def _peak(peak: Row, motions: Sequence[Row], keys: Sequence[Column]) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
     pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
-    sentence = f"Largest tension {pull}, at {_at(peak, keys)}"
+    sentence = f"largest tension {pull}, at {_at(peak, keys)}"
     motions_of_cell = [row for row in motions if _place(row, keys) == _place(peak, keys)]
     kicks = of_kicks(greatest(motions_of_cell, TENSION.name) or {})
     if kicks != EMPTY:
@@ -91,7 +92,8 @@ def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], 
     usable = next(filterfalse(lambda row: [*reasons(row, scene(row))], by_tension), None)
     sentence = use_of(peak, scene(peak), searched=math.isfinite(number_of(peak, "share")))
     if usable is not None and usable is not peak:
-        sentence += f" Without that it is {kilonewton(number_of(usable, TENSION.name))}, at {_at(usable, keys)}."
+        pull = kilonewton(number_of(usable, TENSION.name))
+        sentence += f" Largest without these faults: {pull}, at {_at(usable, keys)}."
     yield sentence
 
 

@@ -114,6 +114,10 @@ def cases(order: Order) -> Iterator[Job]:
     """Every start in every sea of every state; one of a single state once more, on a finer grid."""
     options: Options = order.options
     options.grid.refuse_set(order)
+    taken = [key for key in options.grid.keys if key.name in STUDY.taken]
+    order.tell(f"--vary {key.key}: this campaign sets it; {STUDY.taken[key.name]}" for key in taken)
+    if taken:
+        return
     order.changes = {**usual_sea(order), **order.changes}
     if options.screen:
         order.changes["tether.nodes"] = SCREEN_NODES

@@ -77,13 +77,14 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
 
 @pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])
 def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(regime, periods, monkeypatch):
-    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1}), 90)
+    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1, "waves.ramp_s": 25.0}), 90)
     state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
     monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
     row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 90.0}
     job = errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row).job
     assert job.scene.tether.nodes - 1 == 2 * (run.scene.tether.nodes - 1)
     assert job.scene.solver.rtol == pytest.approx(run.scene.solver.rtol / 4.0)
+    assert job.scene.waves.ramp_s == 0.0, "the waves of its last state have grown"
     assert job.scene.output.tangent_vectors == 0 and job.labels == {"of_run": "of the run"}
     assert job.going(job.scene, None, None, {})[:3] == (job.scene, periods, state)
 
