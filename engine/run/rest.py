@@ -43,6 +43,8 @@ def rest_of(scene: Scene) -> Rest:
     if status == OK and any(scene.start.buoy_displacement_m):
         fault = why_not_held
         status, Y = held_away(scene, Y, np.append(0.0, np.cumsum(lengths_of(record, tables))))
+    if not record["bent"] and not is_spatial(record):
+        Y[:, PHI] = np.unwrap(Y[:, PHI])  # a whole turn in an element is none where nothing resists bending
     turn = largest_turn(Y)
     if status == OK and record["bent"] and turn > math.pi:
         status = TURN_UNRESOLVED

@@ -15,7 +15,7 @@ from ..scene.models import Scene
 from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
 from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
-from .rest import rest_of
+from .rest import rest_of, static_tension_N
 
 if TYPE_CHECKING:
     from . import Run
@@ -26,6 +26,10 @@ MANY = 8  # waves from which on a sea is meant to be random
 STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
 FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
+PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
+UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
+SLACK = 0.05  # of the tension at rest: the line is slack
+LONGER = 0.6  # of its slack fraction: error of the latter
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
 
@@ -43,6 +47,7 @@ def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
         _waves_on_element(run),
         _out_at_rest(run),
         _undamped(run, columns),
+        _pressed_together(run, columns),
         _regular_waves(run),
         _sea(run, columns),
     ]
@@ -120,6 +125,30 @@ def _undamped(run: "Run", columns: dict[str, np.ndarray]) -> str:
         "the line goes slack and has neither drag nor damping, so that its folds never calm down and the tensions of "
         "later snaps depend on grid and tolerance: set tether.drag_normal, or tether.damping_critical = 0.1"
     )
+
+
+def _pressed_together(run: "Run", columns: dict[str, np.ndarray]) -> str:
+    """Says how far tension or slack fraction hold where a line is pressed together and its elements cannot buckle.
+
+    The fastest buckle under a force P is 2 pi sqrt(2 EI/P) long (Triantafyllou & Howell 1994). Shorter elements let the
+    line give way; longer ones bear P. Drag across the line calms this; then only the slack fraction of a held line
+    depends on it: on 161 to 241 nodes it was larger by 0.3 to 0.6 of what 41 to 61 nodes gave.
+    """
+    record, scene, high_N = run.record, run.scene, columns["tension_top_high_N"]
+    peak, element_m = int(high_N.argmax()), float(lengths_of(record, run.tables).max())
+    pressed_N = np.maximum(-np.minimum.accumulate(columns["tension_min_N"]), 1e-300)  # until each sample
+    buckle_m = 2 * math.pi * np.sqrt(2 * float(record["EI"]) / pressed_N)
+    cause = f"elements of {element_m:.2g} m cannot buckle as the line does, which is pressed together: "
+    undamped = record["cn"] == 0.0 and buckle_m[peak] < UNBUCKLED * element_m
+    if undamped and pressed_N[peak] > PRESSED * high_N[peak]:
+        holds = f"the largest tension, {high_N[peak]:.4g} N, holds to {pressed_N[peak]:.2g} N"
+        return f"{cause}without drag across the line {holds}; add nodes"
+    if record["end"] != HELD or scene.end.release_s is not None or buckle_m[-1] > element_m:
+        return ""
+    slack = float(np.mean(columns["tension_top_N"] <= SLACK * static_tension_N(scene, columns)))
+    if slack <= NOTED:
+        return ""
+    return f"{cause}it is slack for {slack:.2g} of the time, which may be off by {LONGER * slack:.1g}; add nodes"
 
 
 def _regular_waves(run: "Run") -> str:
@@ -210,7 +239,7 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[
     errors[:-1] = np.maximum(errors[:-1], errors[1:])  # what a step lost is booked with the sample after it
     errors = np.minimum(errors, largest_N)
     worst, large = int(errors.argmax()), np.flatnonzero(errors > NOTED * largest_N)
-    if not len(large):
+    if not len(large) or (high + errors).max() <= (1 + NOTED) * largest_N:  # the largest one is none of them
         return ""
     key, step_s = longest_step(scene)
     if record["adaptive"]:

@@ -11,7 +11,7 @@ from ..compiled import kernel
 from ..dimensions import size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
-from ..record import STRAIN, TENSION
+from ..record import BUOY, STRAIN, TENSION
 from .damping import left_after
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
@@ -136,10 +136,10 @@ def watch_ringing(p, tables, state, top, low, high, jumps):
 def near_stages(p, tables, Ys, row):
     """Keep the strains of a row of output within BEYOND of the range of the stages Ys (s, n, unknowns) of its step.
 
-    Only of a held end. What a step damps in waves that it does not resolve stays in its rates, omega times as large,
-    and a cubic through them swings; the stages do not. Where waves are resolved no strain is that far off.
+    Not of a buoy. What a step damps in waves that it does not resolve stays in its rates, omega times as large, and a
+    cubic through them swings; the stages do not. Where waves are resolved no strain is that far off.
     """
-    if not p.all_waves:
+    if p.end == BUOY:
         return
     for k in range(row.shape[0]):
         low = high = Ys[0, k, EPS]

@@ -14,7 +14,8 @@ at a time; others wait. The number of releases is part of the result.
 Output on an even time grid comes from inside the accepted steps. Runge-Kutta steps carry rates at both ends: cubic
 Hermite interpolation of the conserved variables, order 4; the one-stage methods (order 2 and less, undamped rates) are
 interpolated linearly. Positions are the sums of the interpolated q; strains are interpolated by themselves
-(`simd.elementary.strain_within`), of held lines near their stages. Columns of samples and profiles: `engine.record`.
+(`simd.elementary.strain_within`), near their stages where the line carries no buoy. Columns of samples and profiles:
+`engine.record`.
 """
 
 import math
