@@ -309,7 +309,8 @@ def result_of(changes: dict, refined: bool) -> Result:
     sample_s = scene.sample_step_s()
     if refined:
         nodes, solver = REFINED * (scene.tether.nodes - 1) + 1, scene.solver
-        scene = scene.with_values("tether", nodes=nodes)
+        damping = scene.tether.damping_critical  # a share of that of an element: the same damping of the line
+        scene = scene.with_values("tether", nodes=nodes, damping_critical=damping and REFINED * damping)
         finer = {"rtol": solver.rtol / RTOL, "max_step_s": solver.max_step_s / STEPS}
         scene = scene.with_values("solver", **finer)
     run = simulate(scene, duration_s=duration_s)

@@ -28,6 +28,7 @@ FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
+TURNED = 0.6  # turn (rad) in an element beyond which its chord is 3 % too short
 SLACK = 0.05  # of the tension at rest: the line is slack
 LONGER = 0.6  # of its slack fraction: error of the latter
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
@@ -131,8 +132,8 @@ def _pressed_together(run: "Run", columns: dict[str, np.ndarray]) -> str:
     """Says how far tension or slack fraction hold where a line is pressed together and its elements cannot buckle.
 
     The fastest buckle under a force P is 2 pi sqrt(2 EI/P) long (Triantafyllou & Howell 1994). Shorter elements let the
-    line give way; longer ones bear P. Drag across the line calms this; then only the slack fraction of a held line
-    depends on it: on 161 to 241 nodes it was larger by 0.3 to 0.6 of what 41 to 61 nodes gave.
+    line give way; longer ones bear P. Drag across the line calms this; then only the slack fraction of a held line that
+    folds depends on it: on 161 to 241 nodes it was larger by 0.3 to 0.6 of what 41 to 61 nodes gave.
     """
     record, scene, high_N = run.record, run.scene, columns["tension_top_high_N"]
     peak, element_m = int(high_N.argmax()), float(lengths_of(record, run.tables).max())
@@ -143,7 +144,8 @@ def _pressed_together(run: "Run", columns: dict[str, np.ndarray]) -> str:
     if undamped and pressed_N[peak] > PRESSED * high_N[peak]:
         holds = f"the largest tension, {high_N[peak]:.4g} N, holds to {pressed_N[peak]:.2g} N"
         return f"{cause}without drag across the line {holds}; add nodes"
-    if record["end"] != HELD or scene.end.release_s is not None or buckle_m[-1] > element_m:
+    folded = buckle_m[-1] < element_m and run.state["max_turn"] > TURNED
+    if record["end"] != HELD or scene.end.release_s is not None or not folded:
         return ""
     slack = float(np.mean(columns["tension_top_N"] <= SLACK * static_tension_N(scene, columns)))
     if slack <= NOTED:

@@ -133,3 +133,41 @@ def test_a_slack_line_that_nothing_calms_is_told(overrides, told):
     undamped = {"tether.drag_normal": 0.0, "tether.drag_tangential": 0.0, "tether.nodes": 11, "waves.steepness": 0.1}
     run = simulate(load_scene("tethered_buoy", undamped | overrides), periods=6)
     assert ("neither drag nor damping" in run.message) == told
+
+
+LOWERED = {"law": "table", "time_s": [0.0, 3.0], "displacement_m": [[0.0, 0.0, 0.0], [-4.0, 0.0, -5.0]]}
+
+
+@pytest.mark.parametrize("water", [DRY, STILL | {"water.depth_m": 60.0}])
+def test_compression_that_the_grid_cannot_buckle_is_told_where_no_drag_calms_the_line(water):
+    """A line is lowered at one end; a finer grid has another largest tension, by no more than the compression."""
+    lowered = held(12.0, 15.9, motion=LOWERED) | {"tether.bending_stiffness_Nm2": 4.0}
+    coarse, fine = (ran(line(water, lowered, nodes=nodes, tension=linear(1e6)), duration_s=5.0) for nodes in (41, 161))
+    off_N = abs(coarse.columns["tension_top_high_N"].max() - fine.columns["tension_top_high_N"].max())
+    stated = re.search(r"without drag across .* holds to (\S+) N", coarse.message)
+    assert (stated is not None) == (water is DRY) and "pressed together" not in fine.message
+    if stated:
+        assert 5.0 < off_N < float(stated[1])
+
+
+@pytest.mark.parametrize("amplitude_m, told", [(0.1, False), (0.68, True)])
+def test_a_slack_fraction_that_the_grid_decides_is_told(amplitude_m, told):
+    """A long thin line is shaken along itself: where it goes slack, it does so for longer on a finer grid."""
+    motion = {"law": "harmonic", "amplitude_m": [0.0, 0.0, amplitude_m], "period_s": 1.4, "ramp_s": 1.4}
+    deep = {"water.depth_m": 165.0, "anchor.position_m": [0.0, 0.0, 79.0]} | held(50.1, -43.05, motion=motion)
+    keys = {"length_m": 66.0, "area_m2": 3.4e-5, "density_kgpm3": 3000.0, "bending_stiffness_Nm2": 0.017}
+    runs = [ran(line(STILL, deep, tension=linear(1.24e5), nodes=nodes, **keys), duration_s=8.0) for nodes in (41, 161)]
+    tensions = [run.columns["tension_top_N"] for run in runs]
+    shares = [float(np.mean(tension_N <= 0.05 * tension_N[0])) for tension_N in tensions]
+    stated = re.search(r"slack for .* may be off by (\S+);", runs[0].message)
+    assert (stated is not None) == told
+    assert abs(shares[0] - shares[1]) <= (float(stated[1]) if stated else 0.05)
+
+
+def test_lost_ringing_that_cannot_make_the_largest_tension_is_not_told():
+    run = Run(line(STILL, away(RINGING_N, EA), tension=linear(EA)), 4.0)
+    time_s = 0.05 * np.arange(81)
+    high_N, lost_N = np.where(time_s == time_s[20], 100.0, 50.0), np.where(time_s == time_s[60], 30.0, 0.0)
+    for lost, told in ((lost_N, False), (2.0 * lost_N, True)):
+        columns = {"time_s": time_s, "tension_top_high_N": high_N, "unresolved_N": lost}
+        assert (unresolved(run.record, run.tables, run.scene, columns) != "") == told

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from engine import load_scene, simulate
+from engine.run.rest import rest_of
+from engine.time.status import OK
 from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear
 from tests.engine.physics.test_bed import CHAIN, EA, WEIGHT, G
 
@@ -37,6 +39,14 @@ def test_a_line_laid_down_rests(dimensions, EI, floor):
     bound = V_S * EA * 2**-52 / (1.0 * MU * WEIGHT) * duration_s
     for place in (run.profiles.x_m, run.profiles.z_m):
         assert np.abs(place - place[0]).max() < bound
+
+
+def test_a_chain_on_the_bed_rests_without_a_whole_turn_in_an_element():
+    """Without bending a direction and the same one a turn further are one: it is no fold, and no loop to release."""
+    chain = {"length_m": 21.0, "area_m2": 1.12e-5, "density_kgpm3": 7800.0, "bending_stiffness_Nm2": 0.0}
+    bedded = held(16.68, 11.36) | {"water.depth_m": 32.0, "floor": {"stiffness_Npm3": 3.6e7}}
+    rest = rest_of(line(STILL, bedded, tension=linear(16281.0), nodes=81, **chain))
+    assert rest.status == OK and rest.turn < math.pi
 
 
 @pytest.mark.parametrize("dimensions", [2, 3])
