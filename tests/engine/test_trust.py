@@ -159,15 +159,6 @@ def test_a_slack_fraction_that_the_grid_decides_is_told(amplitude_m, told):
     runs = [ran(line(STILL, deep, tension=linear(1.24e5), nodes=nodes, **keys), duration_s=8.0) for nodes in (41, 161)]
     tensions = [run.columns["tension_top_N"] for run in runs]
     shares = [float(np.mean(tension_N <= 0.05 * tension_N[0])) for tension_N in tensions]
-    stated = re.search(r"slack for .* may be off by (\S+);", runs[0].message)
+    stated = re.search(r"slack for (\S+) of the time, which may be off", runs[0].message)
     assert (stated is not None) == told
     assert abs(shares[0] - shares[1]) <= (float(stated[1]) if stated else 0.05)
-
-
-def test_lost_ringing_that_cannot_make_the_largest_tension_is_not_told():
-    run = Run(line(STILL, away(RINGING_N, EA), tension=linear(EA)), 4.0)
-    time_s = 0.05 * np.arange(81)
-    high_N, lost_N = np.where(time_s == time_s[20], 100.0, 50.0), np.where(time_s == time_s[60], 30.0, 0.0)
-    for lost, told in ((lost_N, False), (2.0 * lost_N, True)):
-        columns = {"time_s": time_s, "tension_top_high_N": high_N, "unresolved_N": lost}
-        assert (unresolved(run.record, run.tables, run.scene, columns) != "") == told
