@@ -15,7 +15,8 @@ Rates and slopes are those of the series. The sums S are nearly the whole cost o
 once, at its first stage; they serve its other stages and iterations as long as `reach_of` allows, else they are taken
 anew. So a run that goes on from a state has the bits of the run that did not stop.
 
-Why not the plain sum in every iteration: with 64 waves it cost two to five times as much as all the rest of a run.
+Why not the plain sum in every iteration: with 64 waves it cost two to five times as much as all the rest of a run in a
+lane (five with Wheeler's stretching, which needs the surface at every node).
 
 The waves lie side by side, COUNT in a vector, and follow from node to node by recurrence (`engine.physics.sea_sum`). A
 run in a lane takes the same sums as a run alone, so that both have the same bits.
