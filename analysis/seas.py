@@ -45,12 +45,18 @@ def sea_lyapunov(growths_nats: Sequence[ArrayLike], transient_periods: int = 0) 
         errors.append(max(exponent.error, _error_of_blocks(growth / math.log(2.0))))
     if not values:
         return no_exponent(METHOD, f"too short: a sea of {LEAST_PERIODS} periods is needed", BITS_PER_PERIOD)
-    count = len(values)
-    error = math.hypot(*errors) / count
-    if count > 2:
+    value, error = mean_of_seas(values, errors)
+    return Exponent(value, error, BITS_PER_PERIOD, METHOD, f"mean of {len(values)} seas", {"seas": values})
+
+
+def mean_of_seas(values: Sequence[float], errors: Sequence[float]) -> tuple[float, float]:
+    """Mean of a quantity over several seas, and its standard error: by the errors of the seas, or of three seas or more
+    by their scatter if that is larger.
+    """
+    error = math.hypot(*errors) / len(values)
+    if len(values) > 2:
         error = max(error, standard_error(values))
-    reason = f"mean of {count} seas"
-    return Exponent(float(np.mean(values)), error, BITS_PER_PERIOD, METHOD, reason, {"seas": values})
+    return float(np.mean(values)), error
 
 
 def _error_of_blocks(values) -> float:

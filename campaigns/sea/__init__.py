@@ -7,13 +7,14 @@
 
 Protocol: every sea is drawn anew for each of --seeds, and runs from rest and from kicks of the buoy, with the same
 waves for all starts. The run from rest carries a perturbation, whose mean growth is the exponent of the sea, and gives
-the loads. One run goes on with twice the elements and a quarter of the tolerance beside the others. Motions of regular
-waves up to 1.86 times the significant height are looked for as in `campaigns.sweep`; the folds between two of them give
-the forecast of a slow envelope. Kicks are drawn by --seed.
+the loads. While the exponent is within three errors of 0, twice as many seas run from rest, up to --most-hours. One run
+goes on with twice the elements and a quarter of the tolerance beside the others. Motions of regular waves up to 1.86
+times the significant height are looked for as in `campaigns.sweep`; the folds between two of them give the forecast of
+a slow envelope. Kicks are drawn by --seed.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -22,7 +23,8 @@ from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import kick_speed
 from campaigns.finer import finer
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job
+from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import LARGE
@@ -46,6 +48,12 @@ class Options(cli.Options):
     seeds: int = cli.option("N", "seas of each state, with seeds 1 to N", cli.whole(1, 1000), 8)
     starts: int = cli.option("N", "starts in each sea: from rest, and N - 1 kicks", cli.whole(1, 100), 4)
     hours: float = cli.option("H", "length of every run after the transient, hours", cli.POSITIVE, 0.25)
+    most_hours: float = cli.option(
+        "H",
+        "hours of all seas of a state, up to which more are run until its exponent is beyond three errors of 0",
+        cli.number("a finite number, at least 0", lambda hours: 0.0 <= hours < math.inf),
+        12.0,
+    )
     transient: int = cli.option("N", "peak periods left out of exponent, events and loads", cli.whole(0), 40)
     kick_speed: float = kick_speed()
     seed: int = cli.seed("of the kicks")
@@ -138,7 +146,7 @@ def cases(order: Order) -> Iterator[Job]:
         if _seed_key(scene) is None and options.seeds > 1:
             order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
             return
-        yield from _runs(order, place, changes, scene)
+        yield from _runs(order, place, changes, scene, range(1, options.seeds + 1), options.starts)
 
 
 def _seed_key(scene) -> str | None:
@@ -148,13 +156,13 @@ def _seed_key(scene) -> str | None:
     return None if scene.waves.significant_steepness is None else "waves.seed"
 
 
-def _runs(order: Order, place: dict, changes: dict, base) -> Iterator[Job]:
-    """The runs of one sea state."""
+def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], starts: int) -> Iterator[Job]:
+    """The runs of one sea state: its first starts in the seas of these seeds."""
     options: Options = order.options
     duration_s = options.transient * base.waves.period_s + options.hours * 3600.0
     labels = {**place, "solver": AS_GIVEN}
-    for seed in range(1, options.seeds + 1):
-        for start, (x_mps, z_mps) in enumerate(kicks(options)):
+    for seed in seeds:
+        for start, (x_mps, z_mps) in enumerate(kicks(options)[:starts]):
             further = {}
             if _seed_key(base) is not None:
                 further[_seed_key(base)] = seed
@@ -169,6 +177,31 @@ def _runs(order: Order, place: dict, changes: dict, base) -> Iterator[Job]:
             yield Job(of_run, scene, duration_s=duration_s)
             if seed == 1 and start == 0 and not options.grid.keys:
                 yield Job({**of_run, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
+
+
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+    """In place of `runner.run`: a state whose exponent has no clear sign gets twice as many seas, again and again."""
+    from campaigns.sea.rows import unclear_places
+
+    options: Options = order.options
+    timing, summary = run(plan, jobs)
+    seeds, most = options.seeds, int(options.most_hours / options.hours)
+    while seeds < most:
+        unclear = unclear_places(summary.rows, options.grid.columns)
+        further = range(seeds + 1, min(2 * seeds, most) + 1)
+        more: list[Job] = []
+        for place in options.grid.places():
+            changes, _ = options.grid.changes(place, order.base())
+            scene = order.base(changes)
+            if tuple(place.values()) in unclear and _seed_key(scene) is not None:
+                more += _runs(order, place, changes, scene, further, 1)
+        if not more:
+            break
+        jobs = [*jobs, *more]
+        taken, summary = run(plan, jobs)
+        timing = {name: timing[name] + taken[name] for name in timing}
+        seeds = further[-1]
+    return timing, summary
 
 
 def measures(order: Order) -> Measures:
@@ -218,6 +251,7 @@ STUDY = Study(
     options=Options,
     cases=cases,
     measures=measures,
+    runs=runs,
     parameters=parameters,
     beside=beside,
     answer=answer,

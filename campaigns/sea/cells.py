@@ -178,7 +178,8 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
                     cells[-1] |= {name: loads[-1][1], f"{name.removesuffix('_N')}_motions": motions}
     write_table(subfolder(plan, FOLDER) / "table.csv", (*keys, *COLUMNS), cells)
     if not keys:
-        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(digests, order.options))
+        drawn = [run for run in digests if run.row["sea"] <= order.options.seeds]
+        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(drawn, order.options))
     return time.perf_counter() - began
 
 

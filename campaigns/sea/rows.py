@@ -1,6 +1,7 @@
 """A run in one sea as a row: its exponent, its snaps and its loads after the transient."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -13,14 +14,30 @@ from analysis import (
     slack_fraction,
     turning_points,
 )
+from analysis.seas import mean_of_seas
 from analysis.tangent_growth import turned
 from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, exponents, height_m, sound_part
 from campaigns.explore.rows import SNAPS as SNAPS_OF_RUNS
 from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
 from engine.views import carried, snaps_of
-from tables import MESSAGE, PEAK, PERIODS_RUN, REGIMES, RUN_KEY, SHEET, STATISTICS, STATUS, Column, Row, counted, names
+from tables import (
+    MESSAGE,
+    PEAK,
+    PERIODS_RUN,
+    REGIMES,
+    RUN_KEY,
+    SHEET,
+    STATISTICS,
+    STATUS,
+    Column,
+    Row,
+    counted,
+    names,
+    number_of,
+)
 
+CLEAR = 3.0  # errors between an exponent and 0: then its sign needs no more seas
 SEA = Column("sea", "", "sea", "seed of the waves", 0)
 START = Column("start", "", "start", "number of the start; 0: rest", 0)
 SOLVER = Column("solver", "", "solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
@@ -104,3 +121,18 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
     return {
         name: None if isinstance(entry, float) and not math.isfinite(entry) else entry for name, entry in row.items()
     }
+
+
+def unclear_places(rows: Sequence[Row], keys: Sequence[Column]) -> set[tuple]:
+    """The places (values of the keys) where the mean exponent of the runs from rest is within CLEAR errors of 0."""
+    found: dict[tuple, list[tuple[float, float]]] = {}
+    for row in rows:
+        value, error = (number_of(row, column.name) for column in TANGENT)
+        if row["start"] == 0 and not row["solver"] and math.isfinite(value):
+            found.setdefault(tuple(row[name] for name in names(keys)), []).append((value, error))
+    unclear = set()
+    for place, exponents_of_seas in found.items():
+        value, error = mean_of_seas(*zip(*exponents_of_seas, strict=True))
+        if abs(value) < CLEAR * error:
+            unclear.add(place)
+    return unclear

@@ -11,10 +11,11 @@ from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
 from ..physics.strains import tension_at
 from ..physics.waves import MOST_URSELL, breaking_steepness, ursell_number, wave_number
 from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
-from ..scene.models import Scene
+from ..scene.models import Output, Scene
 from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
 from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
+from ..trajectory.columns import columns_of
 from .rest import rest_of, static_tension_N
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
-TURNED = 0.6  # turn (rad) in an element beyond which its chord is 3 % too short
+FEWEST = 3  # nodes of a grid with which another is compared
+COARSE, ROUNDING = 0.08, 1e-3  # difference of the largest tension on half the elements, of it and of the line's weight
 SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -48,6 +50,7 @@ def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
         _out_at_rest(run),
         _undamped(run, columns),
         _pressed_together(run, columns),
+        _coarse_grid(run, columns),
         _regular_waves(run),
         _sea(run, columns),
     ]
@@ -128,28 +131,60 @@ def _undamped(run: "Run", columns: dict[str, np.ndarray]) -> str:
 
 
 def _pressed_together(run: "Run", columns: dict[str, np.ndarray]) -> str:
-    """Says how far tension or slack fraction hold where a line is pressed together and its elements cannot buckle.
+    """Says how far the largest tension holds where a line is pressed together and its elements cannot buckle.
 
     The fastest buckle under a force P is 2 pi sqrt(2 EI/P) long (Triantafyllou & Howell 1994). Shorter elements let the
-    line give way; longer ones bear P. Drag across the line calms this; then only the slack fraction of a held line that
-    folds depends on it: on 161 to 241 nodes it was larger by 0.3 to 0.8 of what 41 to 61 nodes gave.
+    line give way; longer ones bear P. Drag across the line calms this.
     """
-    record, scene, high_N = run.record, run.scene, columns["tension_top_high_N"]
+    record, high_N = run.record, columns["tension_top_high_N"]
+    if record["cn"] > 0.0:
+        return ""
     peak, element_m = int(high_N.argmax()), float(lengths_of(record, run.tables).max())
-    pressed_N = np.maximum(-np.minimum.accumulate(columns["tension_min_N"]), 1e-300)  # until each sample
-    buckle_m = 2 * math.pi * np.sqrt(2 * float(record["EI"]) / pressed_N)
-    cause = f"elements of {element_m:.2g} m cannot buckle as the line does, which is pressed together: "
-    undamped = record["cn"] == 0.0 and buckle_m[peak] < UNBUCKLED * element_m
-    if undamped and pressed_N[peak] > PRESSED * high_N[peak]:
-        holds = f"the largest tension, {high_N[peak]:.4g} N, holds to {pressed_N[peak]:.2g} N"
-        return f"{cause}without drag across the line {holds}; add nodes"
-    folded = buckle_m[-1] < element_m and run.state["max_turn"] > TURNED
-    if record["end"] != HELD or scene.end.release_s is not None or not folded:
+    pressed_N = max(-float(columns["tension_min_N"][: peak + 1].min()), 1e-300)  # until then
+    buckle_m = 2 * math.pi * math.sqrt(2 * float(record["EI"]) / pressed_N)
+    if buckle_m >= UNBUCKLED * element_m or pressed_N <= PRESSED * high_N[peak]:
         return ""
-    slack = float(np.mean(columns["tension_top_N"] <= SLACK * static_tension_N(scene, columns)))
-    if slack <= NOTED:
+    return (
+        f"elements of {element_m:.2g} m cannot buckle as the line does, which is pressed together: without drag across "
+        f"the line the largest tension, {high_N[peak]:.4g} N, holds to {pressed_N:.2g} N; add nodes"
+    )
+
+
+def _coarse_grid(run: "Run", columns: dict[str, np.ndarray]) -> str:
+    """Says that half the elements give another largest tension or another slack fraction, or nothing.
+
+    It costs half a run more, and is left out for a buoy in waves, whose runs campaigns refine (docs/trust.md).
+    """
+    scene, high_N = run.scene, columns["tension_top_high_N"]
+    in_waves = scene.buoy is not None and scene.waves is not None
+    tether = scene.tether
+    nodes = tether.nodes // 2 + 1
+    if in_waves or run.started is not None or nodes < FEWEST:
         return ""
-    return f"{cause}it is slack for {slack:.2g} of the time, which may be off by as much; add nodes"
+    damping = tether.damping_critical and tether.damping_critical / 2  # a share of that of an element
+    coarse_scene = scene.with_values("tether", nodes=nodes, damping_critical=damping)
+    coarser = type(run)(coarse_scene.model_copy(update={"output": Output(step_s=scene.output.step_s)}), run.duration_s)
+    coarser.advance(coarser.goal)
+    if coarser.state["status"] != OK:
+        return ""
+    other = columns_of(coarser.output.samples[: coarser.goal], coarse_scene)
+    sentences = []
+    largest_N, other_N = float(high_N.max()), float(other["tension_top_high_N"].max())
+    rounding_N = ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2
+    if abs(other_N - largest_N) > max(COARSE * abs(largest_N), rounding_N):
+        sentences.append(f"the largest tension is {other_N:.4g} N in place of {largest_N:.4g} N")
+    slack, other_slack = (slack_share(scene, series) for series in (columns, other))
+    if abs(other_slack - slack) > NOTED:
+        sentences.append(f"the line is slack for {other_slack:.2g} of the time in place of {slack:.2g}")
+    if not sentences:
+        return ""
+    return f"on {nodes} nodes {' and '.join(sentences)}, which may be off by twice the difference: add nodes"
+
+
+def slack_share(scene: Scene, columns: dict[str, np.ndarray]) -> float:
+    """Share of the samples in which the top bears at most SLACK of its tension at rest; 0 where it bears none there."""
+    rest_N = static_tension_N(scene, columns)
+    return float(np.mean(columns["tension_top_N"] <= SLACK * rest_N)) if rest_N > 0.0 else 0.0
 
 
 def _regular_waves(run: "Run") -> str:

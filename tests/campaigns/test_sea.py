@@ -4,12 +4,14 @@ import numpy as np
 import pytest
 
 from campaigns import sea
+from campaigns.sea import rows as sea_rows
 from campaigns.sea.answer import sentences
 from campaigns.sea.regular import design_loads, folds_of
+from tables import Column
 from tests.campaigns.conftest import built_twice, finished, ran, rows_of
 
 SMALL = "water.depth_m=23 buoy.submergence=full waves.jonswap.components=4 tether.nodes=5"
-SHORT = ["--set", *SMALL.split(), "--no-regular", "--hours", "0.03", "--transient", "5"]
+SHORT = ["--set", *SMALL.split(), "--no-regular", "--hours", "0.03", "--transient", "5", "--most-hours", "0"]
 WORDS = [*SHORT, "--set", f"{sea.HEIGHT}=1"]
 
 
@@ -70,6 +72,40 @@ def test_every_state_of_a_map_has_a_row(tmp_path, other):
         sorted([0.5, 1.5] * (len(cells) // 2))
     )
     built_twice(tmp_path)
+
+
+def run_from_rest(seed, value, error, **entries):
+    row = {"waves.period_s": 5.0, "sea": seed, "start": 0, "solver": "", "status": "ok"}
+    return row | {sea_rows.TANGENT[0].name: value, sea_rows.TANGENT[1].name: error} | entries
+
+
+def test_an_exponent_within_three_errors_of_zero_is_unclear():
+    """By the errors of the seas, or by the scatter of three; a kicked and a finer run do not count."""
+    (key,) = sea_rows.columns_of((Column("waves.period_s", "s", "T", "period"),))[:1]
+
+    def unclear(*values_and_errors):
+        rows = [run_from_rest(seed, *pair) for seed, pair in enumerate(values_and_errors)]
+        rows += [run_from_rest(0, 9.0, 0.1, start=1), run_from_rest(0, 9.0, 0.1, solver="finer")]
+        return sea_rows.unclear_places(rows, [key]) == {(5.0,)}
+
+    assert not unclear((0.29, 0.09)) and unclear((0.26, 0.09)) and unclear((-0.26, 0.09))
+    assert not unclear((0.2, 0.09), (0.2, 0.09)) and unclear((0.18, 0.09), (0.18, 0.09))
+    assert unclear((0.1, 0.001), (0.3, 0.001), (0.5, 0.001)) and not unclear((0.2, 0.001), (0.3, 0.001), (0.4, 0.001))
+    assert unclear((None, None), (0.1, 0.09)) and not unclear((None, None))
+
+
+def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_second_call_computes_nothing(
+    tmp_path, monkeypatch
+):
+    monkeypatch.setattr(sea_rows, "CLEAR", 1e9)
+    words = [*SHORT, "--hours", 0.06, "--most-hours", 0.42, "--seeds", 2, "--starts", 2, "--vary", sea.HEIGHT, 0.5, 1.5, 2]
+    rows = ran(sea, tmp_path, *words)
+    runs = [(float(row[sea.HEIGHT]), int(row["sea"]), int(row["start"])) for row in rows]
+    seeds = [(seed, start) for seed in (1, 2) for start in (0, 1)] + [(seed, 0) for seed in range(3, 8)]
+    assert sorted(runs) == sorted((height, *pair) for height in (0.5, 1.5) for pair in seeds)
+    assert [cell["seas"] for cell in rows_of(tmp_path, "cells/table.csv")] == ["7", "7"]
+    before = finished(tmp_path)
+    assert ran(sea, tmp_path, *words) == rows and finished(tmp_path) == before
 
 
 def motion(amplitude, letter, tension):

@@ -189,12 +189,12 @@ def test_in_space_a_sea_moves_a_line_as_in_its_plane(capped):
 def test_a_drawn_sea_has_more_waves_for_a_longer_run_unless_a_key_says_how_many():
     drawn = sea(0, **{"waves.jonswap": {"significant_height_m": 1.0}})
     period_s = drawn.waves.period_s
-    assert enough_waves(drawn, 256 * period_s) == {}
-    assert enough_waves(drawn, 1000 * period_s) == {"waves.jonswap.components": 256}
+    assert enough_waves(drawn, 512 * period_s) == {}
+    assert enough_waves(drawn, 1000 * period_s) == {"waves.jonswap.components": 128}
     stated_sea = sea(0, **{"waves.jonswap": {"significant_height_m": 1.0, "components": 8}})
     assert enough_waves(stated_sea, 1000 * period_s) == {}
     keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1, "waves.relative_width": 0.2}
-    assert enough_waves(sea(0, **keys), 1000 * period_s) == {"waves.component_count": 192}
+    assert enough_waves(sea(0, **keys), 1000 * period_s) == {"waves.component_count": 128}
     assert enough_waves(load_scene("tethered_buoy"), 1000 * period_s) == {}
 
 
