@@ -33,7 +33,9 @@ WRONG_TENSION, WRONG_SLACK = 0.05, 0.05
 ROUNDING, PRESSED = 1e-3, 0.01  # of the weight of the line; of the compression at rest
 SLACK = 0.05  # of the tension at rest
 REFINED, RTOL, STEPS = 4, 30.0, 4.0
-ACCURACY = re.compile("holds? to|may be off|at rest the top bears|neither drag nor damping|a blow on the line")
+ACCURACY = re.compile(
+    "holds? to|may be off|the grid decides|at rest the top bears|neither drag nor damping|a blow on the line"
+)
 OUTCOMES = "wrong, announced", "wrong, silent", "right, announced", "right, silent"
 NO_COMPARISON = "refused", "ended early", "no reference"
 STEEL, ROPE = 7800.0, 1140.0  # kg/m3

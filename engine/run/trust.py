@@ -178,7 +178,7 @@ def _coarse_grid(run: "Run", columns: dict[str, np.ndarray]) -> str:
         sentences.append(f"the line is slack for {other_slack:.2g} of the time in place of {slack:.2g}")
     if not sentences:
         return ""
-    return f"on {nodes} nodes {' and '.join(sentences)}, which may be off by twice the difference: add nodes"
+    return f"on {nodes} nodes {' and '.join(sentences)}, so that the grid decides: add nodes until it no longer does"
 
 
 def slack_share(scene: Scene, columns: dict[str, np.ndarray]) -> float:

@@ -34,4 +34,4 @@ def test_a_sea_beyond_its_laws_is_told(height_m, changes, sentence):
 
 def test_a_usual_sea_is_not_doubted_but_in_a_long_run():
     assert message(1.0) == ""
-    assert "nearly repeats its groups" in message(1.0, periods=90)
+    assert "nearly repeats its groups" in message(1.0, periods=180)

@@ -160,12 +160,12 @@ def test_a_slack_fraction_that_the_grid_decides_is_told(amplitude_m, warned):
     tensions = [run.columns["tension_top_N"] for run in runs]
     shares = [float(np.mean(tension_N <= 0.05 * tension_N[0])) for tension_N in tensions]
     stated = re.search(
-        r"on 21 nodes .*slack for (\S+) of the time in place of (\S+), which may be off", runs[0].message
+        r"on 21 nodes .*slack for (\S+) of the time in place of (\S+), so that the grid decides", runs[0].message
     )
     assert (stated is not None) == warned
     if stated:
         assert float(stated[2]) == pytest.approx(shares[0], abs=0.005)
-    assert abs(shares[0] - shares[1]) <= (2.0 * abs(float(stated[1]) - float(stated[2])) if stated else 0.05)
+    assert (abs(shares[0] - shares[1]) > 0.05) == warned
 
 
 def kicked(speed_mps):
@@ -192,4 +192,4 @@ def test_a_largest_tension_that_the_grid_decides_is_told(speed_mps, nodes, warne
     stated = re.search(r"on (?:11|16) nodes the largest tension is (\S+) N in place of (\S+) N", coarse.message)
     assert (stated is not None) == warned == (abs(largest_N[0] / largest_N[1] - 1.0) > 0.05)
     if stated:
-        assert abs(largest_N[0] - largest_N[1]) < 2.0 * abs(float(stated[1]) - float(stated[2]))
+        assert float(stated[2]) == pytest.approx(largest_N[0], rel=1e-3)
