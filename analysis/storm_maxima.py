@@ -19,6 +19,7 @@ scipy optimises; `pyextremes` was weighed: it bootstraps, refuses several record
 
 import math
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,6 +31,7 @@ STORM_S = 3 * 3600.0
 MOST_BLOCKS, LEAST_BLOCKS = 60, 12  # that are fitted
 SPREAD = 0.15  # of the shape xi before any maximum is known: loads of waves have -0.2 to 0.2
 WORST_FIT = 1.0  # statistic A^2 of Anderson and Darling that one fit in a hundred of the right law exceeds
+IMPOSSIBLE = 1e10  # misfit of a law that has no place for a maximum
 ALIKE = 2.0  # correlation of neighbouring blocks, in standard deviations of that of independent ones
 
 
@@ -136,14 +138,14 @@ def _fitted(maxima, block_s: float, storm_s: float, confidence: float) -> StormM
         return f"maxima of blocks of {block_s:.0f} s do not follow one law (A² = {fit:.2g}), as those of two motions"
     allowed = best.fun + 0.5 * chi2.ppf(confidence, 1)
 
+    @cache
     def excess(candidate: float) -> float:
         """Of the profile likelihood over what the interval allows."""
-        wider = log_scale + math.log1p(abs(candidate - level))  # the likely scale may have no place for the maxima
-        fits = []
-        for start in ((log_scale, shape), (wider, 0.0)):
-            inner = minimize(lambda p: misfit(candidate, *p), start, method="Nelder-Mead", options={"xatol": 1e-4})
-            fits.append(inner.fun)
-        return min(fits) - allowed
+        start = log_scale, shape
+        if misfit(candidate, *start) >= IMPOSSIBLE:
+            start = log_scale + math.log1p(abs(candidate - level)), 0.0
+        inner = minimize(lambda p: misfit(candidate, *p), start, method="Nelder-Mead", options={"xatol": 1e-4})
+        return inner.fun - allowed
 
     ends = []
     for way in (-1.0, 1.0):
@@ -169,7 +171,7 @@ def _misfit(x, blocks: float, level: float, scale: float, shape: float) -> float
     """Minus the logarithm of likelihood and prior."""
     y = _reduced(x, blocks, level, scale, shape)
     if not np.isfinite(y).all() or abs(shape) > 1.0:
-        return 1e10
+        return IMPOSSIBLE
     return float(len(x) * math.log(scale) + np.sum((1.0 + shape) * y + np.exp(-y))) + 0.5 * (shape / SPREAD) ** 2
 
 

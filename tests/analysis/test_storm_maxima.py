@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy import stats
+from scipy import optimize, stats
 
 from analysis import storm_maximum
 from analysis.storm_maxima import _by_order
@@ -55,6 +55,21 @@ def test_the_estimate_of_a_long_record_is_near_the_truth():
     answer = storm_maximum([law.rvs(2160, random_state=rng) for _ in range(40)], STEP_S)
     assert answer.found and answer.value == pytest.approx(truth_of(law, False), rel=0.02)
     assert answer.low < answer.value < answer.high
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_shape_of_few_maxima_balances_likelihood_and_a_normal_prior_of_standard_deviation_015(seed):
+    """By scipy's law: twelve maxima of Gumbel's law, which alone leave the shape open to some 0.2."""
+    maxima = np.random.default_rng(seed).gumbel(3.0, 0.5, size=12)
+
+    def misfit(parameters):
+        place, log_scale, shape = parameters
+        likelihood = stats.genextreme.logpdf(maxima, -shape, place, math.exp(log_scale)).sum()
+        return -likelihood - stats.norm.logpdf(shape, 0.0, 0.15)
+
+    best = optimize.minimize(misfit, (3.0, math.log(0.5), 0.01), method="Nelder-Mead", options={"xatol": 1e-5})
+    answer = storm_maximum([[peak] for peak in maxima], 1800.0, storm_s=1800.0 * 12)
+    assert answer.blocks == 12 and answer.shape == pytest.approx(best.x[2], abs=1e-3)
 
 
 def two_motions(records, hours, rng):
