@@ -73,6 +73,8 @@ class Lengths:
                 order.tell([f"--transient: given {transient} without --periods; allowed: with --periods"])
             order.looks, order.periods, order.transient = True, values.budget, None
             return
+        if self.budget and values.budget != self.budget:
+            order.tell([f"--budget: given {values.budget} with --periods; allowed: without --periods"])
         if transient is None:
             transient = min(self.transient, periods // self.share)
         if transient >= periods:

@@ -104,17 +104,19 @@ def usual_sea(order: Order) -> dict:
     """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
     given = {*order.changes, *(key.key for key in order.options.grid.keys)}
     usual = {}
-    base = order.base()
-    if base is None or order.name != STUDY.scene:
+    if order.name != STUDY.scene:
         return usual
     for key, value in (("buoy.submergence", "spherical-cap"), ("waves.above_still_water", "wheeler")):
         if key not in given:
             usual[key] = value
     if not any(key.startswith(HEIGHTS) for key in given):
-        from engine.physics.waves import wave_number
+        usual[HEIGHT] = 1.0  # other keys of the spectrum may be given without it
+        base = order.base(usual)
+        if base is not None:
+            from engine.physics.waves import wave_number
 
-        k = wave_number(base.waves.period_s, base.water.depth_m, base.gravity_mps2)
-        usual[HEIGHT] = round(2.0 * LARGE / k, 4)
+            k = wave_number(base.waves.period_s, base.water.depth_m, base.gravity_mps2)
+            usual[HEIGHT] = round(2.0 * LARGE / k, 4)
     return usual
 
 

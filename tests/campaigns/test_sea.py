@@ -123,6 +123,14 @@ def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_se
     assert ran(sea, tmp_path, *words) == rows and finished(tmp_path) == before
 
 
+def test_a_key_of_the_spectrum_alone_leaves_the_usual_height():
+    faults = []
+    usual, fewer = (sea.read_order(words, faults) for words in ([], ["--set", "waves.jonswap.components=8"]))
+    assert faults == []
+    heights = {order.cases[0].scene.waves.jonswap.significant_height_m for order in (usual, fewer)}
+    assert len(heights) == 1 and fewer.cases[0].scene.waves.jonswap.components == 8
+
+
 def motion(amplitude, letter, tension):
     lengths = {"radius_min_m": 20.0, "radius_max_m": 21.0, "angle_min_rad": -0.1, "angle_max_rad": 0.1}
     return {"waves.amplitude_m": amplitude, "motion": letter, "status": "ok", "tension_top_max_N": tension, **lengths}
