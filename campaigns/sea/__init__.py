@@ -200,8 +200,11 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         if not more:
             break
         jobs = [*jobs, *more]
+        before = summary
         taken, summary = run(plan, jobs)
         timing = {name: timing[name] + taken[name] for name in timing}
+        made = before.made | summary.made
+        summary = Summary(summary.rows, len(jobs) - len(made), len(made), timing["analysis_s"], made=made)
         seeds = further[-1]
     return timing, summary
 

@@ -95,7 +95,7 @@ def test_an_exponent_within_three_errors_of_zero_is_unclear():
 
 
 def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_second_call_computes_nothing(
-    tmp_path, monkeypatch
+    tmp_path, monkeypatch, capsys
 ):
     monkeypatch.setattr(sea_rows, "CLEAR", 1e9)
     words = [
@@ -115,6 +115,7 @@ def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_se
         2,
     ]
     rows = ran(sea, tmp_path, *words)
+    assert "18: 18 computed, 0 found" in capsys.readouterr().out
     runs = [(float(row[sea.HEIGHT]), int(row["sea"]), int(row["start"])) for row in rows]
     seeds = [(seed, start) for seed in (1, 2) for start in (0, 1)] + [(seed, 0) for seed in range(3, 8)]
     assert sorted(runs) == sorted((height, *pair) for height in (0.5, 1.5) for pair in seeds)
