@@ -145,17 +145,21 @@ def cases(order: Order) -> Iterator[Job]:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
             order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
             return
-        if _seed_key(scene) is None and options.seeds > 1:
+        drawn = _seed_key(scene) is not None
+        if not drawn and options.seeds > 1 and scene.waves.significant_steepness is None:
             order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
             return
-        yield from _runs(order, place, changes, scene, range(1, options.seeds + 1), options.starts)
+        seeds = options.seeds if drawn else 1
+        yield from _runs(order, place, changes, scene, range(1, seeds + 1), options.starts)
 
 
 def _seed_key(scene) -> str | None:
-    """The key by which the waves of a scene are drawn anew; None where they are listed or measured."""
+    """The key by which the waves of a scene are drawn anew; None where they are listed or measured, or a single one."""
     if scene.waves.jonswap is not None:
         return "waves.jonswap.seed"
-    return None if scene.waves.significant_steepness is None else "waves.seed"
+    if scene.waves.significant_steepness is None or scene.waves.relative_width == 0.0:
+        return None
+    return "waves.seed"
 
 
 def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], starts: int) -> Iterator[Job]:

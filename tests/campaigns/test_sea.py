@@ -124,6 +124,13 @@ def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_se
     assert ran(sea, tmp_path, *words) == rows and finished(tmp_path) == before
 
 
+def test_a_spectrum_without_width_is_one_wave_and_so_one_sea_whatever_its_seed():
+    words = ["--vary", "waves.relative_width", "0", "0.1", "2", "--set", "waves.significant_steepness=0.1"]
+    order = sea.read_order([*words, "--seeds", "3", "--starts", "2"], faults := [])
+    seeds = {(case.labels["waves.relative_width"], case.labels["sea"]) for case in order.cases}
+    assert faults == [] and seeds == {(0.0, 1), (0.1, 1), (0.1, 2), (0.1, 3)}
+
+
 def test_a_key_of_the_spectrum_alone_leaves_the_usual_height():
     faults = []
     usual, fewer = (sea.read_order(words, faults) for words in ([], ["--set", "waves.jonswap.components=8"]))
