@@ -17,7 +17,7 @@ def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     timed = {setting.work for setting in study.settings}
-    drawn = next((name for name in (*SNAPPING, *study.works) if name in timed and study.timed(name)), "")
+    drawn = _work_of_first_page(study, timed)
     first = []
     if drawn:
         first.append(sections.diagram(study, drawn))
@@ -38,10 +38,21 @@ def report(directory: Path) -> Report:
     return report_page(study.folder, "Error against run time", items, timing_items(study.folder), subtitle)
 
 
+def _work_of_first_page(study: Study, timed: set[str]) -> str:
+    """The first work with a run that ended as asked, those of SNAPPING in front; "" where there is none."""
+    for name in (*SNAPPING, *study.works):
+        if name in timed and study.timed(name):
+            return name
+    return ""
+
+
 def _protocol(study: Study) -> str:
     machine, rounds = study.folder.provenance.get("machine"), study.folder.provenance.get("rounds")
-    machine_text = f" on {machine.get('processor')}, {machine.get('cores')} cores" if machine else ""
-    rounds_text = count(rounds, "round") if isinstance(rounds, int) else "rounds"
+    machine_text, rounds_text = "", "rounds"
+    if machine:
+        machine_text = f" on {machine.get('processor')}, {machine.get('cores')} cores"
+    if isinstance(rounds, int):
+        rounds_text = count(rounds, "round")
     return (
         f"Timed one run at a time{machine_text}. The settings take turns, {rounds_text}, "
         f"each with another tolerance or step (0.9 "
@@ -71,7 +82,10 @@ def peer_items(study: Study) -> Items:
             "`table.csv`."
         )
         yield Table(columns, rows, caption)
-    missing = dict.fromkeys((setting.method, setting.status, setting.message) for setting in of_peers if setting.failed)
+    missing = {}
+    for setting in of_peers:
+        if setting.failed:
+            missing[setting.method, setting.status, setting.message] = None  # a dictionary: each once, in order
     if missing:
         caption = "Settings of other codes without a result. From `table.csv`."
         yield Table(heads("code", "outcome", "why"), list(missing), caption)
@@ -88,7 +102,9 @@ def _beside_ours(study: Study, work: str) -> Iterator[tuple[str, ...]]:
             if best is not None and theirs is not None:
                 reached.append((level, best, theirs))
         for level, best, theirs in reached[-2:]:
-            off = f"{number(theirs.against_ours, 2)} {unit}" if math.isfinite(theirs.against_ours) else EMPTY
+            off = EMPTY
+            if math.isfinite(theirs.against_ours):
+                off = f"{number(theirs.against_ours, 2)} {unit}"
             yield (
                 work, name, f"{level:g} {unit}", decimals(factor * theirs.wall_s, 2), decimals(factor * best.wall_s, 2),
                 number(theirs.wall_s / best.wall_s, 3), theirs.named, f"{best.method}: {best.named}", off,

@@ -140,7 +140,10 @@ def work_items(study: Study, work: str, drawn: str) -> Items:
     smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
     yield Heading(entry["title"], 2)
     yield Text(f"{ERRORS[entry['measure']]} {smooth}")
-    references = [row for row in study.rows if row["work"] == work and row["kind"] in ("reference", "check")]
+    references = []
+    for row in study.rows:
+        if row["work"] == work and row["kind"] in ("reference", "check"):
+            references.append(row)
     if references:
         caption = (
             "The reference, and runs that check how far it is converged. Timed settings on the grid of the reference "
@@ -153,11 +156,13 @@ def work_items(study: Study, work: str, drawn: str) -> Items:
         return
     if work != drawn:
         yield diagram(study, work)
-    failed = [setting for setting in study.settings if setting.work == work and setting.failed]
+    failed = {}
+    for setting in study.settings:
+        if setting.work == work and setting.failed:
+            failed[setting.method, setting.named, setting.status] = None  # a dictionary: each once, in order
     if failed:
-        rows = dict.fromkeys((setting.method, setting.named, setting.status) for setting in failed)
         caption = "Left out, because a round ended early; see `message` in `table.csv`."
-        yield Table(heads("method", "setting", "outcome"), list(rows), caption)
+        yield Table(heads("method", "setting", "outcome"), list(failed), caption)
 
 
 def diagram(study: Study, work: str) -> Figure:

@@ -126,7 +126,10 @@ def table_of_runs(lines: list[Line], columns: Columns, kind: str) -> Table | Non
     shown = _runs_to_show(lines, kinds, needed)
     if not shown:
         return None
-    energies = [name for name in names if name.endswith("_J") and name != "stored_J"]
+    energies = []
+    for name in names:
+        if name.endswith("_J") and name != "stored_J":
+            energies.append(name)
     rows = []
     for line in shown:
         row = line.row | {"case": f"{line.name}{KINDS.get(line['kind'], '')}"}

@@ -54,9 +54,10 @@ def _values_and_marks(panels: Panels, key: str) -> tuple[list[float], list[Curve
     """The values of the parameter in all panels; what the marks mean, as curves without points for the legend."""
     places, kinds = set(), set()
     for _, exponents in chain.from_iterable(panels):
-        for row in chain.from_iterable(members for _, members in exponents):
-            places.add(row[key])
-            kinds.add(kind_of(row["regime"]))
+        for _, members in exponents:
+            for row in members:
+                places.add(row[key])
+                kinds.add(kind_of(row["regime"]))
     entries, nothing = [], np.empty(0)
     for kind, mark in MARKS.items():
         if kind in kinds:

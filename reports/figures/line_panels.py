@@ -48,9 +48,11 @@ def line_panels(panels: Sequence[LinePanel], column: str, kind: str = "svg") -> 
     # without its yellow end, which is lost on white paper
     colours = LinearSegmentedColormap.from_list("time", colormaps["viridis"](np.linspace(0.0, 0.85, 32)))
     scale = ScalarMappable(Normalize(0.0, 1e3 * late), colours)
-    labels = "$x$ (m)" if motion else "$s$ (m)", QUANTITIES[column][1]
+    x_label, y_label = "$s$ (m)", QUANTITIES[column][1]
+    if motion:
+        x_label = "$x$ (m)"
     with sheet(0.4 + 1.8 * ((len(panels) + 1) // 2)) as figure:
-        drawn = cells(figure, panels, 2, labels)
+        drawn = cells(figure, panels, 2, (x_label, y_label))
         for (axes, panel), ends, letter in zip(drawn, limits(panels, column), "abcd", strict=False):
             x = np.broadcast_to(panel.x, panel.y.shape)
             for row, time_s in enumerate(panel.time_s):
@@ -73,7 +75,10 @@ def limits(panels: Sequence[LinePanel], column: str) -> list[tuple[float, float]
     bounds = []
     below, above = MARGINS[column]
     for panel in panels:
-        sharing = [other for other in panels if column == "z_m" or _scale_of(other) == _scale_of(panel)]
+        sharing = panels
+        if column != "z_m":
+            scale = _scale_of(panel)
+            sharing = [other for other in panels if _scale_of(other) == scale]
         least, largest = _ends(sharing)
         force_N = max(other.force_N for other in sharing)
         low, high = least - below * (largest - least), largest + above * (largest - least)

@@ -73,16 +73,21 @@ class OrbitDiagram(NamedTuple):
     def drawn(self, width_in: float = WIDTH_IN) -> content.Picture:
         """The diagram in this width."""
         at = np.array([column.at for column in self.columns])
-        words, ranges = self._words(), [_spans(at, holds, text) for text, holds in self.ranges.items()]
+        words = self._words()
+        ranges = [_spans(at, holds, text) for text, holds in self.ranges.items()]
         bars = len(words) + len(ranges)
-        bar_in, main_in = (_BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN) if self.motions else (_BAR_IN, _MAIN_IN)
+        bar_in, main_in = _BAR_IN, _MAIN_IN
+        if self.motions:
+            bar_in, main_in = _BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN
         if self.orbits:
             main_in = _MAIN_OF_ORBITS_IN
         heights = [bar_in] * bars + [main_in]
         for panel in self.below:
             heights.append(_LOWER_IN * panel.height)
         legend = self._legend(int(width_in / _NAMED))
-        top_in = 0.3 + _LEGEND_IN * (len(legend) - 1) if legend else 0.08
+        top_in = 0.08
+        if legend:
+            top_in = 0.3 + _LEGEND_IN * (len(legend) - 1)
         height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
         with sheet(height_in, width_in) as figure:
             grid = figure.add_gridspec(
@@ -94,8 +99,11 @@ class OrbitDiagram(NamedTuple):
             panels = [top]
             for place in range(bars + 1, len(heights)):
                 panels.append(figure.add_subplot(grid[place], sharex=top))
-            enlarged = None if self.orbits else _small(self.columns, bool(self.motions))
-            edge_in = _NUMBERS_IN if enlarged else _EDGE_IN
+            enlarged, edge_in = None, _EDGE_IN
+            if not self.orbits:
+                enlarged = _small(self.columns, bool(self.motions))
+            if enlarged:
+                edge_in = _NUMBERS_IN
             inch = self._set_span(top, width_in, edge_in)
             above = [figure.add_subplot(grid[place], sharex=top, ylim=(0.0, 1.0)) for place in range(bars)]
             for axes in above:

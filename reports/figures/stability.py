@@ -47,7 +47,7 @@ def case_grid(verdicts: Mapping[str, Sequence[str]]) -> Picture:
         axes.tick_params(axis="y", length=0, labelsize=7.5)
         axes.spines[:].set_visible(False)
         axes.grid(False)
-        present = {word for words in verdicts.values() for word in words}
+        present = set().union(*verdicts.values())
         names = [word for word in VERDICT_COLOURS if word in present]
         names += sorted(present - VERDICT_COLOURS.keys())
         handles = [Patch(color=VERDICT_COLOURS.get(name, SOFT), label=name) for name in names]

@@ -154,7 +154,9 @@ def _simulated(key: Column, motions: Sequence[Row], colours: dict[str, str]) -> 
     """The largest tension of each motion over the key, and what the legend says of the motions."""
     drawn, named = [], {}
     for (letter, colour), mark in zip((colours or {"": INK}).items(), MARKS, strict=False):
-        rows = [row for row in motions if not colours or row["motion"] == letter]
+        rows = motions
+        if colours:
+            rows = [row for row in motions if row["motion"] == letter]
         tension_kN = 1e-3 * series(rows, PEAK)
         drawn.append(Curve(series(rows, key.name), tension_kN, "", "", mark, colour, size=2.8))
         if letter:
@@ -208,8 +210,12 @@ def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Items:
         if row[key.name] != at:
             continue
         history = any_rows(folder.directory / "orbits" / f"{row['branch']}_{row['place']}.csv")
-        name = f"branch {row['branch']}" if row["branch"] else f"motion {row['motion']}"  # no branch could be followed
-        line, stability = (DASHED, "unstable") if row["unstable"] else ("-", "stable")
+        name = f"motion {row['motion']}"  # no branch could be followed
+        if row["branch"]:
+            name = f"branch {row['branch']}"
+        line, stability = "-", "stable"
+        if row["unstable"]:
+            line, stability = DASHED, "unstable"
         look = {"line": line, "colour": colours.get(row["branch"] or row["motion"], INK), "width": 1.2}
         radius, rate = series(history, "radius_m"), series(history, "radius_rate_mps")
         plane.append(Curve(np.append(radius, radius[:1]), np.append(rate, rate[:1]), f"{name}, {stability}", **look))
@@ -240,8 +246,10 @@ def _multiplier(row: Row, k: int) -> str:
     if not np.isfinite(mu.real):
         return EMPTY
     text = decimals(mu.real, 3)
-    if mu.imag:
-        text += f" {'−' if mu.imag < 0.0 else '+'} {decimals(abs(mu.imag), 3)}i"
+    if mu.imag < 0.0:
+        text += f" − {decimals(-mu.imag, 3)}i"
+    elif mu.imag:
+        text += f" + {decimals(mu.imag, 3)}i"
     return f"{text} ({number(error, 1)})"
 
 

@@ -44,7 +44,8 @@ class Study(NamedTuple):
     @property
     def chaotic(self) -> bool:
         """Whether the largest exponent is positive by more than two standard errors."""
-        value, error = (self.number("exponents", f"lambda_1_{name}") for name in ("nats_per_time", "error"))
+        value = self.number("exponents", "lambda_1_nats_per_time")
+        error = self.number("exponents", "lambda_1_error")
         return value - 2 * error > 0.0
 
     def number(self, part: str, column: str) -> float:
@@ -102,8 +103,11 @@ def orbit_items(study: Study, arrays: dict) -> Items:
         m1, m2 = complex(real1, imag1), complex(real2, imag2)
         wanted = math.exp(-damping * period * 2.0 * math.pi / frequency)
         point = arrays["points"][int(first)]
+        stability = "unstable"
+        if max(abs(m1), abs(m2)) < 1:
+            stability = "stable"
         rows.append((
-            str(int(period)), "stable" if max(abs(m1), abs(m2)) < 1 else "unstable",
+            str(int(period)), stability,
             f"{decimals(point[0], 6)}, {decimals(point[1], 6)}", _complex(m1), _complex(m2),
             f"{abs((m1 * m2).real / wanted - 1.0):.0e}", f"{residual:.0e}",
         ))  # fmt: skip
@@ -117,7 +121,10 @@ def orbit_items(study: Study, arrays: dict) -> Items:
 def _complex(value: complex) -> str:
     if value.imag == 0.0:
         return number(value.real, 6)
-    return f"{number(value.real, 6)} {'+' if value.imag > 0 else '−'} {number(abs(value.imag), 6)}i"
+    sign = "−"
+    if value.imag > 0.0:
+        sign = "+"
+    return f"{number(value.real, 6)} {sign} {number(abs(value.imag), 6)}i"
 
 
 def method_items(study: Study) -> Items:
@@ -125,7 +132,8 @@ def method_items(study: Study) -> Items:
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():
         chosen, usual = study.oscillator[key], getattr(SnapOscillator, key)
-        source = source if chosen == usual else f"given; the default is {number(usual)}"
+        if chosen != usual:
+            source = f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(chosen, 10), source))
     columns = heads("symbol", "what it is", ("value", ""), "source")
     table = Table(columns, rows, "The oscillator as run, from `scene.toml`.", small=False)

@@ -83,7 +83,11 @@ def read_study(directory: Path) -> Study:
 
 def columns_of_bodies(*names: str) -> list[str]:
     """The names of these columns of the buoy and then of the rope, for instance "buoy_motion", "rope_motion"."""
-    return [f"{body}_{name}" for body in BODIES for name in names]
+    columns = []
+    for body in BODIES:
+        for name in names:
+            columns.append(f"{body}_{name}")
+    return columns
 
 
 def envelope(trajectory, body: str) -> tuple[np.ndarray, np.ndarray]:

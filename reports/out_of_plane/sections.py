@@ -101,9 +101,10 @@ def growth_items(study: Study) -> Items:
         "no rate is given for the rise of a burst."
     )
     columns = study.folder.columns
-    across = [
-        name for name, column in columns.items() if column.page == PLANE and name not in errors_of(columns).values()
-    ]
+    across, errors = [], set(errors_of(columns).values())
+    for name, column in columns.items():
+        if column.page == PLANE and name not in errors:
+            across.append(name)
     for body in BODIES:
         names = ["steepness", "depth_m", *(name for name in across if name.startswith(body))]
         caption = f"Lateral motion of the {body}, with the stiffness, grid and push of figure 20."

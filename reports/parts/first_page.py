@@ -1,6 +1,6 @@
 """The first page of every report: what its campaign found, and how long that took; the contents come after it."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,10 +24,17 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
     duration = how_long(provenance, any_rows(directory / "table.csv"))
     if duration:
         first_page.append(Text(duration))
-    titles = [item.text if isinstance(item, Heading) else "" for item in report.items]
-    end = titles.index(APPENDIX) if APPENDIX in titles else len(titles)
+    end = _start_of_appendix(report.items)
     items = (*first_page, *report.items[:end], *symbols(report.items), *report.items[end:])
     return replace(report, items=items)
+
+
+def _start_of_appendix(items: Sequence) -> int:
+    """The place of its heading among the items, or the number of items where there is none."""
+    for place, item in enumerate(items):
+        if isinstance(item, Heading) and item.text == APPENDIX:
+            return place
+    return len(items)
 
 
 def symbols(items: Items) -> Items:

@@ -113,7 +113,9 @@ def read_folder(directory: Path, needed: tuple[str, ...] = ()) -> Folder:
     if columns is not None and "table.csv" in parts:
         try:
             rows = parts["table.csv"]
-            absent = [column for column in needed if rows and column not in rows[0]]
+            absent = []
+            if rows:
+                absent = [column for column in needed if column not in rows[0]]
             if absent:
                 plural = "s" if len(absent) > 1 else ""
                 raise ValueError(f"column{plural} missing: {', '.join(absent)}")

@@ -104,7 +104,7 @@ def _picture(folder: Folder, cells: Folder) -> Items:
     for seed in sorted({row["sea"] for row in over_time.table}):
         rows = [row for row in having(over_time.table, sea=seed) if math.isfinite(row["responses"])]
         if rows:
-            seas.append(tuple(series(rows, name) for name in ("period", "responses", "apart")))
+            seas.append((series(rows, "period"), series(rows, "responses"), series(rows, "apart")))
     if seas:
         yield Figure(
             responses_over_time(seas, cell["distance"]), _RESPONSES, "Number of responses and distance over time."
@@ -124,7 +124,9 @@ def _history(folder: Folder, cell) -> SeaHistory | None:
     rest, options = runs[0], folder.provenance
     period_s, step_s = rest.scene.waves.period_s, rest.scene.sample_step_s()
     together = _together(folder)
-    periods = _SHOWN if math.isnan(together) else max(_SHOWN, 1.6 * together)
+    periods = _SHOWN
+    if not math.isnan(together):
+        periods = max(_SHOWN, 1.6 * together)
     shown = slice(0, round(periods * period_s / step_s) + 1)
     time_s = rest.columns["time_s"]
     surface_m = elevation_m(rest.scene, time_s)
@@ -132,6 +134,8 @@ def _history(folder: Folder, cell) -> SeaHistory | None:
     end_s = time_s[shown][-1]
     seen = (snaps.taut_s <= end_s) & np.isfinite(snaps.onset_s)
     folds = cell["fold_up_m"], cell["fold_down_m"]
+    if not math.isfinite(sum(folds)):
+        folds = None
     return SeaHistory(
         time_s[shown] / period_s,
         [run.columns["radius_m"][shown] for run in runs],
@@ -140,7 +144,7 @@ def _history(folder: Folder, cell) -> SeaHistory | None:
         rest.columns["tension_top_high_N"][shown],
         np.column_stack([snaps.peak_s / period_s, snaps.peak_N])[snaps.peak_s <= end_s],
         np.column_stack([snaps.onset_s, snaps.taut_s])[seen] / period_s,
-        folds if math.isfinite(sum(folds)) else None,
+        folds,
         together,
         number_of(cell, "regular_N"),
     )
@@ -179,7 +183,8 @@ def _maps(cells: Folder, keys: Sequence[str]) -> Items:
         grid[up, across] = values
         return grid
 
-    drawn = [Map("", "sign of the exponent", laid([str(row["sign"] or "open") for row in cells.table], ""))]
+    signs = [str(row["sign"] or "open") for row in cells.table]
+    drawn = [Map("", "sign of the exponent", laid(signs, ""))]
     for name, words in _MAPS.items():
         values = laid([row[name] for row in cells.table], math.nan)
         if np.isfinite(values).any():
@@ -197,11 +202,12 @@ def _regular(regular: Folder) -> Items:
 
 
 def _warnings(folder: Folder) -> Notice:
-    lines = []
+    lines, messages = [], set()
     for row in folder.table:
         if row["status"] != "ok":
             lines.append(f"Sea {row['sea']:.0f}, start {row['start']:.0f}: {row['status']}. {row['message']}")
-    messages = {str(row["message"]) for row in folder.table if row["status"] == "ok" and row["message"]}
+        elif row["message"]:
+            messages.add(str(row["message"]))
     if messages:
         with_message = count(sum(1 for row in folder.table if row["message"]), "run")
         lines.append(f"{with_message} say: {sorted(messages)[0]}")

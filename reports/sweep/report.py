@@ -98,7 +98,10 @@ def report(directory: Path) -> Report:
 
 def _columns_of(shown: Sequence[Measured]) -> list[Column]:
     """The columns of all panels, without their errors."""
-    return [column for pairs in shown for column, _ in pairs]
+    columns = []
+    for pairs in shown:
+        columns += [column for column, _ in pairs]
+    return columns
 
 
 def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> Items:

@@ -72,8 +72,13 @@ def _motion_of(folder: Folder, row: dict) -> tuple[SnappingMotion, float] | None
     colour = colours_of(folder.table).get(letter, BLUE)
     times = columns["time_s"] / period_s
     last = times >= times[-1] - SHOWN_PERIODS
-    words = [f"motion {letter}" if letter else "", row.get("regime") or ""]
-    per_wave = number_of(row, "snaps_per_wave")
+    words = []
+    if letter:
+        words.append(f"motion {letter}")
+    words.append(row.get("regime") or "")
+    per_wave, waves = number_of(row, "snaps_per_wave"), snaps.watched_s / period_s
+    if per_wave > 0.0:
+        waves = len(snaps) / per_wave
     words.append(f"{number(per_wave, 3)} snaps a wave")
     low, high = (1e-3 * columns[f"tension_top_{end}_N"][last] for end in ("low", "high"))
     motion = SnappingMotion(
@@ -84,6 +89,6 @@ def _motion_of(folder: Folder, row: dict) -> tuple[SnappingMotion, float] | None
         low_kN=low,
         high_kN=high,
         peaks_kN=1e-3 * snaps.peak_N,
-        waves=len(snaps) / per_wave if per_wave > 0.0 else snaps.watched_s / period_s,
+        waves=waves,
     )
     return motion, snaps.static_N

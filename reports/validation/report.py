@@ -32,6 +32,7 @@ from ..parts.style import BLUE, SOFT, VERMILION
 FILES = {"cases.csv": "cases and verdicts", "curves.csv": "both curves of each case"}
 NUMBERS = ("title", "quantity", "verdict", "ours", "theirs", "error", "bar", "unit")
 RUNS = ("run", "status", "steps", "wall_s", "run_key")
+_HEADS = {"title": "case"}  # of columns of cases.csv that are not called by their name
 MANY = 40  # points of a curve from which on it is a line without marks
 
 
@@ -136,7 +137,7 @@ def numbers(rows: list[dict[str, str]], first: tuple[str, ...], caption: str) ->
     for row in rows:
         words = [row[name] for name in first]
         body.append((*words, number(number_of(row, "error"), 4), number(number_of(row, "bar"), 4), row["unit"]))
-    word_heads = ["case" if name == "title" else name for name in first]
+    word_heads = [_HEADS.get(name, name) for name in first]
     return Table(heads(*word_heads, ("error", ""), ("bar", ""), "unit"), body, caption)
 
 

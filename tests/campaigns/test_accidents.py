@@ -52,13 +52,13 @@ def test_a_run_that_fails_is_a_row_and_the_others_are_what_they_would_have_been(
 ):
     if backend == "dask":
         pytest.importorskip("distributed")
-    ((how, failing),) = fake.items()
+    ((accident, failing),) = fake.items()
     code, rows, begun = sweep("--steepness", *FIVE, backend=backend, jobs=jobs, **fake)
     assert code == 0
     assert statuses(rows) == dict.fromkeys(FIVE, "ok") | dict.fromkeys(failing, status)
     assert all(word in row["message"] for row in rows if row["status"] != "ok")
     # once more alone, where it may have killed its process: no run kills more than two
-    assert max(begun.count(value) for value in failing) == (2 if how.startswith("dies") else 1)
+    assert max(begun.count(value) for value in failing) == (2 if accident.startswith("dies") else 1)
 
 
 def test_a_run_that_ended_early_keeps_its_record_and_is_not_tried_again(sweep):
@@ -172,11 +172,11 @@ LATER = [0.04, 0.06, 0.07, 0.09]
 
 
 @pytest.mark.parametrize(
-    ("how", "status"), [("", "ok"), ("raises", "error"), pytest.param("dies", "worker-died", marks=SLOW)]
+    ("accident", "status"), [("", "ok"), ("raises", "error"), pytest.param("dies", "worker-died", marks=SLOW)]
 )
-def test_workers_that_would_wait_do_runs_of_a_later_step_which_begins_none_of_them_again(tmp_path, how, status):
+def test_workers_that_would_wait_do_runs_of_a_later_step_which_begins_none_of_them_again(tmp_path, accident, status):
     (tmp_path / "trajectories").mkdir()
-    failing = {how: (0.06,)} if how else {}
+    failing = {accident: (0.06,)} if accident else {}
     engine = FakeEngine(log=str(tmp_path / "log"), sleep_s=0.3, **failing)
     describe = partial(buoy_row, judgement=Judgement(2))
     plan = Plan(Running(tmp_path, 2, "loky"), engine, describe, COLUMNS, simulate_each=engine.each)
@@ -184,15 +184,15 @@ def test_workers_that_would_wait_do_runs_of_a_later_step_which_begins_none_of_th
         plan.spare.extend(spare_groups(plan, tmp_path / "later", [job]))
     summary = run_campaign(plan, jobs_of(FIVE))
     assert statuses(summary.rows) == dict.fromkeys(FIVE, "ok")
-    done = len(finished(tmp_path / "later"))
-    assert 0 < done < 4 - len(plan.spare) + 1
+    on_disk = len(finished(tmp_path / "later"))
+    assert 0 < on_disk < 4 - len(plan.spare) + 1
     later = replace(plan, how=replace(plan.how, out=tmp_path / "later"), spare=[])
     summary = run_campaign(later, jobs_of(LATER))
-    assert summary.found == done
-    assert statuses(summary.rows) == dict.fromkeys(LATER, "ok") | ({0.06: status} if how else {})
-    if how != "dies":  # a process that dies takes the runs of the other one with it
-        again = {value for value in engine.begun() if engine.begun().count(value) > 1}
-        assert again == set(*failing.values())
+    assert summary.found == on_disk
+    assert statuses(summary.rows) == dict.fromkeys(LATER, "ok") | ({0.06: status} if accident else {})
+    if accident != "dies":  # a process that dies takes the runs of the other one with it
+        repeated = {value for value in engine.begun() if engine.begun().count(value) > 1}
+        assert repeated == set(*failing.values())
 
 
 EIGHT = [0.02, 0.03, 0.05, 0.08, 0.1, 0.11, 0.13, 0.14]
@@ -207,8 +207,8 @@ def side_by_side(tmp_path):
         log = tmp_path / "log"
         log.unlink(missing_ok=True)
         engine = FakeEngine(log=str(log), **fake)
-        how, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, judgement=Judgement(2))
-        plan = Plan(how, engine, describe, COLUMNS, simulate_each=engine.each)
+        running, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, judgement=Judgement(2))
+        plan = Plan(running, engine, describe, COLUMNS, simulate_each=engine.each)
         return run_campaign(plan, jobs_of(EIGHT)), engine.begun()
 
     run.out = tmp_path
@@ -231,7 +231,7 @@ def test_every_run_that_shares_a_worker_becomes_a_row_once(side_by_side, jobs):
 
 
 @pytest.mark.parametrize(
-    ("how", "status", "times"),
+    ("accident", "status", "times"),
     [
         ("raises", "error", 2),
         ("breaks", "newton-failed", 1),
@@ -239,12 +239,12 @@ def test_every_run_that_shares_a_worker_becomes_a_row_once(side_by_side, jobs):
         pytest.param("dies", "worker-died", 3, marks=pytest.mark.slow),
     ],
 )
-def test_a_run_that_fails_costs_those_beside_it_nothing(side_by_side, how, status, times):
+def test_a_run_that_fails_costs_those_beside_it_nothing(side_by_side, accident, status, times):
     """One worker, in order: 0.02 to 0.05 are on disk when it dies; 0.08 dies twice more alone, the rest runs alone.
 
     Where 0.08 breaks off with an exception it is tried once more, alone.
     """
-    summary, begun = side_by_side(jobs=1, **{how: (0.08,)})
+    summary, begun = side_by_side(jobs=1, **{accident: (0.08,)})
     assert statuses(summary.rows) == dict.fromkeys(EIGHT, "ok") | {0.08: status}
     assert {value: begun.count(value) for value in EIGHT} == dict.fromkeys(EIGHT, 1) | {0.08: times}
 
@@ -253,27 +253,27 @@ def test_a_run_that_fails_costs_those_beside_it_nothing(side_by_side, how, statu
 def test_a_full_disk_stops_the_campaign_and_keeps_what_is_finished(side_by_side):
     with pytest.raises(CampaignStopped, match="full"):
         side_by_side(jobs=1, no_space=(0.1,))
-    begun, done = (side_by_side.out / "log").read_text().split(), len(finished(side_by_side.out))
-    assert begun.index("0.1") == done > 0, "all that ran before it are on disk"
+    begun, on_disk = (side_by_side.out / "log").read_text().split(), len(finished(side_by_side.out))
+    assert begun.index("0.1") == on_disk > 0, "all that ran before it are on disk"
     assert statuses(rows_of(side_by_side.out)).keys() <= set(EIGHT)
     summary, begun = side_by_side()
-    assert summary.found == done and len(begun) == len(EIGHT) - done
+    assert summary.found == on_disk and len(begun) == len(EIGHT) - on_disk
 
 
-def groups(tmp_path, jobs, backend="loky", **how):
-    return groups_of(Plan(Running(tmp_path, 2, backend), None, None, (), **how), jobs)
+def groups(tmp_path, jobs, backend="loky", **options):
+    return groups_of(Plan(Running(tmp_path, 2, backend), None, None, (), **options), jobs)
 
 
 def test_groups_are_even_and_hold_every_job_once(tmp_path):
-    many, side_by_side = (
+    jobs, side_by_side = (
         jobs_of([round(0.01 + 0.0005 * i, 4) for i in range(250)]),
         {"simulate_each": FakeEngine().each},
     )
-    grouped = groups(tmp_path, many, **side_by_side)
+    grouped = groups(tmp_path, jobs, **side_by_side)
     sizes = [len(group) for group in grouped]
     assert len(grouped) % 2 == 0 and max(sizes) - min(sizes) <= 1 and max(sizes) <= MOST
-    assert sorted(job.key for group in grouped for job in group) == sorted(job.key for job in many)
-    assert groups(tmp_path, many[: 2 * FEWEST - 1], **side_by_side) == []  # of two workers
+    assert sorted(job.key for group in grouped for job in group) == sorted(job.key for job in jobs)
+    assert groups(tmp_path, jobs[: 2 * FEWEST - 1], **side_by_side) == []  # of two workers
     # the engine runs one by one what keeps profiles, and threads share no worker
     assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **side_by_side) == []
     assert groups(tmp_path, jobs_of(EIGHT), "threading", **side_by_side) == groups(tmp_path, jobs_of(EIGHT)) == []

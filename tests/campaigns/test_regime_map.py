@@ -42,16 +42,16 @@ def test_cells_beside_each_other_are_so_both_ways_and_parts_fill_their_cell():
         tree.add(cell.parts())
     tree.add(tree.cells[5].parts()[3].parts())
     for at in range(len(tree.cells)):
-        assert all(at in tree.neighbours(there) for there in tree.neighbours(at))
+        assert all(at in tree.neighbours(neighbour) for neighbour in tree.neighbours(at))
     area = sum(area_of(shape, cell) for cell in tree.leaves())
     assert area == pytest.approx(16 * area_of(shape, tree.cells[0]))
     for cell in tree.leaves():
         (x, y), (wide, high) = shape.labels(cell).values(), shape.widths(cell).values()
-        for there in tree.touching(cell):
-            (u, v), (w, h) = shape.labels(there).values(), shape.widths(there).values()
-            apart = abs(x - u) - 0.5 * (wide + w), abs(y - v) - 0.5 * (high + h)
-            assert max(apart) == pytest.approx(0.0, abs=1e-9)  # a side in common
-            assert min(apart) < -1e-9  # and not a corner only
+        for neighbour in tree.touching(cell):
+            (u, v), (w, h) = shape.labels(neighbour).values(), shape.widths(neighbour).values()
+            gaps = abs(x - u) - 0.5 * (wide + w), abs(y - v) - 0.5 * (high + h)
+            assert max(gaps) == pytest.approx(0.0, abs=1e-9)  # a side in common
+            assert min(gaps) < -1e-9  # and not a corner only
 
 
 def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cell(monkeypatch, tmp_path):
@@ -69,7 +69,7 @@ def test_every_state_about_a_cusp_is_found_by_carrying_and_letters_are_one_a_cel
 
 @pytest.fixture
 def unscreened(monkeypatch):
-    monkeypatch.setattr("campaigns.regime_map.maps.screened", lambda plan, scenes, *how: [[] for _ in scenes])
+    monkeypatch.setattr("campaigns.regime_map.maps.screened", lambda plan, scenes, *options: [[] for _ in scenes])
 
 
 def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
@@ -189,11 +189,11 @@ def test_a_cut_is_the_sweep_of_its_values_and_the_map_computes_nothing_again(tmp
     """With the engine: rows, starts and ends of a cut are those of the sweep, but for their times."""
     small = ["--set", "tether.nodes=11", "--no-report", "--out"]
     of_map = ["--vary", "waves.steepness", 0.08, 0.1, 2, "--vary", "water.depth_m", 22, 22.5, 2, "--starts", 2]
-    whole = [*map(str, of_map), *small, str(tmp_path / "map")]
-    assert main(whole) == 0
+    command = [*map(str, of_map), *small, str(tmp_path / "map")]
+    assert main(command) == 0
     earlier, runs = rows_of(tmp_path / "map"), finished(tmp_path / "map")
-    assert main(whole) == 0 and rows_of(tmp_path / "map") == earlier and finished(tmp_path / "map") == runs
-    assert main([*whole, "--cut", "water.depth_m=22"]) == 0
+    assert main(command) == 0 and rows_of(tmp_path / "map") == earlier and finished(tmp_path / "map") == runs
+    assert main([*command, "--cut", "water.depth_m=22"]) == 0
     swept = [
         "--steepness",
         "0.08",

@@ -38,7 +38,8 @@ def test_all_starts_of_a_sea_have_the_same_waves(small):
     for row in rows:
         scene = Trajectory.load(out / "trajectories" / f"{row['run_key']}.nc").scene
         waves.setdefault(row["sea"], []).append(np.concatenate(components_of(scene)))
-    assert all(np.array_equal(first, other) for first, *others in waves.values() for other in others)
+    for first, *repeats in waves.values():
+        assert all(np.array_equal(first, repeat) for repeat in repeats)
     assert not np.array_equal(waves["1"][0], waves["2"][0])
 
 
@@ -54,9 +55,9 @@ def test_the_row_of_the_sea_says_what_its_runs_say(small):
 
 def test_the_same_command_computes_nothing_again(small):
     out, rows = small
-    before = finished(out)
-    assert ran(sea, out, *WORDS, "--seeds", 2, "--starts", 3) == rows and finished(out) == before
-    assert len(ran(sea, out, *WORDS, "--seeds", 1, "--starts", 2)) == 3 and finished(out) == before
+    runs = finished(out)
+    assert ran(sea, out, *WORDS, "--seeds", 2, "--starts", 3) == rows and finished(out) == runs
+    assert len(ran(sea, out, *WORDS, "--seeds", 1, "--starts", 2)) == 3 and finished(out) == runs
 
 
 def test_the_report_of_a_sea_is_the_same_when_it_is_drawn_again(small):
@@ -64,9 +65,9 @@ def test_the_report_of_a_sea_is_the_same_when_it_is_drawn_again(small):
     assert b"Top: distance of the buoy from its anchor" in page
 
 
-@pytest.mark.parametrize("other", [[], ["waves.jonswap.peak_enhancement", 1, 5, 2]], ids=["a row", "a map"])
-def test_every_state_of_a_map_has_a_row(tmp_path, other):
-    ran(sea, tmp_path, *SHORT, "--seeds", 1, "--starts", 1, "--vary", sea.HEIGHT, 0.5, 1.5, 2, *other)
+@pytest.mark.parametrize("second_key", [[], ["waves.jonswap.peak_enhancement", 1, 5, 2]], ids=["a row", "a map"])
+def test_every_state_of_a_map_has_a_row(tmp_path, second_key):
+    ran(sea, tmp_path, *SHORT, "--seeds", 1, "--starts", 1, "--vary", sea.HEIGHT, 0.5, 1.5, 2, *second_key)
     cells = rows_of(tmp_path, "cells/table.csv")
     assert [float(cell["significant_height_m"]) for cell in cells] == pytest.approx(
         sorted([0.5, 1.5] * (len(cells) // 2))
@@ -120,8 +121,8 @@ def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_se
     seeds = [(seed, start) for seed in (1, 2) for start in (0, 1)] + [(seed, 0) for seed in range(3, 8)]
     assert sorted(runs) == sorted((height, *pair) for height in (0.5, 1.5) for pair in seeds)
     assert [cell["seas"] for cell in rows_of(tmp_path, "cells/table.csv")] == ["7", "7"]
-    before = finished(tmp_path)
-    assert ran(sea, tmp_path, *words) == rows and finished(tmp_path) == before
+    files = finished(tmp_path)
+    assert ran(sea, tmp_path, *words) == rows and finished(tmp_path) == files
 
 
 def test_a_spectrum_without_width_is_one_wave_and_so_one_sea_whatever_its_seed():
@@ -186,9 +187,9 @@ def cell(**entries):
 def test_the_answer_begins_with_the_load_and_says_whether_the_start_is_forgotten(entries, words):
     options = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=True)
     storm = {"storm_maximum_N": 13500.0, "storm_low_N": 12100.0, "storm_high_N": 16800.0, "utilisation": 0.06}
-    first, *others = sentences([cell(**entries, **storm)], options)
+    first, *lines = sentences([cell(**entries, **storm)], options)
     assert first.startswith("LOAD     three-hour maximum 13.5 kN (12.1 to 16.8); the line is used to 6% by DNV-OS-E301")
-    (starts,) = (line for line in others if line.startswith("STARTS"))
+    (starts,) = (line for line in lines if line.startswith("STARTS"))
     assert words in starts
 
 

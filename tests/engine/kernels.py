@@ -29,9 +29,9 @@ from engine.time.steps import runge_kutta_step
 from engine.time.time_loop import guard_turns, hold_turn, march, next_step
 
 
-def parameters_of(scene, before=()):
-    """The record of a scene, and its tables as one array; `before`: tables that lie in front of its own."""
-    tables = [np.zeros(0), *before]
+def parameters_of(scene, preceding_tables=()):
+    """The record of a scene, and its tables as one array; `preceding_tables` lie in front of its own."""
+    tables = [np.zeros(0), *preceding_tables]
     p = record_of(scene, tables)[0]
     return p, np.concatenate(tables)
 
@@ -78,10 +78,10 @@ class Stage:
         assert self.eliminate(self.p, self.tables, stage, Y, self.work)
         return self.D.copy()
 
-    def newton(self, t, cq, cv, tolerance, most, Y, C_tilde):
+    def newton(self, t, cq, cv, tolerance, max_iterations, Y, C_tilde):
         """Solve a stage for Y in place: (code, iterations)."""
         self.C_tilde[:] = C_tilde
-        return newton(self.p, self.tables, arrays.Stage(t, 1.0, cq, cv), tolerance, most, Y, self.work)
+        return newton(self.p, self.tables, arrays.Stage(t, 1.0, cq, cv), tolerance, max_iterations, Y, self.work)
 
     def lateral(self, rate, Y, K, F, dC_tilde):
         """Change dC (n, 2) = (q_y, V_y) of a stage in the plane with rates K (n, 4) for a change dC_tilde (n, 2)."""
@@ -93,11 +93,11 @@ class Stage:
         return dC
 
 
-def waves_at(scene, t, X, there=0.0):
-    """F (m, 4) or (m, 6) of the waves of a scene, regular or not, at places X (m, 2) or (m, 3), added to `there`."""
+def waves_at(scene, t, X, background=0.0):
+    """F (m, 4) or (m, 6) of the waves of a scene, at places X (m, 2) or (m, 3), added to `background`."""
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
-    F = np.full((len(X), 2 * X.shape[1]), there)
+    F = np.full((len(X), 2 * X.shape[1]), background)
     if p["sea_n"] and X.shape[1] == 2:
         sea_series.sea_in_plane(p, tables, t, X, F, np.zeros((len(X) + 1, sea_series.WIDTH)))
     elif p["sea_n"]:
@@ -107,9 +107,9 @@ def waves_at(scene, t, X, there=0.0):
     return F
 
 
-def current_at(scene, t, X, before=()):
+def current_at(scene, t, X, preceding_tables=()):
     """F (m, 4) or (m, 6) of the current of a scene at any places X (m, 2) or (m, 3)."""
-    p, tables = parameters_of(scene, before)
+    p, tables = parameters_of(scene, preceding_tables)
     X = np.ascontiguousarray(X, float)
     F = np.zeros((len(X), 2 * X.shape[1]))
     current_field(p, tables, t, X, F)
@@ -156,8 +156,8 @@ class Steps:
     def carry(self, first, count, vectors, rates):
         """Perturbations (k, n, 4) in place along kept steps; returns the growth (k,) of each, nats."""
         growth = np.zeros((1, len(vectors)))
-        along = vectors, rates, growth
-        carry(self.record, self.tables, 1e9, count, self.trail(first, count), along, None)
+        perturbations = vectors, rates, growth
+        carry(self.record, self.tables, 1e9, count, self.trail(first, count), perturbations, None)
         return growth[0]
 
     def carry_lateral(self, first, count, weights, across, rates):
@@ -174,8 +174,8 @@ class Steps:
         """
         work = self.inner.kind.work_arrays.py_func(self.record, len(state[0]))
         hold_turn(numbers, work.Q)
-        step, before, trial = arrays.Step(t, dt, dt_before, bool(one_stage)), arrays.Motion(*state), arrays.Trial(*new)
-        return runge_kutta_step(self.record, self.tables, step, before, trial, work)[0]
+        step, motion, trial = arrays.Step(t, dt, dt_before, bool(one_stage)), arrays.Motion(*state), arrays.Trial(*new)
+        return runge_kutta_step(self.record, self.tables, step, motion, trial, work)[0]
 
     def guard(self, state, Y):
         """After a step: (code, whether a loop was released); state: (1,) of `new_state`."""

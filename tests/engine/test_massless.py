@@ -83,7 +83,7 @@ class Reference:
             force -= b.added_mass_kg * ((s_t + s_x * V[0] + s_z * V[1]) * v - 0.5 * (v @ v) * np.array([s_x, s_z]))
         return np.array([*V, *force / (b.mass_kg + s * b.added_mass_kg)])
 
-    def after(self, start, duration_s):
+    def state_after(self, start, duration_s):
         return solve_ivp(self.rates, (0, duration_s), start, "DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
 
 
@@ -92,15 +92,15 @@ def compared(submergence, count):
     """A scene, starts, and where the reference is after ten periods, (k, 4)."""
     scene = scene_of(CAP if submergence == "spherical-cap" else DEEP)
     starts = starts_of(scene, KICKS[:count])
-    return scene, starts, np.array([Reference(scene).after(start, 50.0) for start in starts])
+    return scene, starts, np.array([Reference(scene).state_after(start, 50.0) for start in starts])
 
 
 @pytest.mark.parametrize(("submergence", "count", "steps"), [("full", 4, 160), ("spherical-cap", 2, 960)])
 def test_ten_periods_follow_the_equations_of_motion(submergence, count, steps):
-    scene, starts, after = compared(submergence, count)
+    scene, starts, expected = compared(submergence, count)
     result = massless_runs(scene, starts, 10, steps)
     assert (result.measures[:, :, 0].min(1) < scene.tether.length_m).all()  # slack, and taut again
-    assert np.abs(result.strobed[:, -1] - after).max() < 1e-6
+    assert np.abs(result.strobed[:, -1] - expected).max() < 1e-6
 
 
 @pytest.mark.parametrize("changes", [DEEP, CAP, {}])
@@ -115,13 +115,13 @@ def test_a_stiff_line_has_as_many_steps_as_its_own_period_asks_for():
     """40 in 2 pi sqrt(l0 (M + M_a)/EA)."""
     scene, EA = scene_of(DEEP, {"tether.tension.stiffness_N": 1e6}), 1e6
     ringing_s = 2 * math.pi * math.sqrt(20.0 * (1611.0 + 907.0) / EA)
-    usual, given = (massless_runs(scene, starts_of(scene), 2, n) for n in (None, math.ceil(40 * 5.0 / ringing_s)))
-    assert np.array_equal(usual.strobed, given.strobed)
+    usual, explicit = (massless_runs(scene, starts_of(scene), 2, n) for n in (None, math.ceil(40 * 5.0 / ringing_s)))
+    assert np.array_equal(usual.strobed, explicit.strobed)
 
 
 def test_order_four_through_slack_and_taut():
-    scene, starts, after = compared("full", 4)
-    errors = [np.abs(massless_runs(scene, starts, 10, n).strobed[:, -1] - after).sum() for n in (60, 120, 240)]
+    scene, starts, expected = compared("full", 4)
+    errors = [np.abs(massless_runs(scene, starts, 10, n).strobed[:, -1] - expected).sum() for n in (60, 120, 240)]
     assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx(4.0, abs=0.2)
 
 
@@ -143,25 +143,25 @@ def test_the_rest_is_a_rest(changes):
 def test_a_wave_from_the_other_side_is_a_mirror():
     scene, mirrored = scene_of(DEEP, CURRENT), scene_of(DEEP, AGAINST, {"waves.direction_rad": math.pi})
     starts = starts_of(scene)
-    there, back = massless_runs(scene, starts, 10), massless_runs(mirrored, starts * MIRROR, 10)
-    np.testing.assert_allclose(there.strobed, back.strobed * MIRROR, atol=1e-8)
+    original, reflected = massless_runs(scene, starts, 10), massless_runs(mirrored, starts * MIRROR, 10)
+    np.testing.assert_allclose(original.strobed, reflected.strobed * MIRROR, atol=1e-8)
 
 
 def test_a_table_of_a_straight_law_is_that_law():
     law = {"law": "tabulated", "strain": [-0.5, 0.0, 1.0], "tension_N": [-2.5e4, 0.0, 5e4]}
     straight = scene_of(DEEP, {"tether.tension": law})
     scene = scene_of(DEEP)
-    runs = [massless_runs(one, starts_of(scene), 10).strobed for one in (scene, straight)]
+    runs = [massless_runs(variant, starts_of(scene), 10).strobed for variant in (scene, straight)]
     np.testing.assert_allclose(*runs, atol=1e-8)
 
 
 def test_going_on_is_not_stopping():
     scene = scene_of(DEEP, {"waves.ramp_s": 23.0, "waves.phase_rad": 0.7})
-    whole = massless_runs(scene, starts_of(scene), 10)
+    uninterrupted = massless_runs(scene, starts_of(scene), 10)
     first = massless_runs(scene, starts_of(scene), 4)
     second = massless_runs(scene, first.strobed[:, -1], 6, first_period=4)
-    assert np.array_equal(whole.strobed, np.concatenate([first.strobed, second.strobed[:, 1:]], axis=1))
-    assert np.array_equal(whole.measures, np.concatenate([first.measures, second.measures], axis=1))
+    assert np.array_equal(uninterrupted.strobed, np.concatenate([first.strobed, second.strobed[:, 1:]], axis=1))
+    assert np.array_equal(uninterrupted.measures, np.concatenate([first.measures, second.measures], axis=1))
 
 
 def test_a_start_that_flies_off_is_not_a_number_and_disturbs_no_other():

@@ -46,8 +46,8 @@ def test_a_motion_of_period_2():
 
 def test_a_torus_needs_perturbations_to_be_told():
     assert moved(GOLDEN, 0.0).verdict().regime == "quasi-periodic"
-    alone = moved(GOLDEN).verdict()
-    assert alone.regime == "undecided" and "output.tangent_vectors = 1" in alone.reason
+    verdict = moved(GOLDEN).verdict()
+    assert verdict.regime == "undecided" and "output.tangent_vectors = 1" in verdict.reason
 
 
 def test_the_exponent_is_that_of_the_tangent_dynamics_where_it_was_carried():
@@ -106,17 +106,17 @@ def test_a_notebook_shows_what_the_run_did():
 def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
     """The largest tension is at t = 5 s, within every beginning; the largest after t = 40 s is at t = 900 s."""
     sea = {"waves.jonswap.significant_height_m": 1.0}
-    whole, kept = "7000.00 N at the top (t = 5 s)", "5000.00 N at the top (t = 900 s)"
+    largest, late_largest = "7000.00 N at the top (t = 5 s)", "5000.00 N at the top (t = 900 s)"
     for changes, later in (
-        ({}, f"after t = 516.65 s: 0.00 (t = 516.65 s) to {kept}"),
-        ({"waves.ramp_s": 600.0}, f"after t = 600 s: 0.00 (t = 600 s) to {kept}"),
+        ({}, f"after t = 516.65 s: 0.00 (t = 516.65 s) to {late_largest}"),
+        ({"waves.ramp_s": 600.0}, f"after t = 600 s: 0.00 (t = 600 s) to {late_largest}"),
         (sea, ""),
-        ({**sea, "waves.ramp_s": 40.0}, f"after t = 40 s: 0.00 (t = 40 s) to {kept}"),
+        ({**sea, "waves.ramp_s": 40.0}, f"after t = 40 s: 0.00 (t = 40 s) to {late_largest}"),
     ):
         run = replace(moved(0.5, -0.2), scene=load_scene("tethered_buoy", changes))
         time_s = run.columns["time_s"]
         run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
-        text = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {whole}", later)))
+        text = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {largest}", later)))
         assert facts(run)["tension"] == text
 
 
@@ -207,8 +207,8 @@ def test_a_name_is_a_scene_and_a_run_with_shapes_moves(tmp_path):
     run.animate(tmp_path / "run.gif", begin_s=1.0, duration_s=2.0)
     assert (tmp_path / "run.gif").read_bytes().startswith(b"GIF")
     (tmp_path / "mine.toml").write_text(run.scene.to_toml())
-    again = simulate(tmp_path / "mine.toml", periods=2)
-    np.testing.assert_array_equal(again["tension_top_N"], run["tension_top_N"])
+    from_file = simulate(tmp_path / "mine.toml", periods=2)
+    np.testing.assert_array_equal(from_file["tension_top_N"], run["tension_top_N"])
     profiles = run.profiles
     np.testing.assert_array_equal(run["tension_anchor_N"], profiles.tension_N[:, 0])
     np.testing.assert_array_equal(run["tension_max_N"], profiles.tension_N.max(axis=1))
@@ -226,12 +226,12 @@ def test_a_periodic_section_is_a_dot_and_not_its_rounding():
 
 
 def test_what_has_no_period_or_no_end_is_refused_in_words():
-    still = moved(0.5, scene="hanging_line")
-    for view in (still.spectrum, still.section, still.exponent):
+    hanging = moved(0.5, scene="hanging_line")
+    for view in (hanging.spectrum, hanging.section, hanging.exponent):
         with pytest.raises(ValueError, match="no period"):
             view()
     with pytest.raises(ValueError, match="regular waves"):
-        still.verdict()
+        hanging.verdict()
     with pytest.raises(ValueError, match="reached its end"):
         moved(0.5, status="newton-failed").verdict()
 
@@ -244,9 +244,9 @@ def test_the_figure_is_a_file_or_stays_open_for_changes(scene, panel, tmp_path):
     for kind, mark in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
         run.plot(tmp_path / f"run.{kind}")
         assert (tmp_path / f"run.{kind}").read_bytes().startswith(mark)
-    before = pyplot.get_fignums()
+    open_figures = pyplot.get_fignums()
     axes = run.plot()
-    assert len(pyplot.get_fignums()) == len(before) + 1 and panel in axes
+    assert len(pyplot.get_fignums()) == len(open_figures) + 1 and panel in axes
     pyplot.close(axes[panel].figure)
 
 

@@ -111,9 +111,12 @@ def spectra(data: xarray.Dataset, kind: str) -> Figure:
         seen.append(f"{MOTIONS[side][1]} has {words}")
     kA = sources_of(data)[0].label
     bins = wave / value(data, "periods")
+    motions = " (solid) and ".join(sides)
+    if len(sides) > 1:
+        motions += " (dashed)"
     caption = (
-        f"spectrum of the buoy's {' (solid) and '.join(sides)}{' (dashed)' if len(sides) > 1 else ''} motion, {kA}, by "
-        f"eq. (31) with {TAU_0} = {number(value(data, 'start_periods'))} {T_I} and n = "
+        f"spectrum of the buoy's {motions} motion, {kA}, by eq. (31) with "
+        f"{TAU_0} = {number(value(data, 'start_periods'))} {T_I} and n = "
         f"{number(value(data, 'periods'))}; left linear as in the paper, right logarithmic. Arrows: the natural "
         f"frequencies {OMEGA_NR} = {number(value(data, 'natural_radial_radps'), 3)} and {OMEGA_NTHETA} = "
         f"{number(value(data, 'natural_angular_radps'), 3)} rad/s from the buoy's equation of motion and the waves' "

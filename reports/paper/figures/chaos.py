@@ -106,8 +106,12 @@ def _size_of_dots(points: int) -> float:
 def offplane_histories(data: xarray.Dataset, kind: str) -> Figure:
     """The figure of a data file. Raises KeyError for one of another figure."""
     labels = dict(zip(WAVES, (source.label.partition(" with")[0] for source in sources_of(data)), strict=True))
-    bodies = {f"{name}_{body}_m": f"{body} at {label}" for name, label in labels.items() for body in BODIES}
-    largest = "; ".join(f"{words} within {number(float(data[name].max()), 2)} m" for name, words in bodies.items())
+    distances = []
+    for name, label in labels.items():
+        for body in BODIES:
+            largest_m = number(float(data[f"{name}_{body}_m"].max()), 2)
+            distances.append(f"{body} at {label} within {largest_m} m")
+    largest = "; ".join(distances)
     push = number(value(data, "push_mps"))
     caption = (
         f"motion of the buoy across the plane of the waves after a push of {push} m/s, solid and dashed as in the "

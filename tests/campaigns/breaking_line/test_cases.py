@@ -35,7 +35,7 @@ def exact_profiles(case, times, nodes=801):
 
 
 @cache
-def whole(case):
+def exact_motion(case):
     return exact_profiles(case, np.arange(0.0, theory(case).arrival_s, 5e-4))
 
 
@@ -43,18 +43,18 @@ def whole(case):
 def test_the_exact_motion_has_its_fronts_no_error_and_no_ripple(case):
     speeds = theory(case).speeds
     if case != "4":  # its shock eats the front
-        assert measures.front_speed(whole(case), theory(case)) == pytest.approx(speeds.front_speed_mps, rel=3e-3)
+        assert measures.front_speed(exact_motion(case), theory(case)) == pytest.approx(speeds.front_speed_mps, rel=3e-3)
     if not case.endswith("p"):
-        slack = measures.slack_front_speed(whole(case), theory(case))
+        slack = measures.slack_front_speed(exact_motion(case), theory(case))
         assert slack == pytest.approx(speeds.slack_front_speed_mps, rel=5e-3)
-    above, rise = measures.strain_overshoot(whole(case), 0.98 * theory(case).arrival_s)
+    above, rise = measures.strain_overshoot(exact_motion(case), 0.98 * theory(case).arrival_s)
     assert above < 1e-9 and rise < 1e-6
-    assert measures.strain_error(whole(case), theory(case)) == 0.0
+    assert measures.strain_error(exact_motion(case), theory(case)) == 0.0
 
 
 @pytest.mark.parametrize("case", ["4", *(pytest.param(case, marks=pytest.mark.slow) for case in ("3", "4p"))])
 def test_the_shock_and_where_it_is_born(case):
-    _, places, exact = measures.shock_track(whole(case), theory(case))
+    _, places, exact = measures.shock_track(exact_motion(case), theory(case))
     assert len(places) >= 10 and np.abs(places - exact).max() < LENGTH / 800
     birth = theory(case).start
     profiles = exact_profiles(case, np.linspace(0.0, 0.6, 120) * birth.time_s, nodes=3201)
@@ -62,11 +62,11 @@ def test_the_shock_and_where_it_is_born(case):
 
 
 def test_a_shifted_ruffled_copy_shows_its_error_and_ripple():
-    exact = whole("4")
+    exact = exact_motion("4")
     shifted = SimpleNamespace(**{**vars(exact), "strain": np.roll(exact.strain, 8, axis=1)})
     shifted.strain[:, :8] = exact.strain[:, :1]
-    _, places, where = measures.shock_track(shifted, theory("4"))
-    assert np.median(places - where) == pytest.approx(8 * LENGTH / 800, rel=0.1)
+    _, places, exact_places = measures.shock_track(shifted, theory("4"))
+    assert np.median(places - exact_places) == pytest.approx(8 * LENGTH / 800, rel=0.1)
     ruffled = SimpleNamespace(**{**vars(exact), "strain": exact.strain.copy()})
     ruffled.strain[1:] += 0.003 * (np.arange(801) % 2)
     above, rise = measures.strain_overshoot(ruffled, 0.05)
@@ -147,19 +147,19 @@ def test_the_fracture_time_changes_the_kinetic_energy_and_not_the_speed():
 
 @pytest.mark.slow
 def test_only_in_case_4_a_good_part_passes_the_fixed_end():
-    left = {case: measures.recoil(run_of(case).profiles, 0.12)["x_min_m"] for case in CASES}
-    assert left["4"] < -0.5
-    assert all(-0.25 < x <= 1e-9 for case, x in left.items() if case != "4")
+    leftmost_m = {case: measures.recoil(run_of(case).profiles, 0.12)["x_min_m"] for case in CASES}
+    assert leftmost_m["4"] < -0.5
+    assert all(-0.25 < x <= 1e-9 for case, x in leftmost_m.items() if case != "4")
 
 
 @pytest.mark.slow
 def test_gravity_and_bending_hardly_move_the_shock():
     exact = theory("4")
     run = simulate(scene_of("4", **{"tether.nodes": 601}), duration_s=0.058)
-    times, places, where = measures.shock_track(run.profiles, exact)
-    assert len(times) > 40 and np.abs(places - where).max() < 0.05
-    _, bare, there = measures.shock_track(broken("4", 401).profiles, exact)
-    assert abs(np.mean(places - where) - np.mean(bare - there)) < 0.05
+    times, places, exact_places = measures.shock_track(run.profiles, exact)
+    assert len(times) > 40 and np.abs(places - exact_places).max() < 0.05
+    _, bare, exact_bare = measures.shock_track(broken("4", 401).profiles, exact)
+    assert abs(np.mean(places - exact_places) - np.mean(bare - exact_bare)) < 0.05
 
 
 @pytest.mark.slow
@@ -170,13 +170,13 @@ def test_three_dimensions_give_the_planar_break():
     assert plane.status == space.status == "ok"
     assert plane.statistics["steps"] == space.statistics["steps"]
     assert not space.profiles.y_m.any()
-    apart = np.hypot(plane.profiles.x_m - space.profiles.x_m, plane.profiles.z_m - space.profiles.z_m)
-    assert plane.profiles.x_m.min() < -0.1 and apart.max() < 1e-5
+    distance = np.hypot(plane.profiles.x_m - space.profiles.x_m, plane.profiles.z_m - space.profiles.z_m)
+    assert plane.profiles.x_m.min() < -0.1 and distance.max() < 1e-5
     tension = plane.profiles.tension_N
     assert np.abs(tension - space.profiles.tension_N).max() < 1e-5 * tension.max()
     for name in ("kinetic_J", "strain_J", "end_work_J", "viscous_J", "bending_J"):
-        one, other = getattr(plane.energy, name), getattr(space.energy, name)
-        assert np.abs(one - other).max() < 1e-6 * plane.energy.stored_J
+        planar, spatial = getattr(plane.energy, name), getattr(space.energy, name)
+        assert np.abs(planar - spatial).max() < 1e-6 * plane.energy.stored_J
 
 
 @pytest.mark.slow

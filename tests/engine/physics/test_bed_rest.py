@@ -31,9 +31,9 @@ BEDS = [bed(stiffness, critical, mu) for stiffness in (1e5, 3e9) for critical in
 @pytest.mark.parametrize("dimensions, EI, floor", [*((2, 0.0, floor) for floor in BEDS), (3, 1.0, BEDS[-1])])
 def test_a_line_laid_down_rests(dimensions, EI, floor):
     duration_s = 500.0
-    more = {"floor": floor, "motion.dimensions": dimensions, "tether.tension": linear(EA)}
-    kept = {"output.step_s": duration_s / 50, "output.profiles": True}
-    scene = line(STILL, held(18.6, 5.0), more, kept, nodes=21, **CHAIN | {"bending_stiffness_Nm2": EI})
+    changes = {"floor": floor, "motion.dimensions": dimensions, "tether.tension": linear(EA)}
+    output = {"output.step_s": duration_s / 50, "output.profiles": True}
+    scene = line(STILL, held(18.6, 5.0), changes, output, nodes=21, **CHAIN | {"bending_stiffness_Nm2": EI})
     run = simulate(scene, duration_s=duration_s)
     assert run.status == "ok", run.message
     bound = V_S * EA * 2**-52 / (1.0 * MU * WEIGHT) * duration_s
@@ -51,18 +51,18 @@ def test_a_chain_on_the_bed_rests_without_a_whole_turn_in_an_element():
 
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_what_friction_holds_creeps_as_its_regularisation_says(dimensions):
-    length, more = CHAIN["length_m"], {"floor": bed(1e5, 1.0, MU), "motion.dimensions": dimensions}
-    scene = line(DRY, held(1.001 * length, 0.0), more, {"tether.tension": linear(EA)}, nodes=41, **CHAIN)
+    length, changes = CHAIN["length_m"], {"floor": bed(1e5, 1.0, MU), "motion.dimensions": dimensions}
+    scene = line(DRY, held(1.001 * length, 0.0), changes, {"tether.tension": linear(EA)}, nodes=41, **CHAIN)
     rest = equilibrium(scene)
     wave = 1e-6 * np.cos(math.pi * rest.s / length)
     start = rest.Y.copy()
     start[:, 0] += wave
     motion = Motion(scene, 0.2, start=start)
     computed = [(t, (Y[:, 0] - rest.Y[:, 0]) @ wave / (wave @ wave)) for t, Y in motion.states()]
-    (t0, before), (t1, after) = computed[1], computed[-1]
+    (t0, first_amplitude), (t1, last_amplitude) = computed[1], computed[-1]
     m, c, stiff = WEIGHT / G, MU * WEIGHT / V_S, EA * (math.pi / length) ** 2
     rate = (c - math.sqrt(c**2 - 4 * m * stiff)) / (2 * m)
-    assert math.log(before / after) / (t1 - t0) == pytest.approx(rate, rel=0.02)
+    assert math.log(first_amplitude / last_amplitude) / (t1 - t0) == pytest.approx(rate, rel=0.02)
 
 
 @pytest.mark.parametrize("floor", BEDS[4:])
@@ -72,8 +72,8 @@ def test_a_line_laid_down_again_comes_to_rest(floor):
     way = np.sin(math.pi * times / 8.0) ** 2
     motion = {"law": "table", "time_s": times.tolist(), "displacement_m": [[0.2 * f, 0.0, 0.4 * f] for f in way]}
     slack = {"law": "tabulated", "strain": [-0.5, 0.0, 1e-5, 0.1], "tension_N": [0.0, 0.0, 1.0, 1e4]}
-    more = {"floor": floor, "tether.tension": slack, "output.profiles": True}
-    run = simulate(line(STILL, held(18.6, 5.0, motion=motion), more, nodes=41, **CHAIN), duration_s=16.0)
+    changes = {"floor": floor, "tether.tension": slack, "output.profiles": True}
+    run = simulate(line(STILL, held(18.6, 5.0, motion=motion), changes, nodes=41, **CHAIN), duration_s=16.0)
     assert run.status == "ok", run.message
     late = run.profiles.time_s > 12.0
     assert run.profiles.speed_mps[late].max() < 0.25 * run.profiles.speed_mps[~late].max()

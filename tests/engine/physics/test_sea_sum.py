@@ -27,8 +27,8 @@ def sea(seed, dimensions=2, **changes):
 def plain_sum(scene, t, X):
     """Velocity and its rate at X (n, 2) or (n, 3) in long doubles."""
     k, omega, phase, cosine, sine, speed, _ = rows_of(scene).astype(np.longdouble).T
-    along = X[:, :1] * cosine + (X[:, 1:2] * sine if X.shape[1] == 3 else 0.0)
-    psi, z = k * along - omega * np.longdouble(t) + phase, np.maximum(X[:, -1:], 0.0)
+    distance = X[:, :1] * cosine + (X[:, 1:2] * sine if X.shape[1] == 3 else 0.0)
+    psi, z = k * distance - omega * np.longdouble(t) + phase, np.maximum(X[:, -1:], 0.0)
     up, down = speed * np.exp(k * (z - DEPTH)), speed * np.exp(-k * (z + DEPTH))
     level, rate = (up + down) * np.cos(psi), omega * (up + down) * np.sin(psi)
     ahead = [cosine, sine] if X.shape[1] == 3 else [cosine]
@@ -87,8 +87,8 @@ def test_fifty_random_seas_are_the_plain_sum_at_ten_thousand_random_places_and_m
         assert np.all(errors <= 1e-12 * largest)
         rows = rows_of(scene).astype(np.longdouble)
         t, x = rng.uniform(0.0, 2000.0, 200), rng.uniform(-10.0, 10.0, 200)
-        along = rows[:, K] * (np.longdouble(1.0) * x[:, None] * rows[:, COSINE])
-        exact = (rows[:, AMPLITUDE] * np.cos(along - rows[:, OMEGA] * t[:, None] + rows[:, PHASE])).sum(axis=1)
+        spatial_phase = rows[:, K] * (np.longdouble(1.0) * x[:, None] * rows[:, COSINE])
+        exact = (rows[:, AMPLITUDE] * np.cos(spatial_phase - rows[:, OMEGA] * t[:, None] + rows[:, PHASE])).sum(axis=1)
         assert np.abs(elevation_m(scene, t, x) - exact).max() <= 1e-12 * np.abs(exact).max()
 
 
@@ -150,26 +150,30 @@ def test_the_slopes_are_those_of_the_field(above):
 @pytest.mark.parametrize("angle", [0.0, np.pi])
 def test_two_halves_of_a_wave_are_the_wave(capped, angle):
     tight = {"solver.newton_tolerance": 1e-11, "waves.above_still_water": "extrapolate", "water.depth_m": 21.3}
-    whole = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.amplitude_m": 0.6, "waves.direction_rad": angle})
+    full_wave = sea(
+        0, **tight, **capped, **{"waves.jonswap": None, "waves.amplitude_m": 0.6, "waves.direction_rad": angle}
+    )
     half = {"period_s": 5.0, "amplitude_m": 0.3, "direction_rad": angle}
     halves = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half, half]})
-    one = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half | {"amplitude_m": 0.6}]})
-    expected, field, alone = (simulate(scene, periods=2).columns for scene in (whole, halves, one))
+    single_component = sea(
+        0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half | {"amplitude_m": 0.6}]}
+    )
+    expected, field, single = (simulate(scene, periods=2).columns for scene in (full_wave, halves, single_component))
     for name in ("x_m", "z_m"):
         assert np.abs(field[name] - expected[name]).max() < 1e-9
-        assert np.array_equal(alone[name], expected[name])
+        assert np.array_equal(single[name], expected[name])
 
 
 @pytest.mark.parametrize("capped", [{}, CAP | {"output.tangent_vectors": 1}], ids=["whole", "cap and tangent"])
 def test_a_run_in_a_lane_is_the_run_alone_and_goes_on_as_if_it_had_not_stopped(capped):
     scenes = [sea(seed, **capped, **{"waves.jonswap": jonswap(seed)}) for seed in range(3)]
-    together = list(simulate_batch(scenes, periods=4))
-    whole = simulate(scenes[1], periods=4)
+    batch = list(simulate_batch(scenes, periods=4))
+    uninterrupted = simulate(scenes[1], periods=4)
     later = simulate(scenes[1], periods=2, start=simulate(scenes[1], periods=2))
     for name in ("x_m", "z_m", "tension_top_N"):
-        assert np.array_equal(together[1].columns[name], whole.columns[name])
-        assert np.array_equal(later.columns[name][1:], whole.columns[name][-len(later.columns[name]) + 1 :])
-    assert not np.array_equal(together[0].columns["x_m"], together[2].columns["x_m"])
+        assert np.array_equal(batch[1].columns[name], uninterrupted.columns[name])
+        assert np.array_equal(later.columns[name][1:], uninterrupted.columns[name][-len(later.columns[name]) + 1 :])
+    assert not np.array_equal(batch[0].columns["x_m"], batch[2].columns["x_m"])
 
 
 def jonswap(seed):
@@ -202,9 +206,9 @@ def test_a_gaussian_sea_has_its_energy_and_its_width_and_without_width_is_a_regu
     keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1}
     broad = rows_of(sea(0, **keys, **{"waves.relative_width": 0.1, "waves.component_count": 500}))
     energy = broad[:, 6] ** 2 / 2.0
-    (one,) = rows_of(sea(0, **keys, **{"waves.relative_width": 0.0}))
-    assert energy.sum() == pytest.approx((2.0 * 0.1 / one[0]) ** 2 / 16.0, rel=1e-12)
-    assert one[6] ** 2 / 2.0 == pytest.approx(energy.sum(), rel=1e-12)
+    (regular,) = rows_of(sea(0, **keys, **{"waves.relative_width": 0.0}))
+    assert energy.sum() == pytest.approx((2.0 * 0.1 / regular[0]) ** 2 / 16.0, rel=1e-12)
+    assert regular[6] ** 2 / 2.0 == pytest.approx(energy.sum(), rel=1e-12)
     ratio = broad[:, 1] / (2.0 * np.pi / 5.0)
     mean = np.sum(energy * ratio) / energy.sum()
     assert mean == pytest.approx(1.0, abs=1e-3)

@@ -57,12 +57,12 @@ def scene(*parts, **waves):
     return line(STEEP, *parts, {f"waves.{key}": value for key, value in waves.items()})
 
 
-def sea_of(name, **more):
+def sea_of(name, **changes):
     dimensions, waves = SEAS[name]
     keys = "period_s", "amplitude_m", "phase_rad", "direction_rad"
     listed = [dict(zip(keys, wave, strict=True)) for wave in waves]
-    given = {"components": listed} if len(listed) > 1 else listed[0]
-    return scene({"motion.dimensions": dimensions}, **given, **more)
+    entries = {"components": listed} if len(listed) > 1 else listed[0]
+    return scene({"motion.dimensions": dimensions}, **entries, **changes)
 
 
 def exact(name, above, t, X):
@@ -93,9 +93,11 @@ def test_kinematics(nodes, name, above):
     space = SEAS[name][0] == 3
     X = np.insert(LINES[nodes], 1, (7.0 - LINES[nodes][:, 0]) * space, axis=1)
     for t in (0.0, 1.3, 297.1):
-        there = waves_at(sea_of(name, above_still_water=above), t, X if space else X[:, [0, 2]], there=3.0) - 3.0
-        expected = exact(name, above, t, X)
-        assert np.max(np.abs(there - (expected if space else expected[:, [0, 2, 3, 5]]))) < 1e-12 * A * OMEGA
+        places, expected = X, exact(name, above, t, X)
+        if not space:
+            places, expected = X[:, [0, 2]], expected[:, [0, 2, 3, 5]]
+        computed = waves_at(sea_of(name, above_still_water=above), t, places, background=3.0) - 3.0
+        assert np.max(np.abs(computed - expected)) < 1e-12 * A * OMEGA
     assert np.abs(expected[X[:, 2] > DEPTH]).any() == (above != "zero" and bool(np.any(X[:, 2] > DEPTH)))
 
 
@@ -130,8 +132,8 @@ def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave(name):
     ramped, full, X = sea_of(name, ramp_s=8.0), sea_of(name), LINES["leaning"]
     X = X if SEAS[name][0] == 2 else np.insert(X, 1, 3.0, axis=1)
     assert not waves_at(ramped, 0.0, X).any()
-    half, whole = (waves_at(each, 4.0, X)[:, : X.shape[1]] for each in (ramped, full))
-    assert half == pytest.approx(0.5 * whole, abs=1e-13)
+    half, unramped = (waves_at(sea, 4.0, X)[:, : X.shape[1]] for sea in (ramped, full))
+    assert half == pytest.approx(0.5 * unramped, abs=1e-13)
     for t in (8.0, 9.7):
         assert waves_at(ramped, t, X) == pytest.approx(waves_at(full, t, X), abs=1e-13)
     assert elevation_m(ramped, 4.0, X[:, 0]) == pytest.approx(0.5 * elevation_m(full, 4.0, X[:, 0]), abs=1e-13)
@@ -151,8 +153,8 @@ def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():
     """Anything across an axis would be a seed of motion out of the plane."""
     assert np.array_equal(waves_at(scene(), 3.0, [[1.0, 9.0]]), waves_at(scene(amplitude_m=A), 3.0, [[1.0, 9.0]]))
     X = np.insert(LINES["leaning"], 1, 3.0, axis=1)
-    for angle, other in ((0.0, [1, 4]), (np.pi, [1, 4]), (np.pi / 2, [0, 3])):
-        assert not waves_at(scene(SPACE, direction_rad=angle), 3.1, X)[:, other].any()
+    for angle, across in ((0.0, [1, 4]), (np.pi, [1, 4]), (np.pi / 2, [0, 3])):
+        assert not waves_at(scene(SPACE, direction_rad=angle), 3.1, X)[:, across].any()
 
 
 def test_under_another_gravity_a_wave_in_space_is_that_of_the_plane():
@@ -184,14 +186,14 @@ def test_a_jonswap_sea_carries_the_energy_of_its_height(gamma, count):
 
 
 def test_the_seed_is_the_sea():
-    first, again, other = (components_of(jonswap(significant_height_m=1.0, seed=seed)) for seed in (3, 3, 4))
-    assert all(np.array_equal(a, b) for a, b in zip(first, again, strict=True))
-    assert not np.array_equal(first[0], other[0]) and not np.array_equal(first[2], other[2])
-    assert np.array_equal(first[1], other[1])  # every seed has the same energy at the same frequencies
+    first, repeated, reseeded = (components_of(jonswap(significant_height_m=1.0, seed=seed)) for seed in (3, 3, 4))
+    assert all(np.array_equal(a, b) for a, b in zip(first, repeated, strict=True))
+    assert not np.array_equal(first[0], reseeded[0]) and not np.array_equal(first[2], reseeded[2])
+    assert np.array_equal(first[1], reseeded[1])  # every seed has the same energy at the same frequencies
 
 
 def test_a_regular_wave_is_no_sea():
     """It takes the way that it took before; both share batches, each with its kind."""
-    plain, many = sea_of("one"), sea_of("two")
-    assert (parameters_of(plain)[0]["sea_n"], parameters_of(many)[0]["sea_n"]) == (0, 1)
-    assert goes_in_lanes(plain) and goes_in_lanes(many) and kind_of(plain) != kind_of(many)
+    plain, sea = sea_of("one"), sea_of("two")
+    assert (parameters_of(plain)[0]["sea_n"], parameters_of(sea)[0]["sea_n"]) == (0, 1)
+    assert goes_in_lanes(plain) and goes_in_lanes(sea) and kind_of(plain) != kind_of(sea)

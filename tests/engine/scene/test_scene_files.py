@@ -19,10 +19,10 @@ def test_a_scene_written_and_read_is_the_same_scene(changes, tmp_path):
     scene = load_scene("tethered_buoy", changes)
     path = tmp_path / "scene.toml"
     path.write_text(scene.to_toml(), encoding="utf-8")
-    for again in (load_scene(path), load_scene(str(path)), scene_from_toml(scene.to_toml())):
-        assert again == scene
-        assert again.key() == scene.key()
-        assert again.to_toml() == scene.to_toml()
+    for reread in (load_scene(path), load_scene(str(path)), scene_from_toml(scene.to_toml())):
+        assert reread == scene
+        assert reread.key() == scene.key()
+        assert reread.to_toml() == scene.to_toml()
 
 
 def test_scenes_that_differ_in_anything_have_different_keys():
@@ -65,8 +65,8 @@ def test_a_scene_cannot_be_changed_in_place():
 
 
 def test_tab_completes_the_keywords_that_are_taken():
-    given = inspect.signature(load_scene).parameters
-    words = [name for name, entry in given.items() if entry.kind == inspect.Parameter.KEYWORD_ONLY]
+    parameters = inspect.signature(load_scene).parameters
+    words = [name for name, entry in parameters.items() if entry.kind == inspect.Parameter.KEYWORD_ONLY]
     assert {"steepness", "depth_m", "nodes"} <= set(words) and "diameter_m" not in words  # of tether and of buoy
     for word in words:
         try:
@@ -112,12 +112,12 @@ def test_no_waves_are_above_still_water_in_an_irregular_sea_unless_the_scene_say
 
 
 def test_none_removes_and_a_scalar_creates_its_section():
-    still = load_scene("tethered_buoy", {"waves": None})
-    assert still.waves is None
-    again = scene_from_toml(still.to_toml(), {"waves.period_s": 4.0, "waves.steepness": 0.1})
-    waves = again.waves
+    calm = load_scene("tethered_buoy", {"waves": None})
+    assert calm.waves is None
+    with_waves = scene_from_toml(calm.to_toml(), {"waves.period_s": 4.0, "waves.steepness": 0.1})
+    waves = with_waves.waves
     assert waves.period_s == 4.0 and waves.steepness == 0.1 and waves.ramp_s == 0
-    assert (still.sample_step_s(), again.sample_step_s()) == (0.05, 0.04)
+    assert (calm.sample_step_s(), with_waves.sample_step_s()) == (0.05, 0.04)
     assert load_scene("tethered_buoy", {"solver": None}).solver.rtol == Scene.model_fields["solver"].default.rtol
     assert load_scene("tethered_buoy", {"current": None, "waves.ramp_s": None}).waves.ramp_s == 0
 
@@ -155,8 +155,8 @@ def test_the_diameter_follows_the_area_unless_it_is_given():
 
 
 def test_numpy_values_and_whole_numbers_are_numbers():
-    given = {"water.depth_m": np.float64(22.5), "tether.nodes": np.int64(81), "tether.length_m": 20}
-    scene = load_scene("tethered_buoy", {**given, "start.buoy_velocity_mps": np.array([0.5, 0.0, 0.0])})
+    changes = {"water.depth_m": np.float64(22.5), "tether.nodes": np.int64(81), "tether.length_m": 20}
+    scene = load_scene("tethered_buoy", {**changes, "start.buoy_velocity_mps": np.array([0.5, 0.0, 0.0])})
     assert scene.start.buoy_velocity_mps == (0.5, 0.0, 0.0)
     for value in (scene.water.depth_m, scene.tether.length_m, scene.start.buoy_velocity_mps[0]):
         assert type(value) is float

@@ -35,18 +35,18 @@ def parts_of(scene, lengths):
     return parts
 
 
-def assert_continues(whole, parts):
+def assert_continues(uninterrupted, parts):
     joined = parts[0]
     for part in parts[1:]:
         joined = joined.followed_by(part)
-    for name, values in whole.columns.items():
+    for name, values in uninterrupted.columns.items():
         assert joined.columns[name].tobytes() == values.tobytes(), name
     for record, names in (("tangent", ("growth_nats", "lateral_nats", "released")), ("profiles", PROFILES)):
-        if getattr(whole, record) is not None:
+        if getattr(uninterrupted, record) is not None:
             for name in names:
-                values, expected = (getattr(getattr(run, record), name) for run in (joined, whole))
+                values, expected = (getattr(getattr(run, record), name) for run in (joined, uninterrupted))
                 assert np.array_equal(values, expected), name
-    counted = {name: number for name, number in whole.statistics.items() if name != "wall_s"}
+    counted = {name: number for name, number in uninterrupted.statistics.items() if name != "wall_s"}
     assert {name: joined.statistics[name] for name in counted} == counted
 
 
@@ -54,10 +54,10 @@ def assert_continues(whole, parts):
 def test_parts_make_the_whole(kind):
     scene = scene_of(KINDS[kind])
     lengths = LONGER if "releases" in kind else PARTS
-    whole = simulate(scene, periods=sum(lengths))
-    assert whole.status == "ok"
+    uninterrupted = simulate(scene, periods=sum(lengths))
+    assert uninterrupted.status == "ok"
     parts = parts_of(scene, lengths)
-    assert_continues(whole, parts)
+    assert_continues(uninterrupted, parts)
     released = [part.statistics["loop_releases"] for part in parts]
     assert released == ([0, 1, 1] if "releases" in kind else [0, 0, 0])
     assert not any(part.began for part in parts)
@@ -65,9 +65,9 @@ def test_parts_make_the_whole(kind):
 
 def test_a_hundred_restarts():
     scene = scene_of(RELEASES)
-    whole = simulate(scene, periods=20)
-    assert whole.statistics["loop_releases"] >= 2
-    assert_continues(whole, parts_of(scene, (0.2,) * 100))
+    uninterrupted = simulate(scene, periods=20)
+    assert uninterrupted.statistics["loop_releases"] >= 2
+    assert_continues(uninterrupted, parts_of(scene, (0.2,) * 100))
 
 
 @pytest.mark.parametrize("of, lengths", [(SMALL, PARTS), (RELEASES, LONGER)], ids=["calm", "loop releases"])
@@ -92,9 +92,9 @@ def test_a_run_that_ends_goes_on_among_the_others_as_long_as_somebody_says():
 
     def then(number, part):
         pieces[number] = pieces[number].followed_by(part) if number in pieces else part
-        done = round(pieces[number].columns["time_s"][-1] / part.scene.waves.period_s)
-        more = CARRIED if done >= 6 else {}
-        return (scene_of({**SMALL, **more, **kA[number]}), 3, part) if done < lengths[number] else None
+        periods = round(pieces[number].columns["time_s"][-1] / part.scene.waves.period_s)
+        perturbations = CARRIED if periods >= 6 else {}
+        return (scene_of({**SMALL, **perturbations, **kA[number]}), 3, part) if periods < lengths[number] else None
 
     kA = [{"waves.steepness": value} for value in steepness]
     scenes = [scene_of({**SMALL, **value}) for value in kA]

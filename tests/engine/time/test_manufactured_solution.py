@@ -64,10 +64,10 @@ def vectors(t, x, plane):
     return (*q, flat * place, flat * (A[1] * I1 * C1 + B[1] * I2 * C2), flat * (A[2] * I1 * C1 + B[2] * I2 * C2))
 
 
-def roll(x, along, K):
+def roll(x, tangents, K):
     """Angle (rad) of a frame that does not roll against the first one, carried from its tangent to the one at x the
     shortest way: that frame turns about t by -t0.K/(1 + t0.t) on its own (Fuller 1978)."""
-    return CubicSpline(L * x, (K @ along[0]) / (1 + along @ along[0])).antiderivative()(L * x)
+    return CubicSpline(L * x, (K @ tangents[0]) / (1 + tangents @ tangents[0])).antiderivative()(L * x)
 
 
 def curve(t, x, plane):
@@ -82,13 +82,13 @@ def torsion(t):
     The twist counts from the first frame carried along the chord of the ends, here not the shortest way.
     """
     x = np.linspace(0.0, 1.0, 401)
-    along, K = curve(t, x, False)
+    tangents, K = curve(t, x, False)
     place = vectors(t, x, False)[4][-1]
-    first, last, chord = along[0], along[-1], place / np.linalg.norm(place)
+    first, last, chord = tangents[0], tangents[-1], place / np.linalg.norm(place)
     n = np.cross(first, [1.0, 0.0, 0.0])
-    one, other = carried(first, last, n), carried(chord, last, carried(first, chord, n))
-    between = math.atan2(np.cross(other, one) @ last, other @ one)
-    return (TWIST - between - roll(x, along, K)[-1]) / L
+    direct, by_chord = carried(first, last, n), carried(chord, last, carried(first, chord, n))
+    between = math.atan2(np.cross(by_chord, direct) @ last, by_chord @ direct)
+    return (TWIST - between - roll(x, tangents, K)[-1]) / L
 
 
 def motion(t, x, plane=False):
@@ -96,7 +96,7 @@ def motion(t, x, plane=False):
     q, q1, q2, q3, place, V, V_t = vectors(t, x, plane)
     O1 = 0.0 if plane else torsion(t)
     lam = np.linalg.norm(q, axis=1, keepdims=True)
-    along = q / lam
+    tangents = q / lam
 
     def dot(a, b):
         return np.sum(a * b, 1, keepdims=True)
@@ -104,40 +104,40 @@ def motion(t, x, plane=False):
     # derivatives of lam and t in s
     lam1 = dot(q, q1) / lam
     lam2 = (dot(q1, q1) + dot(q, q2) - lam1**2) / lam
-    t1 = (q1 - lam1 * along) / lam
-    t2 = (q2 - lam2 * along - 2 * lam1 * t1) / lam
+    t1 = (q1 - lam1 * tangents) / lam
+    t2 = (q2 - lam2 * tangents - 2 * lam1 * t1) / lam
     lam3 = (3 * dot(q1, q2) + dot(q, q3) - 3 * lam1 * lam2) / lam
-    t3 = (q3 - lam3 * along - 3 * lam2 * t1 - 3 * lam1 * t2) / lam
-    K = np.cross(along, t1)
-    across = t2 - dot(t2, along) * along
-    across1 = t3 - dot(t3, along) * along - dot(t2, t1) * along - dot(t2, along) * t1
-    top, top1 = GI * O1 * K - EI * across, GI * O1 * np.cross(along, t2) - EI * across1
+    t3 = (q3 - lam3 * tangents - 3 * lam2 * t1 - 3 * lam1 * t2) / lam
+    K = np.cross(tangents, t1)
+    across = t2 - dot(t2, tangents) * tangents
+    across1 = t3 - dot(t3, tangents) * tangents - dot(t2, t1) * tangents - dot(t2, tangents) * t1
+    top, top1 = GI * O1 * K - EI * across, GI * O1 * np.cross(tangents, t2) - EI * across1
     S, S1 = top / lam**3, top1 / lam**3 - 3 * lam1 * top / lam**4
-    N1 = EA * (lam1 * along + (lam - 1) * t1) + S1
+    N1 = EA * (lam1 * tangents + (lam - 1) * t1) + S1
     drag = N1 - M_LINE * V_t - np.array([0, 0, W0])
     return {"q": q, "V": V, "S": S, "K": K, "X": place, "O1": O1}, drag
 
 
 def water(t, x, plane):
     """Current (len(x), 3) that the chosen motion needs at its own places, and the heights of these."""
-    found, drag = motion(t, x, plane)
-    lam = np.linalg.norm(found["q"], axis=1, keepdims=True)
-    along = found["q"] / lam
-    a = np.sum(drag * along, 1, keepdims=True)
-    b = drag - a * along
+    exact, drag = motion(t, x, plane)
+    lam = np.linalg.norm(exact["q"], axis=1, keepdims=True)
+    tangents = exact["q"] / lam
+    a = np.sum(drag * tangents, 1, keepdims=True)
+    b = drag - a * tangents
     size = np.linalg.norm(b, axis=1, keepdims=True)
-    slip = np.sign(a) * np.sqrt(np.abs(a) / (0.5 * RHO * math.pi * D * C_T * np.sqrt(lam))) * along
+    slip = np.sign(a) * np.sqrt(np.abs(a) / (0.5 * RHO * math.pi * D * C_T * np.sqrt(lam))) * tangents
     slip = slip + b / np.sqrt(0.5 * RHO * D * C_N * np.sqrt(lam) * size)
-    return found["V"] - slip, found["X"][:, 2], a, size
+    return exact["V"] - slip, exact["X"][:, 2], a, size
 
 
 def normals(t, s, first):
     """What n must be at stations s (n, 3) in space, when it is `first` at the anchor."""
-    along, _ = curve(t, s / L, False)
+    tangents, _ = curve(t, s / L, False)
     fine = np.linspace(0.0, 1.0, 401)
     turn = CubicSpline(L * fine, roll(fine, *curve(t, fine, False)))(s)[:, None]
-    n = carried(along[0], along, first)
-    return np.cos(turn) * n + np.sin(turn) * np.cross(along, n)
+    n = carried(tangents[0], tangents, first)
+    return np.cos(turn) * n + np.sin(turn) * np.cross(tangents, n)
 
 
 def _current(end_s, times, heights, plane):
@@ -189,21 +189,21 @@ def errors(run, t, plane):
     """Largest error along the line, by the names of CAPS."""
     Y, (exact, _) = run.Y, motion(t, run.s / run.s[-1], plane)
     t_, n, b = axes_of(Y)
-    found = {"q": (1 + Y[:, :1]) * t_}
+    computed = {"q": (1 + Y[:, :1]) * t_}
     if plane:
         X, V = (np.insert(part, 1, 0.0, axis=1) for part in (positions(Y, run.h), Y[:, 2:4]))
-        found |= {"S": Y[:, 1:2] * n, "V": V, "K": Y[:, 5:] * b, "X": X}
+        computed |= {"S": Y[:, 1:2] * n, "V": V, "K": Y[:, 5:] * b, "X": X}
     else:
-        found |= {"S": Y[:, 1:2] * n + Y[:, 2:3] * b, "V": Y[:, 3:6], "K": Y[:, 11:12] * n + Y[:, 12:] * b}
-        found |= {"X": positions(Y, run.h), "n": n, "O1": Y[:, 10]}
+        computed |= {"S": Y[:, 1:2] * n + Y[:, 2:3] * b, "V": Y[:, 3:6], "K": Y[:, 11:12] * n + Y[:, 12:] * b}
+        computed |= {"X": positions(Y, run.h), "n": n, "O1": Y[:, 10]}
         exact["n"] = normals(t, run.s, n[0])
-    return {key: np.abs(found[key] - exact[key]).max() for key in found}
+    return {key: np.abs(computed[key] - exact[key]).max() for key in computed}
 
 
-def assert_second_order(found):
+def assert_second_order(errors_of_grids):
     """Within 0.1; within 0.3 for O1, whose error, below 5e-6 /m, is a small difference of larger ones."""
-    for key in found[0]:
-        sizes = np.array([errors[key] for errors in found])
+    for key in errors_of_grids[0]:
+        sizes = np.array([errors[key] for errors in errors_of_grids])
         slopes = np.log2(sizes[:-1] / sizes[1:])
         assert np.all(np.abs(slopes - 2) < (0.3 if key == "O1" else 0.1)), (key, slopes)
 

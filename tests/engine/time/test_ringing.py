@@ -20,9 +20,9 @@ def heave(stiffness_N, *parts):
     tether, buoy = scene.tether, scene.buoy
     moved = buoy.mass_kg + buoy.added_mass_kg + tether.density_kgpm3 * tether.area_m2 * tether.length_m / 3
     period_s = 2 * np.pi * np.sqrt(tether.length_m * moved / stiffness_N)
-    away = [0.0, 0.0, -RINGING_N * tether.length_m / stiffness_N]
-    kept = {"start.buoy_displacement_m": away, "output.step_s": period_s / SAMPLES}
-    return ran(line(FRICTIONLESS, kept, *parts, tension=linear(stiffness_N)), duration_s=CYCLES * period_s), period_s
+    displacement_m = [0.0, 0.0, -RINGING_N * tether.length_m / stiffness_N]
+    changes = {"start.buoy_displacement_m": displacement_m, "output.step_s": period_s / SAMPLES}
+    return ran(line(FRICTIONLESS, changes, *parts, tension=linear(stiffness_N)), duration_s=CYCLES * period_s), period_s
 
 
 def extremes(run, cycles=slice(None)):
@@ -53,7 +53,7 @@ def test_what_is_damped_is_said(changes):
 
 def test_the_largest_tension_of_a_stiff_line_in_waves_is_that_of_short_steps():
     stiff = SMALL_WAVES | {"tether.tension.stiffness_N": 1e8}
-    default, refined = (ran(line(stiff, more), 4) for more in ({}, {"solver.max_step_s": 0.0025}))
+    default, refined = (ran(line(stiff, changes), 4) for changes in ({}, {"solver.max_step_s": 0.0025}))
     assert extremes(default) == pytest.approx(extremes(refined), rel=0.005)
     assert default.statistics["steps"] < 0.2 * refined.statistics["steps"]
 
@@ -68,7 +68,7 @@ def test_steps_are_long_where_nothing_rings(stiffness_N):
 def test_the_control_does_not_touch_a_line_whose_ringing_is_slow():
     """The line of Table 1 heaves in 6.3 s: the same steps, bit for bit, as without the control."""
     steep = {"waves.steepness": 0.13, "water.depth_m": 21.6}
-    runs = [ran(line(steep, more), 6) for more in ({}, {"solver.shortest_period_s": 1e9})]
+    runs = [ran(line(steep, changes), 6) for changes in ({}, {"solver.shortest_period_s": 1e9})]
     for name, column in runs[0].columns.items():
         np.testing.assert_array_equal(column, runs[1].columns[name], name)
 

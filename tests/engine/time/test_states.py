@@ -70,10 +70,10 @@ def test_another_scene_takes_the_state_over_and_says_so(key, first):
 def test_a_state_with_its_clock_at_zero_goes_the_same_way(first):
     """Where its time is a whole number of wave periods."""
     state = first.final_state.at_zero()
-    here, there = (simulate(first.scene, periods=3, start=start) for start in (first, state))
+    continued, restarted = (simulate(first.scene, periods=3, start=start) for start in (first, state))
     assert state.time_s == 0.0 and state.digest() != first.final_state.digest()
-    assert there.columns["time_s"] == pytest.approx(here.columns["time_s"] - 20.0, abs=1e-12)
-    assert there.columns["radius_m"] == pytest.approx(here.columns["radius_m"], abs=2e-4)
+    assert restarted.columns["time_s"] == pytest.approx(continued.columns["time_s"] - 20.0, abs=1e-12)
+    assert restarted.columns["radius_m"] == pytest.approx(continued.columns["radius_m"], abs=2e-4)
     assert state.at_zero().digest() == state.digest()
     assert replace(state, scene=scene_of({**SMALL, "tether.drag_normal": 2.0})).digest() != state.digest()
 
@@ -90,9 +90,11 @@ def test_the_grid_may_change_in_slack():
     """The end stays in its place and the line without a blow; on a nested grid and back the state is nearly the old."""
     fine = scene_of({**SLACK, "tether.nodes": 41})
     coarse = simulate(scene_of(SLACK), periods=12.6)
-    here, there = (simulate(scene, periods=1, start=coarse) for scene in (coarse.scene, fine))
-    assert there.columns["radius_m"] == pytest.approx(here.columns["radius_m"], abs=0.02)
-    assert there.columns["tension_top_high_N"][1:10].max() < 100.0 and coarse.columns["tension_top_high_N"].max() > 4e3
+    unchanged, refined = (simulate(scene, periods=1, start=coarse) for scene in (coarse.scene, fine))
+    assert refined.columns["radius_m"] == pytest.approx(unchanged.columns["radius_m"], abs=0.02)
+    assert (
+        refined.columns["tension_top_high_N"][1:10].max() < 100.0 and coarse.columns["tension_top_high_N"].max() > 4e3
+    )
     old = coarse.final_state
     back = taken_over(taken_over(old, fine)[0], coarse.scene)[0]
     assert np.linalg.norm(back.C[:, :2], axis=1) == pytest.approx(np.linalg.norm(old.C[:, :2], axis=1))
@@ -119,7 +121,7 @@ def test_between_two_states(dimensions):
             if share in (0.0, 1.0):
                 exact = (a, b)[int(share)]
                 assert state.C == pytest.approx(exact.C, abs=1e-9) and state.K == pytest.approx(exact.K, abs=1e-9)
-            first, second, mixed = (np.linalg.norm(each.C[:, :dimensions], axis=1) for each in (a, b, state))
+            first, second, mixed = (np.linalg.norm(point.C[:, :dimensions], axis=1) for point in (a, b, state))
             assert mixed == pytest.approx((1 - share) * first + share * second)
             assert simulate(a.scene, periods=0.2, start=state).status == "ok"
     with pytest.raises(ValueError, match="of one time"):
@@ -153,9 +155,9 @@ FAR = "start.buoy_velocity_mps", "start.buoy_displacement_m"
 
 @pytest.mark.parametrize("kind", FAULTY)
 def test_a_run_that_cannot_go_on_says_why(kind, first):
-    made, changes, words = FAULTY[kind]
+    start_of, changes, words = FAULTY[kind]
     with pytest.raises(ValueError, match=words):
-        simulate(scene_of({**SMALL, **changes}), duration_s=1.0, start=made(first.final_state))
+        simulate(scene_of({**SMALL, **changes}), duration_s=1.0, start=start_of(first.final_state))
 
 
 def test_on_the_command_line(first, tmp_path, capsys):
@@ -171,7 +173,7 @@ def test_on_the_command_line(first, tmp_path, capsys):
         assert capsys.readouterr().err.count(str(name)) == 1
 
 
-STILL = {"tether.nodes": 21, "waves.steepness": 0.0, "water.depth_m": 25.0, "solver.rtol": 1e-3, "output.step_s": 0.02}
+CALM = {"tether.nodes": 21, "waves.steepness": 0.0, "water.depth_m": 25.0, "solver.rtol": 1e-3, "output.step_s": 0.02}
 
 
 @pytest.mark.parametrize("axis, displacement, within", [("radial", 0.01, 5e-4), ("pendulum", 0.1, 0.03)])
@@ -180,7 +182,7 @@ def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, 
     from engine.natural_frequencies import natural_frequencies
 
     place = [0.0, 0.0, displacement] if axis == "radial" else [displacement, 0.0, 0.0]
-    scene = scene_of({**STILL, FAR[1]: place})
+    scene = scene_of({**CALM, FAR[1]: place})
     run = simulate(scene, duration_s=13.0 if axis == "radial" else 40.0)
     swing = run.columns["z_m"] - run.columns["z_m"][0] + displacement if axis == "radial" else run.columns["x_m"]
     assert swing[0] == pytest.approx(displacement, abs=1e-9) and abs(run.columns["radius_rate_mps"][0]) < 1e-9
@@ -192,12 +194,12 @@ def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, 
 
 @pytest.mark.parametrize("place", [[3.0, 0.0, -4.0], [-2.0, 0.0, 1.0]], ids=["slack", "stretched"])
 def test_a_displaced_line_begins_as_one_that_is_held_there(place):
-    scene = scene_of({**STILL, FAR[1]: place, "output.profiles": True})
+    scene = scene_of({**CALM, FAR[1]: place, "output.profiles": True})
     run = simulate(scene, duration_s=1.0)
     end = {name: float(run.columns[name][0]) for name in ("x_m", "y_m", "z_m")}
     held = {"end": {"kind": "held", "position_m": list(end.values())}, "buoy": None, "output.profiles": True}
-    there = simulate(scene_of({**STILL, **held}), duration_s=0.1)
+    held_run = simulate(scene_of({**CALM, **held}), duration_s=0.1)
     for name in ("x_m", "z_m", "tension_N"):
-        assert getattr(run.profiles, name)[0] == pytest.approx(getattr(there.profiles, name)[0], abs=1e-6)
-    space = simulate(scene_of({**STILL, FAR[1]: place, "motion.dimensions": 3}), duration_s=1.0)
+        assert getattr(run.profiles, name)[0] == pytest.approx(getattr(held_run.profiles, name)[0], abs=1e-6)
+    space = simulate(scene_of({**CALM, FAR[1]: place, "motion.dimensions": 3}), duration_s=1.0)
     assert space.columns["radius_m"] == pytest.approx(run.columns["radius_m"], abs=1e-6)
