@@ -202,7 +202,9 @@ def irregular_evidence(section: np.ndarray, seed: int) -> Evidence:
     if 2 * answered.sum() < len(values) or not answered.any():
         return Evidence("0-1 test", np.nan, IRREGULAR, None, tests[int(np.argmin(answered))].reason)
     value = np.median(values[answered])
-    sentence = f"median over the coordinates, in the bands visited in turn ({bands} bands)"
+    sentence = "median over the coordinates"
+    if bands > 1:
+        sentence += f", in the {bands} bands visited in turn"
     return Evidence("0-1 test", value, IRREGULAR, value > IRREGULAR, sentence)
 
 

@@ -66,8 +66,10 @@ def page(study: Study) -> str:
     verdict = [("VERDICT", f"{answers['regime']}: {answers['meaning']}"), ("because", answers["reason"])]
     evidence = ["evidence (passed or not, what was found, the value and what it was compared with)"]
     for item in study.verdict.evidence:
-        numbers = f"{number(item.value)} against {number(item.threshold)}"
-        evidence += _wrapped(f"  {MARK[item.passed]:<4}{item.name}: {item.sentence} [{numbers}]", 6)
+        test = f"  {MARK[item.passed]:<4}{item.name}: {item.sentence}"
+        if np.isfinite(item.threshold):
+            test += f" [{number(item.value)} against {number(item.threshold)}]"
+        evidence += _wrapped(test, 6)
     notes = []
     for note in answers["notes"]:
         notes += _wrapped(f"note: {note}", 6)
