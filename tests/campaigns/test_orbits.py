@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from campaigns import orbits
 from campaigns.explore.grid import varied
 from campaigns.explore.tracing import Line, Scenes, line_task, work
 from campaigns.finer import finer
@@ -12,7 +13,7 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.orbits import main
 from campaigns.orbits.tree import _on, _same
-from engine import load_scene
+from engine import load_scene, simulate
 from reports.orbits.report import report
 from reports.parts.content import Figure, Table
 from tests.campaigns.conftest import rows_of
@@ -108,6 +109,17 @@ def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(t
     value_of = ["--vary", "waves.steepness", "0.1", "0.12", "--start-from", str(run), "--orbits", "1"]
     assert main([*value_of, "--no-accuracy", "--no-report", "--out", str(tmp_path / "one")]) == 0
     assert len(rows_of(tmp_path / "one")) <= 3
+
+
+def test_a_run_that_goes_on_late_begins_orbits_by_its_own_second_half(tmp_path):
+    """Its transient is over before the run begins, and lies beyond the middle of the time of both runs."""
+    scene = load_scene("tethered_buoy", {"waves.steepness": 0.03, "tether.nodes": 7})
+    earlier = simulate(scene, periods=40)
+    file = simulate(scene, periods=16, start=earlier).save(tmp_path / "late.nc")
+    words = ["--vary", "waves.steepness", "0.02", "0.05", "--start-from", str(file or tmp_path / "late.nc")]
+    order = orbits.read_order(words, faults := [])
+    ((_, steepness, period, state),) = orbits._under_file(order, order.cases[0])
+    assert faults == [] and (steepness, period) == (0.03, 1) and state.time_s == 0.0
 
 
 @pytest.mark.slow
