@@ -235,8 +235,8 @@ def _under_file(order: Order, job: Job) -> Iterator[tuple]:
 
     (key,), run = order.options.grid.keys, motions.run_in(order.options.start_from)
     times_s = run.columns["time_s"]  # a run that goes on begins late
-    middle = int(times_s[len(times_s) // 2] / run.scene.waves.period_s)
-    period = after_transient(run, sound_part(run.columns), middle).get("strobed_period")
+    periods = (times_s[-1] - times_s[0]) / run.scene.waves.period_s
+    period = after_transient(run, sound_part(run.columns), int(periods / 2)).get("strobed_period")
     if period is not None:
         yield "", job.labels[key.column.name], period, run.final_state.at_zero()
 
