@@ -29,7 +29,7 @@ def side_of(x, v, theta, k):
         return 1 if x > 0.0 else 0
     if v != 0.0:
         return 1 if v > 0.0 else 0
-    # g'' = F sin + lift at rest; F from the linear response, F = X (1 - omega^2) - Y mu omega, avoided by its sign:
+    # at rest g'' = F sin theta + lift; F follows from the linear response of the taut piece, X cos + Y sin
     forcing = k[TAUT_SIN] * (1.0 - k[OMEGA] ** 2) - k[TAUT_COS] * k[MU] * k[OMEGA]
     return 1 if forcing * math.sin(theta) + k[LIFT] >= 0.0 else 0
 

@@ -117,7 +117,7 @@ class Edge:
         """Let both run on for so many wave periods, and begin there: the one on the first side, and its key; None for a
         run that ended early.
         """
-        # of as many samples as the runs that told them apart: a state that goes over to others begins a moment later
+        # with the output step of the runs that told them apart: with another one a state would begin a moment later
         scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
         plan, places = self.exploration.plan, self.exploration.places
@@ -190,7 +190,7 @@ def _later_extremes(runs: list) -> dict[str, float]:
 
 
 def _repeats(states: np.ndarray) -> int | None:
-    """Wave periods after which states (n, 4) repeat in the median, as near as the two runs are; None: after no few."""
+    """Wave periods after which states (n, 4) repeat in the median, as near as the two runs are; None: they do not."""
     later = states[len(states) // 2 :]
     for period in range(1, min(LONGEST_PERIOD, len(later) // 3) + 1):
         if np.median(np.abs(later[period:] - later[:-period]).max(axis=1)) <= 2.0 * APART:
