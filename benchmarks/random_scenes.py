@@ -278,6 +278,7 @@ def odd_scenes() -> dict[str, dict]:
         "g = 25 m/s2": {"gravity_mps2": 25.0},
         "dense water": {"water.density_kgpm3": 3000.0},
         "grid refined upwards": {"tether.grid_stretching": 3.0, "tether.grid_refined": "upper"},
+        "damped critically": {"tether.damping_critical": 1.0},
         "in space": SPACE,
     }
     scenes = {}
