@@ -197,9 +197,11 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         further = range(seeds + 1, min(2 * seeds, most) + 1)
         more: list[Job] = []
         for place in options.grid.places():
+            if tuple(place.values()) not in unclear:
+                continue
             changes, _ = options.grid.changes(place, order.base())
             scene = order.base(changes)
-            if tuple(place.values()) in unclear and _seed_key(scene) is not None:
+            if _seed_key(scene) is not None:
                 more += _runs(order, place, changes, scene, further, 1)
         if not more:
             break

@@ -51,7 +51,7 @@ def _memory(cell: Row, options) -> str:
             )
         return f"{words}; the starts were not seen to come together."
     if sign != "−":
-        return "It is not decided whether this sea makes the buoy forget how it began: use more --seeds or --hours."
+        return "It is not decided whether this sea makes the buoy forget how it began: use more --most-hours."
     if options.starts < 2:
         return "In this sea the buoy forgets a small difference of the start; with --starts 4 it is seen how fast."
     if not math.isfinite(periods):

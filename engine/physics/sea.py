@@ -44,9 +44,9 @@ K, OMEGA, PHASE, COSINE, SINE, SPEED, AMPLITUDE = range(7)  # rows of a group in
 ROW = 7
 LOWEST, HIGHEST = 0.5, 3.0  # of the peak frequency
 REACH = 4.0  # of a Gaussian spectrum, in its widths
-RECURRENCES = (
-    20  # mean times after which groups of a sea nearly recur, in a run: with more, its highest crest is 1 % low
-)
+# Mean times after which groups of a sea nearly recur, that a run lasts at most. So few waves make the highest crest of
+# three hours 1 % lower than very many do (docs/sea.md).
+RECURRENCES = 20
 _POINTS = 200  # over which the energy of one part is summed
 
 

@@ -29,8 +29,9 @@ FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
-FEWEST = 3  # nodes of a grid with which another is compared
-COARSE, ROUNDING = 0.08, 1e-3  # difference of the largest tension on half the elements, of it and of the line's weight
+LEAST_NODES = 3  # of a grid with half the elements
+GRID_DECIDES = 0.08  # share by which the largest tension is another one on half the elements
+ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -155,36 +156,47 @@ def _coarse_grid(run: "Run", columns: dict[str, np.ndarray]) -> str:
 
     It costs half a run more, and is left out for a buoy in waves, whose runs campaigns refine (docs/trust.md).
     """
-    scene, high_N = run.scene, columns["tension_top_high_N"]
+    scene, tether = run.scene, run.scene.tether
     in_waves = scene.buoy is not None and scene.waves is not None
-    tether = scene.tether
     nodes = tether.nodes // 2 + 1
-    if in_waves or run.started is not None or nodes < FEWEST:
+    if in_waves or run.started is not None or nodes < LEAST_NODES:
         return ""
-    damping = tether.damping_critical and tether.damping_critical / 2  # a share of that of an element
-    coarse_scene = scene.with_values("tether", nodes=nodes, damping_critical=damping)
-    coarser = type(run)(coarse_scene.model_copy(update={"output": Output(step_s=scene.output.step_s)}), run.duration_s)
-    coarser.advance(coarser.goal)
-    if coarser.state["status"] != OK:
+    coarse = _columns_on(run, nodes)
+    if coarse is None:
         return ""
-    other = columns_of(coarser.output.samples[: coarser.goal], coarse_scene)
     sentences = []
-    largest_N, other_N = float(high_N.max()), float(other["tension_top_high_N"].max())
+    largest_N, coarse_N = (float(series["tension_top_high_N"].max()) for series in (columns, coarse))
     rounding_N = ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2
-    if abs(other_N - largest_N) > max(COARSE * abs(largest_N), rounding_N):
-        sentences.append(f"the largest tension is {other_N:.4g} N in place of {largest_N:.4g} N")
-    slack, other_slack = (slack_share(scene, series) for series in (columns, other))
-    if abs(other_slack - slack) > NOTED:
-        sentences.append(f"the line is slack for {other_slack:.2g} of the time in place of {slack:.2g}")
+    if abs(coarse_N - largest_N) > max(GRID_DECIDES * abs(largest_N), rounding_N):
+        sentences.append(f"the largest tension is {coarse_N:.4g} N in place of {largest_N:.4g} N")
+    slack, coarse_slack = (_slack_share(scene, series) for series in (columns, coarse))
+    if abs(coarse_slack - slack) > NOTED:
+        sentences.append(f"the line is slack for {coarse_slack:.2g} of the time in place of {slack:.2g}")
     if not sentences:
         return ""
     return f"on {nodes} nodes {' and '.join(sentences)}, so that the grid decides: add nodes until it no longer does"
 
 
-def slack_share(scene: Scene, columns: dict[str, np.ndarray]) -> float:
+def _columns_on(run: "Run", nodes: int) -> dict[str, np.ndarray] | None:
+    """The columns of the same run on half the elements; None where it ends early."""
+    scene, damping = run.scene, run.scene.tether.damping_critical
+    if damping is not None:
+        damping = damping / 2  # a share of that of an element: so the damping of the line stays the same
+    coarse_scene = scene.with_values("tether", nodes=nodes, damping_critical=damping)
+    coarse_scene = coarse_scene.model_copy(update={"output": Output(step_s=scene.output.step_s)})
+    coarser = type(run)(coarse_scene, run.duration_s)
+    coarser.finish(lambda simulated_s: None)
+    if coarser.state["status"] != OK:
+        return None
+    return columns_of(coarser.output.samples[: coarser.goal], coarse_scene)
+
+
+def _slack_share(scene: Scene, columns: dict[str, np.ndarray]) -> float:
     """Share of the samples in which the top bears at most SLACK of its tension at rest; 0 where it bears none there."""
     rest_N = static_tension_N(scene, columns)
-    return float(np.mean(columns["tension_top_N"] <= SLACK * rest_N)) if rest_N > 0.0 else 0.0
+    if not rest_N > 0.0:  # NaN without an equilibrium
+        return 0.0
+    return float(np.mean(columns["tension_top_N"] <= SLACK * rest_N))
 
 
 def _regular_waves(run: "Run") -> str:

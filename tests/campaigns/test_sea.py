@@ -99,22 +99,8 @@ def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_se
     tmp_path, monkeypatch, capsys
 ):
     monkeypatch.setattr(sea_rows, "CLEAR", 1e9)
-    words = [
-        *SHORT,
-        "--hours",
-        0.06,
-        "--most-hours",
-        0.42,
-        "--seeds",
-        2,
-        "--starts",
-        2,
-        "--vary",
-        sea.HEIGHT,
-        0.5,
-        1.5,
-        2,
-    ]
+    longer = "--hours 0.06 --most-hours 0.42 --seeds 2 --starts 2"
+    words = [*SHORT, *longer.split(), "--vary", sea.HEIGHT, 0.5, 1.5, 2]
     rows = ran(sea, tmp_path, *words)
     assert "18: 18 computed, 0 found" in capsys.readouterr().out
     runs = [(float(row[sea.HEIGHT]), int(row["sea"]), int(row["start"])) for row in rows]
