@@ -69,36 +69,32 @@ def forget(sea):
 
 
 @kernel
-def series(row, first, dt, real, imaginary):
-    """Value, rate, slope and rate of the slope of sum y^m (-i dt)^n S_mn at y = (real, imaginary), as such pairs.
+def times_plus(factor, value, term):
+    """factor value + term, of complex numbers as pairs."""
+    re = factor[0] * value[0] - factor[1] * value[1] + term[0]
+    im = factor[0] * value[1] + factor[1] * value[0] + term[1]
+    return re, im
+
+
+@kernel
+def series(row, first, dt, y):
+    """Value, rate, slope and rate of the slope of sum y^m (-i dt)^n S_mn, complex numbers as pairs, like y.
 
     row: of Work.sea; first: column of the series. The slope is by y.
     """
     zero = 0.0 * dt
-    value_re = value_im = rate_re = rate_im = slope_re = slope_im = rising_re = rising_im = zero
+    value = rate = slope = rising = (zero, zero)
     for m in range(ORDER, -1, -1):
-        re = im = re_t = im_t = zero
+        re = im = re_t = im_t = zero  # sum (-i dt)^n S_mn of this m, and its rate
         for n in range(ORDER - m, -1, -1):
             at = first + 2 * (m * (2 * ORDER + 3 - m) // 2 + n)
             re_t, im_t = dt * im_t + im, -(dt * re_t + re)
             re, im = row[at] + dt * im, row[at + 1] - dt * re
-        slope_re, slope_im = (
-            real * slope_re - imaginary * slope_im + value_re,
-            real * slope_im + imaginary * slope_re + value_im,
-        )
-        rising_re, rising_im = (
-            real * rising_re - imaginary * rising_im + rate_re,
-            real * rising_im + imaginary * rising_re + rate_im,
-        )
-        value_re, value_im = (
-            real * value_re - imaginary * value_im + re,
-            real * value_im + imaginary * value_re + im,
-        )
-        rate_re, rate_im = (
-            real * rate_re - imaginary * rate_im + re_t,
-            real * rate_im + imaginary * rate_re + im_t,
-        )
-    return (value_re, value_im), (rate_re, rate_im), (slope_re, slope_im), (rising_re, rising_im)
+        slope = times_plus(y, slope, value)
+        rising = times_plus(y, rising, rate)
+        value = times_plus(y, value, (re, im))
+        rate = times_plus(y, rate, (re_t, im_t))
+    return value, rate, slope, rising
 
 
 @kernel
@@ -200,7 +196,7 @@ def put_heights(p, t, X, sea):
     for j in range(n):
         height = larger(X[j, 1], 0.0)
         if p.above == WHEELER:
-            eta = series(sea[j], SURFACE, t - sea[n, 0], 0.0, X[j, 0] - sea[j, PLACE_X])[0][0]
+            eta = series(sea[j], SURFACE, t - sea[n, 0], (0.0, X[j, 0] - sea[j, PLACE_X]))[0][0]
             height = height * stretching(p.depth, gain * eta)
         sea[j, HEIGHT] = height
 
@@ -234,13 +230,15 @@ def sea_in_plane(p, tables, t, X, F, sea):
 def sea_in_lanes(p, tables, t, X, F, sea):
     """As `sea_in_plane` for several runs: each lane that needs them takes its own sums."""
     put_heights(p, t, X, sea)
-    needed = due(p, t, X, sea)
+    needed, taken = due(p, t, X, sea), False
     for b in range(COUNT):
         if lane_of(needed, b):
+            taken = True
             depth, ramp = lane_of(p.depth, b), lane_of(p.ramp, b)
             own, places, into = in_lane(tables, b), in_lane(X, b), in_lane(sea, b)
             take_series(own, p.sea_at, p.sea_n, p.above == WHEELER, depth, ramp, lane_of(t, b), places, into)
-    put_heights(p, t, X, sea)
+    if taken:
+        put_heights(p, t, X, sea)
     _add_series(p, t, X, F, sea)
 
 
@@ -259,8 +257,8 @@ def _add_series(p, t, X, F, sea):
     dt = t - sea[n, 0]
     for j in range(n):
         dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
-        upper, upper_rate = series(sea[j], UPPER, dt, dz, dx)[:2]
-        lower, lower_rate = series(sea[j], LOWER, dt, -dz, dx)[:2]
+        upper, upper_rate = series(sea[j], UPPER, dt, (dz, dx))[:2]
+        lower, lower_rate = series(sea[j], LOWER, dt, (-dz, dx))[:2]
         wet = wet_share(p, X[j, 1])
         U, W = wet * (upper[0] + lower[0]), wet * (upper[1] - lower[1])
         F[j, 0] += gain * U
@@ -278,8 +276,8 @@ def sea_slopes(p, t, X, J, sea):
     dt = t - sea[n, 0]
     for j in range(n):
         dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
-        upper, upper_rate = series(sea[j], UPPER, dt, dz, dx)[2:]
-        lower, lower_rate = series(sea[j], LOWER, dt, -dz, dx)[2:]
+        upper, upper_rate = series(sea[j], UPPER, dt, (dz, dx))[2:]
+        lower, lower_rate = series(sea[j], LOWER, dt, (-dz, dx))[2:]
         wet = wet_share(p, X[j, 1])
         full_x, full_z = -wet * (upper[1] + lower[1]), wet * (upper[0] - lower[0])
         U_x, U_z = gain * full_x, gain * full_z
@@ -287,7 +285,7 @@ def sea_slopes(p, t, X, J, sea):
         A_z = gain * (wet * (upper_rate[0] - lower_rate[0])) + gain_rate * full_z
         by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
         if p.above == WHEELER:
-            surface, _, slope, _ = series(sea[j], SURFACE, dt, 0.0, dx)
+            surface, _, slope, _ = series(sea[j], SURFACE, dt, (0.0, dx))
             stretch = stretching(p.depth, gain * surface[0])
             by_x = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * (gain * slope[1])
             by_z = by_z * stretch
