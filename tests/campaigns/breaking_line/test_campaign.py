@@ -59,6 +59,7 @@ def test_no_argument_is_the_papers_study():
     assert nodes == [201, 401, 801, 1601]
 
 
+@pytest.mark.slow
 def test_both_ends_start_at_one_level():
     scene = runs_of("--cases", "1", "--no-companions")[0].scene
     weight_N = 1140.0 * 1.964e-3 * 9.81 * 60.0
@@ -72,6 +73,7 @@ def test_a_law_without_theory_has_no_straight_lines():
     assert {run.labels["kind"] for run in runs} == {"case", "doubled", "stiffness"}
 
 
+@pytest.mark.slow
 def test_rows(tmp_path):
     rows = {row["case"]: row for row in rows_of(made(tmp_path, "1", "4p"))}
     assert list(rows) == ["1", "4p"] and all(row["status"] == "ok" for row in rows.values())

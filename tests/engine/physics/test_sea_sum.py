@@ -151,6 +151,7 @@ def test_two_halves_of_a_wave_are_the_wave(capped, angle):
         assert np.array_equal(single[name], expected[name])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("capped", [{}, CAP | {"output.tangent_vectors": 1}], ids=["whole", "cap and tangent"])
 def test_a_run_in_a_lane_is_the_run_alone_and_goes_on_as_if_it_had_not_stopped(capped):
     scenes = [sea(seed, **capped, **{"waves.jonswap": jonswap(seed)}) for seed in range(3)]
