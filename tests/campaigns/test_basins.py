@@ -130,7 +130,7 @@ def test_a_grid_of_velocity_and_phase_has_every_pair():
 
 @pytest.mark.slow
 def test_the_period_3_at_25_m(tmp_path):
-    """On 41 nodes 16 of 49 kicks on [-6, 6]^2 m/s lead to it, 5623 N; period 1 from rest, 4197 N (161: 5624, 4199 N)."""
+    """On 41 nodes 16 of 49 kicks of up to 6 m/s lead to it, 5623 N; period 1 from rest, 4197 N (161: 5624, 4199 N)."""
     words = ["--set", "water.depth_m=25", "tether.nodes=21", "--grid", "5", "--no-report", "--out", str(tmp_path)]
     assert main(words) == 0
     rest, island = rows_of(tmp_path, "motions/table.csv")
