@@ -38,15 +38,12 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
     assert checked(best, bedded, searched=True)[1] == "an irregular sea."
 
 
-@pytest.mark.parametrize("name", KNOWN)
-def test_what_a_row_knows_was_checked(name):
-    passed, missing = checked(PULLS | KNOWN[name], load_scene("tethered_buoy"))
-    assert name in passed and name not in missing
-
-
-@pytest.mark.parametrize("name", IN_SCENE)
-def test_what_a_scene_has_was_checked(name):
-    passed, missing = checked(PULLS, load_scene("tethered_buoy", IN_SCENE[name]))
+@pytest.mark.parametrize(
+    ("name", "row", "changes"),
+    [*((name, row, {}) for name, row in KNOWN.items()), *((name, {}, changes) for name, changes in IN_SCENE.items())],
+)
+def test_what_a_row_knows_or_a_scene_has_was_checked(name, row, changes):
+    passed, missing = checked(PULLS | row, load_scene("tethered_buoy", changes))
     assert name in passed and name not in missing
 
 
