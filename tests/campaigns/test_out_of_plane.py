@@ -39,15 +39,6 @@ def test_everything_the_question_needs_is_run_once():
     order = out_of_plane.read_order([], faults := [])
     scenes = {out_of_plane.variant(case.labels): case.scene for case in order.cases}
     assert faults == [] and len({scene.key() for scene in scenes.values()}) == len(order.cases)
-    varied = {
-        "steepness": {0.016, 0.13},
-        "depth_m": {21.0, 21.6, 22.0, 22.5, 25.0},
-        "bending_stiffness_Nm2": {0.1, 0.4, 4.0},
-        "nodes": {41, 81, 161},
-        "seed_direction": {*DIRECTIONS, ""},
-    }
-    assert {name: {getattr(run, name) for run in scenes} for name in varied} == varied
-    assert {run.seed_mps for run in scenes} >= {1e-3, 1e-5, 1e-10}
     planar = [run for run in scenes if run.dimensions == 2]
     assert len(planar) == 10 and all(scenes[run].output.lateral_growth for run in planar)
     compared = [run for run in scenes if out_of_plane.compared(run, out_of_plane.base_of(order))]

@@ -88,17 +88,6 @@ def test_runs_that_fail_are_cells_with_their_reason(tmp_path, unscreened):
     assert {(row["regime"], row["verdict"]) for row in rows} == {("period-1", "cheap"), ("", "")}
 
 
-def test_the_same_command_computes_nothing_again_but_what_is_damaged(tmp_path, unscreened, capsys):
-    engine = FakeEngine(log=str(tmp_path / "log"))
-    for count in ("6 computed, 0 found", "0 computed, 6 found", "1 computed, 5 found"):
-        ran(regime_map, tmp_path / "out", *VARY, simulate=engine)
-        assert f": {count}" in capsys.readouterr().out
-        path, *_ = (tmp_path / "out" / "trajectories").glob("*.nc")
-        if count.startswith("0"):
-            path.write_bytes(b"CDF")
-    assert len(engine.begun()) == 7
-
-
 def test_a_cell_has_the_largest_exponent_and_tension_of_its_motions():
     exponents, tensions_N = (0.02, None, 0.31, -0.4), (4.0, 9.0, 2.0, 7.0)
     motions = [SimpleNamespace(number=number, kicks=number) for number in range(4)]

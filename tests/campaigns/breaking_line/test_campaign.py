@@ -49,14 +49,8 @@ def test_no_argument_is_the_papers_study():
         assert (run.scene.end.force_decay_s, run.scene.end.force_N[0]) == (0.05 if "p" in case else 0.005, force_N)
         assert run.duration_s == LENGTHS_S[case[0]] and run.scene.water is None
     assert len({run.scene.key() for run in runs}) == len(runs)
-    nodes = {run.labels["case"]: run.scene.tether.nodes for run in of_kind(runs, "doubled")}
-    assert nodes == dict.fromkeys(CASES, 2 * 1201 - 1)
-    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in of_kind(runs, "stiffness", "case")}
-    assert stiff == {10.0, 24.0, 100.0}
     assert {run.labels["case"] for run in of_kind(runs, "straight")} == {"3", "4", "4p"}  # where a shock forms
     assert all(run.scene.gravity_mps2 == 0.0 for run in of_kind(runs, "straight", "series"))
-    nodes = [run.scene.tether.nodes for run in of_kind(runs, "series") if run.labels["case"] == "4"]
-    assert nodes == [201, 401, 801, 1601]
 
 
 @pytest.mark.slow
