@@ -94,7 +94,11 @@ def test_a_mixed_batch(first):
     assert_alone(scenes, simulate_batch(scenes, duration_s=57.0), duration_s=57.0)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+IN_THE_SURFACE = "in and out of the water", "the same, wheeler"  # their machine code takes long
+NAMES = [pytest.param(name, marks=[pytest.mark.slow] * (name in IN_THE_SURFACE)) for name in KINDS]
+
+
+@pytest.mark.parametrize("kind", NAMES)
 def test_a_lane_is_the_run_alone(kind):
     """With samples at times of their own; that of the shipped scene over its first loops (t = 53 s)."""
     duration_s = 63.3 if kind == "the shipped scene" else 21.3
