@@ -1,4 +1,4 @@
-"""The answer of a sweep says, word by word, what the rows of its tables say, and is short whatever was run."""
+"""The answer of a sweep has the numbers of the rows of its tables, and is short whatever was run."""
 
 import numpy as np
 import pytest
