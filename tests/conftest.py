@@ -1,7 +1,13 @@
 """Where all tests run in several processes, each compiles other kernels, because side by side they would compile the
-same ones; and each begins with some of the longest tests."""
+same ones; and each begins with some of the longest tests. Linear algebra has one thread in each, because threads that
+wait for a core of another process would take ten times the time."""
+
+import os
 
 import pytest
+
+for library in ("OPENBLAS", "MKL", "OMP"):  # read when NumPy is loaded, and by processes that tests start
+    os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
 MANY = 1000  # tests, from which nearly every kernel is needed
 SCENES = (  # what most tests need: changes of the tethered buoy, and as of `engine.run.pieces.shares_of`

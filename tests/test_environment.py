@@ -23,7 +23,6 @@ def python(*words, **environment):
     return subprocess.run([sys.executable, *words], capture_output=True, env=variables, cwd=ROOT)
 
 
-@pytest.mark.parametrize("letters", ["latin-1", "ascii"])
 @pytest.mark.parametrize(
     "command",
     [
@@ -35,8 +34,8 @@ def python(*words, **environment):
     ],
     ids=lambda command: command[0],
 )
-def test_a_refusal_is_printed_whatever_letters_it_holds(command, letters):
-    process = python("-m", *command, PYTHONIOENCODING=letters)
+def test_a_refusal_is_printed_whatever_letters_it_holds(command):
+    process = python("-m", *command, PYTHONIOENCODING="ascii")
     assert process.returncode == 2 and b"Traceback" not in process.stderr
     assert ODD[-1].encode("ascii", "backslashreplace") in process.stderr
 

@@ -92,7 +92,11 @@ def test_each_example_prints_what_its_page_shows(name, capsys):
     compare(capsys.readouterr().out, shown[1])
 
 
-@pytest.mark.parametrize("name", list_scenes())
+NEEDS_VISCOSITY = "breaking_line"  # and machine code of its own
+SCENES = [pytest.param(name, marks=[pytest.mark.slow] * (name == NEEDS_VISCOSITY)) for name in list_scenes()]
+
+
+@pytest.mark.parametrize("name", SCENES)
 def test_every_shipped_scene_runs_as_it_is(name):
     scene = load_scene(name)
     run = simulate(scene, duration_s=20 * scene.sample_step_s())

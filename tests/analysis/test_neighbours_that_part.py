@@ -40,10 +40,10 @@ def test_a_torus_has_exponent_zero(name, samples, noise, bound):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", TRUTH)
+@pytest.mark.parametrize("name", ["lorenz", "ueda", "pendulum", "henon", "two_tone"])
 def test_noise_of_one_per_cent_costs_a_fifth_and_the_truth_lies_within_two_errors_in_nine_of_ten(name):
     """10 seeds of noise on the same motion."""
-    result = [wolf_lyapunov(*record(name, noise=0.01, seed=seed)) for seed in range(10)]
+    result = [wolf_lyapunov(*record(name, 10_000, noise=0.01, seed=seed)) for seed in range(10)]
     assert result[0].value == pytest.approx(TRUTH[name], rel=0.2, abs=3e-3)
     assert sum(abs(item.value - TRUTH[name]) < 2.0 * item.error for item in result) >= 9
 

@@ -103,7 +103,7 @@ def test_a_linear_process_beats_its_nulls_about_once_in_twenty():
     """400 records; 5 % of them, within three standard deviations of that count (20 +- 13), through an instrument."""
     rng, above = np.random.default_rng(7), 0
     for _ in range(400):
-        x = np.exp(lfilter([1.0], [1.0, -1.2, 0.8], rng.normal(size=250))[50:])
+        x = np.exp(lfilter([1.0], [1.0, -1.2, 0.8], rng.normal(size=170))[50:])
         scores = normal_scores(x)
         drawn = [prediction_gain(surrogate).gain for surrogate in iaaft_surrogates(scores, 19, rng.integers(1 << 30))]
         above += rank_among(prediction_gain(scores).gain, drawn).above

@@ -40,10 +40,8 @@ SLOW = pytest.mark.slow
             )
         ),
         ("threading", 2, {"raises": FIVE}, "error", "ZeroDivisionError"),
-        pytest.param("loky", 2, {"dies": (0.05,)}, "worker-died", "running alone", marks=SLOW),
         pytest.param("loky", 2, {"dies": (0.02, 0.08)}, "worker-died", "running alone", marks=SLOW),
         pytest.param("loky", 2, {"dies_once": (0.05,)}, "ok", "", marks=SLOW),
-        pytest.param("loky", 1, {"dies": (0.05,)}, "worker-died", "running alone", marks=SLOW),
         pytest.param("dask", 2, {"dies": (0.05,)}, "worker-died", "running alone", marks=SLOW),
     ],
 )

@@ -99,7 +99,7 @@ WORDS = "--vary waves.steepness 0.12 0.13 --orbits 10 --no-accuracy --no-report 
 
 @pytest.mark.slow
 def test_folds_of_the_cable_at_a_tenth_of_the_tolerance_lie_on_their_curve_within_its_errors(tmp_path):
-    """The period 3 that a kick leads to: its curve, and runs over one key at both ends of the curve."""
+    """The period 3 that a kick leads to: its curve, and runs over one key on it and at its end."""
     start = tmp_path / "start.nc"
     simulate(load_scene("tethered_buoy", ISLAND), periods=100).save(start)
 
@@ -110,12 +110,11 @@ def test_folds_of_the_cable_at_a_tenth_of_the_tolerance_lie_on_their_curve_withi
         assert event["period"] == "3"
         return float(event["waves.steepness"])
 
-    on_one_key = fold("curve", "water.depth_m=25", "--curves", "water.depth_m", "24.99", "25.06")
+    on_one_key = fold("curve", "water.depth_m=25", "--curves", "water.depth_m", "24.99", "25.02")
     rows = [row for row in rows_of(tmp_path / "curve", "curves/table.csv") if not row["special"]]
     columns = [[float(row[name]) for row in rows] for name in ("water.depth_m", "waves.steepness", "error_1")]
     depths, steepness, errors = np.array(columns)[:, np.argsort(columns[0])]
-    assert (depths[0], depths[-1]) == (24.99, 25.06)
+    assert (depths[0], depths[-1]) == (24.99, 25.02)
     assert np.interp(25.0, depths, steepness) == pytest.approx(on_one_key, abs=2e-4)
-    for end in (0, -1):
-        sharp = fold(f"sharp {end}", f"water.depth_m={depths[end]}", "solver.rtol=1e-4")
-        assert abs(steepness[end] - sharp) <= errors[end]
+    sharp = fold("sharp", f"water.depth_m={depths[-1]}", "solver.rtol=1e-4")
+    assert abs(steepness[-1] - sharp) <= errors[-1]

@@ -75,13 +75,19 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
     assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py
 
 
-@pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])
-def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(regime, periods, monkeypatch):
-    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1, "waves.ramp_s": 25.0}), 90)
+def companion_of(run, regime, monkeypatch):
+    """The last state of a run, and what follows it."""
     state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
     monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
     row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 90.0}
-    job = errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row).job
+    return state, errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row)
+
+
+@pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])
+def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(regime, periods, monkeypatch):
+    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1, "waves.ramp_s": 25.0}), 90)
+    state, companion = companion_of(run, regime, monkeypatch)
+    job = companion.job
     assert job.scene.tether.nodes - 1 == 2 * (run.scene.tether.nodes - 1)
     assert job.scene.solver.rtol == pytest.approx(run.scene.solver.rtol / 4.0)
     assert job.scene.waves.ramp_s == 0.0, "the waves of its last state have grown"
@@ -99,10 +105,7 @@ def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_toleran
 )
 def test_the_companion_of_a_run_in_a_plane_needs_no_lanes(changes, followed, monkeypatch):
     run = sines(load_scene("tethered_buoy", changes), 90)
-    state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
-    monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
-    row = {"run_key": "of the run", "regime": "chaotic", "transient_periods": 30, "periods": 90.0}
-    companion = errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row)
+    _, companion = companion_of(run, "chaotic", monkeypatch)
     assert (companion is not None) == followed
 
 

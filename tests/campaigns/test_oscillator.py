@@ -41,6 +41,7 @@ def test_what_is_there_is_found_and_a_damaged_part_is_computed_again_with_the_sa
     assert {**rows(out)["orbits"], "wall_s": ""} == {**row, "wall_s": ""}
 
 
+@pytest.mark.slow
 def test_parts_beside_each_other_give_the_same_numbers(out, tmp_path):
     assert oscillator.main([*QUICK, "--jobs", "1", "--out", str(tmp_path / "alone")]) == 0
     alone = rows(tmp_path / "alone")

@@ -39,15 +39,6 @@ def test_everything_the_question_needs_is_run_once():
     order = out_of_plane.read_order([], faults := [])
     scenes = {out_of_plane.variant(case.labels): case.scene for case in order.cases}
     assert faults == [] and len({scene.key() for scene in scenes.values()}) == len(order.cases)
-    varied = {
-        "steepness": {0.016, 0.13},
-        "depth_m": {21.0, 21.6, 22.0, 22.5, 25.0},
-        "bending_stiffness_Nm2": {0.1, 0.4, 4.0},
-        "nodes": {41, 81, 161},
-        "seed_direction": {*DIRECTIONS, ""},
-    }
-    assert {name: {getattr(run, name) for run in scenes} for name in varied} == varied
-    assert {run.seed_mps for run in scenes} >= {1e-3, 1e-5, 1e-10}
     planar = [run for run in scenes if run.dimensions == 2]
     assert len(planar) == 10 and all(scenes[run].output.lateral_growth for run in planar)
     compared = [run for run in scenes if out_of_plane.compared(run, out_of_plane.base_of(order))]
@@ -208,10 +199,10 @@ def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(failing, figures,
 
 @pytest.mark.slow
 def test_the_campaign_on_the_engine_itself(tmp_path):
-    """Twenty periods of every run, half of them after the first loop in the plane: no loop is released in three
-    dimensions, and a mirrored push mirrors the motion."""
+    """Past the first loop in the plane, after 11 periods: no loop is released in three dimensions, and a mirrored push
+    mirrors the motion."""
     out = tmp_path / "out"
-    assert out_of_plane.main(["--periods", "20", "--transient", "4", "--out", str(out)]) == 0
+    assert out_of_plane.main(["--periods", "14", "--transient", "4", "--out", str(out)]) == 0
     study = read_study(out)
     assert all(run.ok for run in study.runs) and not any(run["loop_releases"] for run in study.runs if run.pushed)
     assert study.select(seed_direction="along")[0]["rope_lateral_max_m"] == 0.0

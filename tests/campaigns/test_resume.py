@@ -9,7 +9,6 @@ import platform
 import socket
 import subprocess
 
-import numpy
 import pytest
 
 from campaigns import buoy_sweep
@@ -200,7 +199,6 @@ def test_what_is_recorded(sweep):
     assert provenance["campaign"] == "buoy_sweep"
     assert provenance["command"][:4] == ["python", "-m", "campaigns.buoy_sweep", "--steepness"]
     assert provenance["versions"]["python"] == platform.python_version()
-    assert provenance["versions"]["numpy"] == numpy.__version__
     assert provenance["git"] == session.git_state(ROOT / "campaigns")
     assert provenance["host"] == socket.gethostname()
     assert provenance["engine_source_hash"] == source_hash()
@@ -208,7 +206,6 @@ def test_what_is_recorded(sweep):
     assert provenance["set"] == {"water.depth_m": 22.5}
     assert provenance["runs"] == {"total": 2, "found": 0, "computed": 2, "failed": 1}
     assert set(provenance["timing"]) >= {"compile_s", "run_s", "analysis_s"}
-    assert all(seconds >= 0.0 for seconds in provenance["timing"].values())
     assert provenance["started_utc"] <= provenance["finished_utc"]
 
 

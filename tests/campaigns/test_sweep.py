@@ -18,6 +18,7 @@ from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from campaigns.sweep import read_order
 from engine import Trajectory, load_scene, simulate
+from reports import build
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
@@ -80,7 +81,7 @@ def test_in_a_sea_rows_have_statistics_in_place_of_regimes(second, tmp_path):
     answer = (tmp_path / "answer.txt").read_text()
     words = [text.split()[0] for text in answer.splitlines() if text[:1].isupper()]
     assert words == ["SEA", "LOAD", "TENSION", "SNAPS", "OPEN"]
-    built_twice(tmp_path)
+    build(tmp_path)
 
 
 @pytest.mark.parametrize(

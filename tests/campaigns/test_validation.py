@@ -19,16 +19,6 @@ from reports.parts.folder import FolderError
 from reports.validation.report import read_study
 from tests.campaigns.conftest import rows_of
 
-
-@pytest.mark.parametrize("gravity_mps2", [3.7, 9.81])
-def test_the_ends_of_a_catenary_carry_its_weight_in_any_gravity(gravity_mps2):
-    scene = load_scene("hanging_line", {"gravity_mps2": gravity_mps2, "tether.tension.stiffness_N": 100.0})
-    line, tether = catenary(scene), scene.tether
-    weight_N = tether.density_kgpm3 * tether.area_m2 * tether.length_m * gravity_mps2
-    vertical = [math.sqrt(line.tension(s) ** 2 - line.H**2) for s in (0.0, tether.length_m)]
-    assert vertical[1] + math.copysign(vertical[0], -line.V) == pytest.approx(weight_N, rel=1e-9)
-
-
 TAUT = Catenary(H=400.0, V=0.0, w=1e-7, EA=1e4, m=0.5, length=10.0)
 PERIOD_S = 2.5
 BARRED = Case("x", "a case", "peer", "a source", bars={"rms": (1.0, "N")})
@@ -46,13 +36,16 @@ def test_a_weightless_catenary_is_a_string_and_a_bar():
     assert TAUT.place(np.array([10.0]))[:, 0] == pytest.approx([10.4, 0.0], abs=1e-6)
 
 
+@pytest.mark.parametrize("gravity_mps2", [3.7, 9.81])
 @pytest.mark.parametrize("end", [[14.0, 0.0, 0.0], [12.0, 0.0, 10.0], [22.0, 0.0, -5.0]])
-def test_a_catenary_ends_where_the_line_is_held_and_carries_its_weight(end):
-    line = catenary(load_scene("hanging_line", {"end.position_m": end, "tether.tension.stiffness_N": 100.0}))
-    assert line.place(np.array([0.0, line.length])).T == pytest.approx(
-        np.array([[0.0, 0.0], [end[0], end[2]]]), abs=1e-8
-    )
-    assert line.w * line.length == pytest.approx(1140.0 * 7.85e-5 * 9.81 * 20.0)
+def test_a_catenary_ends_where_the_line_is_held_and_its_ends_carry_its_weight(end, gravity_mps2):
+    changes = {"end.position_m": end, "gravity_mps2": gravity_mps2, "tether.tension.stiffness_N": 100.0}
+    line = catenary(load_scene("hanging_line", changes))
+    places = line.place(np.array([0.0, line.length]))
+    assert places.T == pytest.approx(np.array([[0.0, 0.0], [end[0], end[2]]]), abs=1e-8)
+    assert line.w * line.length == pytest.approx(1140.0 * 7.85e-5 * gravity_mps2 * 20.0)
+    below, above = (math.sqrt(line.tension(s) ** 2 - line.H**2) for s in (0.0, line.length))
+    assert above + math.copysign(below, -line.V) == pytest.approx(line.w * line.length, rel=1e-9)
 
 
 def test_a_shift_in_time_is_found_and_leaves_nothing_over():

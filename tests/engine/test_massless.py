@@ -95,10 +95,9 @@ def compared(submergence, count):
     return scene, starts, np.array([Reference(scene).state_after(start, 50.0) for start in starts])
 
 
-@pytest.mark.parametrize(("submergence", "count", "steps"), [("full", 4, 160), ("spherical-cap", 2, 960)])
-def test_ten_periods_follow_the_equations_of_motion(submergence, count, steps):
-    scene, starts, expected = compared(submergence, count)
-    result = massless_runs(scene, starts, 10, steps)
+def test_ten_periods_of_a_cap_follow_the_equations_of_motion():
+    scene, starts, expected = compared("spherical-cap", 2)
+    result = massless_runs(scene, starts, 10, 960)
     assert (result.measures[:, :, 0].min(1) < scene.tether.length_m).all()  # slack, and taut again
     assert np.abs(result.strobed[:, -1] - expected).max() < 1e-6
 
@@ -122,7 +121,7 @@ def test_a_stiff_line_has_as_many_steps_as_its_own_period_asks_for():
 def test_order_four_through_slack_and_taut():
     scene, starts, expected = compared("full", 4)
     errors = [np.abs(massless_runs(scene, starts, 10, n).strobed[:, -1] - expected).sum() for n in (60, 120, 240)]
-    assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx(4.0, abs=0.2)
+    assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx(4.0, abs=0.2) and errors[-1] < 1e-6
 
 
 def test_range_of_a_period_is_that_of_its_whole_course():

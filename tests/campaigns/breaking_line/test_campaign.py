@@ -1,15 +1,14 @@
 """The campaign of the breaking line: what it runs, what a row says, what a failure does; its report."""
 
 import re
-import shutil
 from dataclasses import replace
 
-import pandas
 import pytest
 
 from campaigns import breaking_line
 from campaigns.breaking_line import CASES, LENGTHS_S
 from engine import load_scene, simulate
+from reports import build
 from tests.campaigns.conftest import built_twice, ran, rows_of
 
 
@@ -50,16 +49,11 @@ def test_no_argument_is_the_papers_study():
         assert (run.scene.end.force_decay_s, run.scene.end.force_N[0]) == (0.05 if "p" in case else 0.005, force_N)
         assert run.duration_s == LENGTHS_S[case[0]] and run.scene.water is None
     assert len({run.scene.key() for run in runs}) == len(runs)
-    nodes = {run.labels["case"]: run.scene.tether.nodes for run in of_kind(runs, "doubled")}
-    assert nodes == dict.fromkeys(CASES, 2 * 1201 - 1)
-    stiff = {run.scene.tether.bending_stiffness_Nm2 for run in of_kind(runs, "stiffness", "case")}
-    assert stiff == {10.0, 24.0, 100.0}
     assert {run.labels["case"] for run in of_kind(runs, "straight")} == {"3", "4", "4p"}  # where a shock forms
     assert all(run.scene.gravity_mps2 == 0.0 for run in of_kind(runs, "straight", "series"))
-    nodes = [run.scene.tether.nodes for run in of_kind(runs, "series") if run.labels["case"] == "4"]
-    assert nodes == [201, 401, 801, 1601]
 
 
+@pytest.mark.slow
 def test_both_ends_start_at_one_level():
     scene = runs_of("--cases", "1", "--no-companions")[0].scene
     weight_N = 1140.0 * 1.964e-3 * 9.81 * 60.0
@@ -73,6 +67,7 @@ def test_a_law_without_theory_has_no_straight_lines():
     assert {run.labels["kind"] for run in runs} == {"case", "doubled", "stiffness"}
 
 
+@pytest.mark.slow
 def test_rows(tmp_path):
     rows = {row["case"]: row for row in rows_of(made(tmp_path, "1", "4p"))}
     assert list(rows) == ["1", "4p"] and all(row["status"] == "ok" for row in rows.values())
@@ -114,13 +109,15 @@ def study(tmp_path_factory):
 
 def text_of(folder):
     """The words of its report."""
-    page, pdf = built_twice(folder)
-    assert not re.search(rb"(?:src|href)=\"https?:", page) and pdf[:4] == b"%PDF"
-    return " ".join(re.sub(r"<[^>]+>", " ", re.sub(r"base64,[A-Za-z0-9+/=]+", "", page.decode())).split())
+    page, _ = build(folder)
+    without_pictures = re.sub(r"base64,[A-Za-z0-9+/=]+", "", page.read_text(encoding="utf-8"))
+    return " ".join(re.sub(r"<[^>]+>", " ", without_pictures).split())
 
 
 @pytest.mark.slow
 def test_the_papers_figures_its_statements_and_the_animation_are_there(study):
+    page, pdf = built_twice(study)
+    assert not re.search(rb"(?:src|href)=\"https?:", page) and pdf[:4] == b"%PDF"
     text = text_of(study)
     assert all(f"fig. {figure} of the paper" in text for figure in range(2, 8)) and "Fronts and shocks" in text
     judged = {row["statement"]: row["verdict"] for row in rows_of(study, "statements.csv")}
@@ -128,18 +125,6 @@ def test_the_papers_figures_its_statements_and_the_animation_are_there(study):
     assert judged["The maximum speed does not depend on the fracture time."] == "holds"
     assert judged["In slow breaks the kinetic energy is more uniformly distributed."] == "does not hold"
     assert (study / "report.html").read_text(encoding="utf-8").count("data:image/gif") == 1
-
-
-@pytest.mark.slow
-def test_what_limits_the_runs_is_said(study, tmp_path):
-    copy = shutil.copytree(study, tmp_path / "copy")
-    rows = {row["case"]: row for row in rows_of(copy)}
-    (copy / "trajectories" / f"{rows['4']['run_key']}.nc").unlink()
-    rows["1"]["max_turn_rad"], rows["4"]["remainder_largest_J"] = "1.5", "1e5"
-    pandas.DataFrame(rows.values()).to_csv(copy / "table.csv", index=False)
-    text = text_of(copy)
-    assert f"its file {rows['4']['run_key']}.nc is missing" in text and "(b) case 4" not in text
-    assert "Case 1, 101 nodes turns by 1.50 rad" in text and "budget of case 4 does not close" in text
 
 
 @pytest.mark.slow

@@ -19,7 +19,7 @@ from campaigns.breaking_line import LENGTHS_S, read_order
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
-from tests.engine.physics.test_shock_capturing import CASES, broken, theory
+from tests.engine.physics.test_shock_capturing import CASES, theory
 
 LENGTH = 60.0
 FURTHER = [case for case in CASES if case != "4"]
@@ -143,50 +143,3 @@ def test_the_fracture_time_changes_the_kinetic_energy_and_not_the_speed():
         assert slow.stored_J == pytest.approx(fast.stored_J, rel=1e-9)
         assert slow.end_work_J[-1] == pytest.approx(10 * fast.end_work_J[-1], rel=0.02)  # proportional to t_br
         assert slow.kinetic_J.max() < 0.92 * fast.kinetic_J.max()
-
-
-@pytest.mark.slow
-def test_only_in_case_4_a_good_part_passes_the_fixed_end():
-    leftmost_m = {case: measures.recoil(run_of(case).profiles, 0.12)["x_min_m"] for case in CASES}
-    assert leftmost_m["4"] < -0.5
-    assert all(-0.25 < x <= 1e-9 for case, x in leftmost_m.items() if case != "4")
-
-
-@pytest.mark.slow
-def test_gravity_and_bending_hardly_move_the_shock():
-    exact = theory("4")
-    run = simulate(scene_of("4", **{"tether.nodes": 601}), duration_s=0.058)
-    times, places, exact_places = measures.shock_track(run.profiles, exact)
-    assert len(times) > 40 and np.abs(places - exact_places).max() < 0.05
-    _, bare, exact_bare = measures.shock_track(broken("4", 401).profiles, exact)
-    assert abs(np.mean(places - exact_places) - np.mean(bare - exact_bare)) < 0.05
-
-
-@pytest.mark.slow
-def test_three_dimensions_give_the_planar_break():
-    """They solve the same equations in other unknowns; folds magnify what rounding leaves."""
-    scenes = [scene_of("4", **{"tether.nodes": 401, "motion.dimensions": d}) for d in (2, 3)]
-    plane, space = (simulate(scene, duration_s=0.11) for scene in scenes)
-    assert plane.status == space.status == "ok"
-    assert plane.statistics["steps"] == space.statistics["steps"]
-    assert not space.profiles.y_m.any()
-    distance = np.hypot(plane.profiles.x_m - space.profiles.x_m, plane.profiles.z_m - space.profiles.z_m)
-    assert plane.profiles.x_m.min() < -0.1 and distance.max() < 1e-5
-    tension = plane.profiles.tension_N
-    assert np.abs(tension - space.profiles.tension_N).max() < 1e-5 * tension.max()
-    for name in ("kinetic_J", "strain_J", "end_work_J", "viscous_J", "bending_J"):
-        planar, spatial = getattr(plane.energy, name), getattr(space.energy, name)
-        assert np.abs(planar - spatial).max() < 1e-6 * plane.energy.stored_J
-
-
-@pytest.mark.slow
-def test_what_is_quoted_does_not_hang_on_the_grid():
-    """Case 4 on half and on all of the elements: speeds, recoil, energies; the folds to a few centimetres."""
-    runs = [simulate(scene_of("4", **{"tether.nodes": 601}), duration_s=0.12), run_of("4")]
-    coarse, fine = (measures.recoil(run.profiles, 0.12) for run in runs)
-    assert coarse["recoil_m"] == pytest.approx(fine["recoil_m"], rel=1e-3)
-    assert coarse["vertical_beyond_m"] == pytest.approx(fine["vertical_beyond_m"], rel=0.01)
-    assert coarse["x_min_m"] == pytest.approx(fine["x_min_m"], abs=0.05)
-    for name in ("kinetic_J", "end_work_J", "viscous_J"):
-        values = [getattr(run.energy, name)[-1] for run in runs]
-        assert values[0] == pytest.approx(values[1], abs=0.003 * runs[0].energy.stored_J)

@@ -1,6 +1,10 @@
 """The campaign of the whole paper: its parts are run once, found again, and what stops one stops all."""
 
 import json
+import os
+import shutil
+import subprocess
+import sys
 from itertools import product
 from pathlib import Path
 
@@ -10,8 +14,10 @@ from campaigns import paper
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Summary
 from campaigns.paper import dependence, parts, results
+from campaigns.paper.figures import FIGURES, place_of
 from engine import load_scene
-from tests.campaigns.conftest import rows_of
+from reports.paper.figures import figures_of, left_out, pictures
+from tests.campaigns.conftest import ROOT, rows_of
 
 
 @pytest.fixture
@@ -117,15 +123,33 @@ def test_the_study_varies_one_thing_at_a_time_from_the_shipped_scene():
     assert len(set(all_variants)) == len(all_variants)
 
 
+def assert_drawn_alike_elsewhere(out, elsewhere):
+    """Figures are drawn from their files alone, by another process, with the same bytes."""
+    shutil.copytree(place_of(out), place_of(elsewhere))
+    code = (
+        "import sys\nfrom pathlib import Path\nfrom reports.paper.figures import pictures\n"
+        "for path, content in pictures(Path(sys.argv[1])).items():\n    path.write_bytes(content)\n"
+    )
+    environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
+    subprocess.run([sys.executable, "-c", code, str(elsewhere)], cwd=ROOT, env=environment, check=True)
+    drawn = pictures(out)
+    assert len(drawn) == 2 * len(FIGURES)
+    for path, content in drawn.items():
+        assert (place_of(elsewhere) / path.name).read_bytes() == content
+        assert len(content) < 500_000
+
+
 @pytest.mark.slow
 def test_a_quick_look_at_everything(tmp_path, capsys):
     out = tmp_path / "out"
     words = ["--quick", "--jobs", "2", "--out", str(out)]
     assert paper.main(words) == 0
     assert {row["status"] for row in rows(out).values()} == {"ok"} and list(rows(out)) == list(paper.PARTS)
+    heads = {number: figure.caption.partition(" of the paper")[0] for number, figure in figures_of(out).items()}
+    assert heads == {number: f"Fig. {number}" for number in FIGURES} and left_out(out) == {}
     page = (out / "report.html").read_text(encoding="utf-8")
-    assert all(f"Fig. {number} of the paper" in page for number in (*range(2, 8), *range(9, 21)))
-    assert "Misprints" in page and "eq. (33)" in page and "nothing is to be concluded" in page
+    assert all(f"{head} of the paper" in page for head in heads.values())
+    assert_drawn_alike_elsewhere(out, tmp_path / "elsewhere")
     verdicts = {row["statement"]: row["verdict"] for row in rows_of(out, "statements.csv")}
     assert verdicts["The maximum speed does not depend on the fracture time."] == "holds"
     assert verdicts["At high tension the front runs at about 500 m/s."] == "does not hold"

@@ -4,10 +4,7 @@ is measured of a snapping run and of a slack rope, and what the scene alone says
 
 import json
 import math
-import os
 import shutil
-import subprocess
-import sys
 from types import SimpleNamespace
 
 import numpy as np
@@ -22,8 +19,7 @@ from engine.natural_frequencies import natural_frequencies
 from reports.paper.figures import figures_of, left_out, pictures
 from reports.paper.figures.drawing import sources_of
 from reports.parts.folder import read_arrays
-from tests.campaigns.conftest import ROOT, rows_of
-from tests.campaigns.fake_engine import SpaceEngine
+from tests.campaigns.conftest import rows_of
 from tests.reports.conftest import campaign
 
 OF_BUOY = {9, 10, 11, 12, 13, 15, 16, 17, 18}
@@ -135,46 +131,6 @@ def test_the_spectrum_of_a_sine_is_half_its_amplitude_over_the_static_radius(roo
     assert data["radial_amplitude"][at_wave] == pytest.approx(
         0.5 * amplitude_m / float(data["static_radius_m"]), rel=1e-3
     )
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """Every part, short and coarse, made by its own campaign; the one in space by an engine of known answer."""
-    from campaigns import breaking_line, buoy_sweep, oscillator, out_of_plane
-
-    folder = tmp_path_factory.mktemp("paper") / "whole"
-    usual = ["--backend", "threading", "--jobs", "2", "--no-report"]
-    two = ["--steepness", "0.016", "0.13", "--periods", "260", "--transient", "20", "--no-accuracy"]
-    space = ["--periods", "80", "--transient", "10"]
-    parts = {
-        "buoy": (buoy_sweep, [*two, *usual], {}),
-        "breaking_line": (breaking_line, ["--no-companions", "--set", "tether.nodes=101", *usual], {}),
-        "oscillator": (oscillator, ["--effort", "0.01", "--no-report"], {}),
-        "out_of_plane": (out_of_plane, [*space, *usual], {"simulate": SpaceEngine()}),
-    }
-    for name, (module, words, how) in parts.items():
-        assert module.main([*words, "--out", str(folder / name)], **how) == 0
-    assert write_figure_data(folder) == {}
-    return folder
-
-
-@pytest.mark.slow
-def test_all_figures_are_drawn_alike_by_another_process_from_their_files_alone(whole, tmp_path):
-    heads = {number: figure.caption.partition(" of the paper")[0] for number, figure in figures_of(whole).items()}
-    assert heads == {number: f"Fig. {number}" for number in FIGURES} and left_out(whole) == {}
-    elsewhere = tmp_path / "elsewhere"
-    shutil.copytree(place_of(whole), place_of(elsewhere))
-    code = (
-        "import sys\nfrom pathlib import Path\nfrom reports.paper.figures import pictures\n"
-        "for path, content in pictures(Path(sys.argv[1])).items():\n    path.write_bytes(content)\n"
-    )
-    environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
-    subprocess.run([sys.executable, "-c", code, str(elsewhere)], cwd=ROOT, env=environment, check=True)
-    drawn = pictures(whole)
-    assert len(drawn) == 2 * len(FIGURES)
-    for path, content in drawn.items():
-        assert (place_of(elsewhere) / path.name).read_bytes() == content
-        assert len(content) < 500_000
 
 
 PEAK, STATIC_N = 4.0, 2000.0  # of the static tension

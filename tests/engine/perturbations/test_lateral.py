@@ -98,7 +98,6 @@ IN_THE_SURFACE = CAP | {"water.depth_m": 20.9, "tether.submergence": "free-surfa
 BED = {"stiffness_Npm3": 1.0, "damping_Nspm3": 2.0, "friction": 0.5, "friction_speed_mps": 0.1}
 RUNS = {
     "rising current": (STILL | current(0.6), 10.0),
-    "sinking current": (STILL | current(-0.4), 10.0),
     "bounce in water": (STILL | bounce(0.8), 20.0),
     "hanging dry, bouncing": (DRY | bounce(2.0), 10.0),
     "held in a current": (STILL | current(0.5) | held(0.0, 21.0), 5.0),
@@ -106,7 +105,6 @@ RUNS = {
     "damped bounce": (STILL | bounce(0.8) | {"tether.damping_Ns": 2e3}, 10.0),
     "bounce in the surface": (STILL | bounce(0.8) | IN_THE_SURFACE, 10.0),
     "hanging in a soft bed, bouncing": (DRY | bounce(2.0) | {"floor": BED}, 10.0),
-    "bounce, trbdf2": (STILL | bounce(0.8) | {"solver.integrator": "trbdf2"}, 10.0),
     "bounce, backward-euler": (STILL | bounce(0.8) | {"solver.integrator": "backward-euler"}, 10.0),
 }
 

@@ -120,14 +120,10 @@ FLYING = STEEP | CAP | {"water.depth_m": 20.0, "tether.submergence": "free-surfa
 SOFT_BED = {"stiffness_Npm3": 1e5, "damping_Nspm3": 1e4, "friction": 0.5, "friction_speed_mps": 0.1}
 ON_THE_BED = TAUT | held(17.0, 6.0) | {"floor": SOFT_BED, "tether.tension.stiffness_N": 5e3}
 RUNS = {  # overrides, duration in s
-    "taut": (TAUT, 15.0),
     "steep, slack and snap": (STEEP, 25.0),
-    "profile": (STEEP | {"current": PROFILE}, 20.0),
     "variable current": (STEEP | {"current": VARIABLE}, 20.0),
     "no waves": (STILL | {"current": PROFILE} | {"start.buoy_velocity_mps": [2.0, 0.0, 0.0]}, 10.0),
     "dry swing": (DRY | {"start.buoy_velocity_mps": [2.0, 0.0, 1.0]}, 20.0),
-    "held": (TAUT | held(8.0, 17.0), 10.0),
-    "free": (TAUT | free(100.0, 900.0), 1.0),
     "tanh": (STEEP | TANH, 20.0),
     "tabulated": (STEEP | TABLE, 20.0),
     "wheeler": (STEEP | {"water.depth_m": 21.0, "waves.above_still_water": "wheeler"}, 20.0),

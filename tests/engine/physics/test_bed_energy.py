@@ -12,6 +12,7 @@ from tests.engine.physics.test_bed import CHAIN, EA, WEIGHT
 STIFF, DAMPING, MU, V_S = 1e5, 4e3, 0.3, 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dimensions", [2, 3])
 def test_the_budget_has_what_the_bed_takes(dimensions):
     across = 1.0 if dimensions == 3 else 0.0

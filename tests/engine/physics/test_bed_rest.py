@@ -28,7 +28,7 @@ def bed(stiffness, critical, friction):
 BEDS = [bed(stiffness, critical, mu) for stiffness in (1e5, 3e9) for critical in (0.0, 1.0) for mu in (0.0, MU)]
 
 
-@pytest.mark.parametrize("dimensions, EI, floor", [*((2, 0.0, floor) for floor in BEDS), (3, 1.0, BEDS[-1])])
+@pytest.mark.parametrize("dimensions, EI, floor", [*((2, 0.0, floor) for floor in BEDS[::3]), (3, 1.0, BEDS[-1])])
 def test_a_line_laid_down_rests(dimensions, EI, floor):
     duration_s = 500.0
     changes = {"floor": floor, "motion.dimensions": dimensions, "tether.tension": linear(EA)}

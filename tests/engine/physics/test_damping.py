@@ -48,6 +48,7 @@ def test_a_mass_on_the_line_rings_as_it_should(dimensions):
     assert ringing(9, {"motion.dimensions": dimensions}) < 1e-7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("space", [{}, SPACE], ids=["plane", "space"])
 def test_the_budget_has_what_the_damping_takes(space):
     budgets = []

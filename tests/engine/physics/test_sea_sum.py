@@ -37,54 +37,41 @@ def plain_sum(scene, t, X):
     return np.stack([part.sum(axis=1) for part in (*velocity, *rates)], axis=1)
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
-@pytest.mark.parametrize("period_s", [1.0, 4.0, 8.0])
-@pytest.mark.parametrize("stretch", [1.0, 9.0])
-def test_the_field_is_the_plain_sum(dimensions, period_s, stretch):
-    """On smooth lines, for the recurrence, and at places far apart, where it is not used."""
-    jonswap = {"significant_height_m": 0.2, "seed": 3, "components": 37}
-    keys = {"waves.above_still_water": "extrapolate", "waves.period_s": period_s, "waves.jonswap": jonswap}
-    scene = sea(0, dimensions, **keys, **({"waves.direction_rad": 0.7} if dimensions == 3 else {}))
-    for t in RNG.uniform(0.0, 2000.0, 5):
-        X = np.column_stack([np.sin(np.linspace(0.0, 2.0 * stretch, 60 + axis)[:60]) for axis in range(dimensions)])
-        X[:, -1] = np.linspace(0.0, DEPTH + 0.2, 60)
-        X[30:] += RNG.normal(size=(30, dimensions)) * (stretch > 1.0)
-        X[:, -1] = np.clip(X[:, -1], 0.0, DEPTH + 0.3)
-        exact = plain_sum(scene, t, X)
-        size = np.abs(exact).max(axis=0)
-        assert np.all(np.abs(waves_at(scene, t, X) - exact) <= 1e-12 * size + 1e-300)
-
-
 def random_sea(number):
-    """One of fifty: JONSWAP or Gaussian, peaks of 4 to 8 s, in a plane or in space."""
+    """One of fifty: JONSWAP or Gaussian, peaks of 1 to 8 s, in a plane or in space."""
     rng = np.random.default_rng(number)
     space = number % 2
-    keys = {"waves.period_s": rng.uniform(4.0, 8.0), "waves.above_still_water": "extrapolate"}
+    keys = {"waves.period_s": rng.uniform(1.0, 8.0), "waves.above_still_water": "extrapolate"}
     if space:
         keys["waves.direction_rad"] = rng.uniform(-3.0, 3.0)
     if number % 4 < 2:
-        jonswap = {"significant_height_m": rng.uniform(0.3, 2.3), "peak_enhancement": rng.uniform(1.0, 7.0)}
-        keys["waves.jonswap"] = jonswap | {"seed": number}
+        jonswap = {"significant_height_m": rng.uniform(0.02, 0.1) * keys["waves.period_s"]}
+        keys["waves.jonswap"] = jonswap | {"peak_enhancement": rng.uniform(1.0, 7.0), "seed": number}
     else:
         keys |= {"waves.jonswap": None, "waves.significant_steepness": rng.uniform(0.02, 0.2), "waves.seed": number}
         keys["waves.relative_width"] = rng.uniform(0.002, 0.2)
     return sea(0, 3 if space else 2, **keys), rng
 
 
-def test_fifty_random_seas_are_the_plain_sum_at_ten_thousand_random_places_and_moments():
-    """Twenty moments of each, with a line of ten nodes at random places; the surface at as many."""
+def random_line(rng, dimensions):
+    """Sixty places: on a smooth line, for the recurrence, and from its middle on at random, where it is not used."""
+    X = np.column_stack([np.sin(np.linspace(0.0, 2.0, 60 + axis)[:60]) for axis in range(dimensions)])
+    X[:, -1] = np.linspace(0.0, DEPTH + 0.2, 60)
+    middle = rng.integers(61)
+    X[middle:] = rng.uniform(-10.0, 10.0, (60 - middle, dimensions))
+    X[middle:, -1] = rng.uniform(0.0, DEPTH + 1.0, 60 - middle)
+    return X
+
+
+def test_fifty_random_seas_are_the_plain_sum_along_random_lines():
+    """Three moments of each, with a line of sixty nodes; the surface at 200 places and moments."""
     for number in range(50):
         scene, rng = random_sea(number)
-        dimensions = scene.motion.dimensions
-        largest = np.zeros(2 * dimensions)
-        errors = np.zeros(2 * dimensions)
-        for t in rng.uniform(0.0, 2000.0, 20):
-            X = rng.uniform(-10.0, 10.0, (10, dimensions))
-            X[:, -1] = rng.uniform(0.0, DEPTH + 1.0, 10)
+        for t in rng.uniform(0.0, 2000.0, 3):
+            X = random_line(rng, scene.motion.dimensions)
             exact = plain_sum(scene, t, X)
-            largest = np.maximum(largest, np.abs(exact).max(axis=0))
-            errors = np.maximum(errors, np.abs(waves_at(scene, t, X) - exact).max(axis=0))
-        assert np.all(errors <= 1e-12 * largest)
+            errors = np.abs(waves_at(scene, t, X) - exact).max(axis=0)
+            assert np.all(errors <= 1e-12 * np.abs(exact).max(axis=0) + 1e-300)
         rows = rows_of(scene).astype(np.longdouble)
         t, x = rng.uniform(0.0, 2000.0, 200), rng.uniform(-10.0, 10.0, 200)
         spatial_phase = rows[:, K] * (np.longdouble(1.0) * x[:, None] * rows[:, COSINE])
@@ -164,6 +151,7 @@ def test_two_halves_of_a_wave_are_the_wave(capped, angle):
         assert np.array_equal(single[name], expected[name])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("capped", [{}, CAP | {"output.tangent_vectors": 1}], ids=["whole", "cap and tangent"])
 def test_a_run_in_a_lane_is_the_run_alone_and_goes_on_as_if_it_had_not_stopped(capped):
     scenes = [sea(seed, **capped, **{"waves.jonswap": jonswap(seed)}) for seed in range(3)]

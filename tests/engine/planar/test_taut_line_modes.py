@@ -21,7 +21,7 @@ import pytest
 from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear
 from tests.engine.modes import box, distance, frequencies, rates
 
-LENGTH, NODES, MASS, EA = 10.0, 31, 0.5, 1e4
+LENGTH, NODES, MASS, EA = 10.0, 21, 0.5, 1e4
 H = LENGTH / (NODES - 1)
 K = np.arange(1, 7) * np.pi / LENGTH
 ALONG_X, UP, LEANING, ASKEW = [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [-0.8, 0.0, 0.6], [0.4, -0.7, 0.3]
@@ -47,7 +47,7 @@ def transverse(k, strain, EI, mass=MASS):
     return np.sqrt(square(k, strain, EI, mass))
 
 
-@pytest.mark.parametrize("strain, EI", [(0.02, 0.0), (0.3, 0.0), (0.0, 2.0), (0.02, 2.0), (0.3, 2.0)])
+@pytest.mark.parametrize("strain, EI", [(0.3, 0.0), (0.0, 2.0), (0.02, 2.0), (0.3, 2.0)])
 @pytest.mark.parametrize(
     "dimensions, direction, water",
     [

@@ -102,6 +102,7 @@ def test_the_rope_rests_as_the_localised_buckle():
     assert axes_of(Y)[0][:, 2].min() == pytest.approx(steepest, abs=0.02) and steepest < -0.2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share, thrown", [(0.998, False), (1.004, True)])
 def test_it_throws_its_loop_over_where_the_localised_buckles_end(share, thrown):
     """Beyond the fold no buckle has so much slack: the loop opens, and the pull falls to a quarter (241 nodes)."""

@@ -183,11 +183,9 @@ SHAKEN = {
 }  # fmt: skip
 ACROSS = {**SHAKEN["end"]["motion"], "amplitude_m": [0.3, 0.6, 0.5]}
 CASES = {  # overrides, run length (s), nodes; the first loop comes at 53 s
-    "moderate, in a plane": ({"waves.steepness": 0.05, "water.depth_m": 22.5}, 20.0, 41),
     "moderate, in space": ({"waves.steepness": 0.05, "water.depth_m": 22.5, **SPACE, **SLANTED, **BLOW}, 20.0, 41),
     "snapping, in a plane": ({"waves.steepness": 0.13, "water.depth_m": 22.5}, 30.0, 41),
     "loops that leave the plane": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 80.0, 41),
-    "moved end, in a plane": (SHAKEN, 8.0, 81),
     "moved end, in space": ({**SHAKEN, **SPACE, "end": {**SHAKEN["end"], "motion": ACROSS}}, 8.0, 81),
 }
 

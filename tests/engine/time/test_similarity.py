@@ -15,7 +15,7 @@ from engine.scene.reference import keys
 from tests.engine.lines import SPACE, STILL, held, line
 from tests.engine.physics.caps import CAP
 
-LENGTH, TIME, MASS = 4.0, 2.0, 32.0  # new numbers over old ones
+LENGTH, TIME, MASS = 4.0, 4.0, 32.0  # new numbers over old ones
 POWERS = {  # of length, time and mass
     "1": (0, 0, 0), "": (0, 0, 0), "rad": (0, 0, 0), "m": (1, 0, 0), "m2": (2, 0, 0), "s": (0, 1, 0), "kg": (0, 0, 1),
     "m/s": (1, -1, 0), "m/s2": (1, -2, 0), "kg/m3": (-3, 0, 1), "N": (1, -2, 1), "N m2": (3, -2, 1),
