@@ -8,7 +8,7 @@ import pytest
 
 from analysis import joins, settled
 from campaigns.basins import edge, main, read_order
-from campaigns.basins.answer import _shock, sentences
+from campaigns.basins.answer import _shock
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.shocks import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
@@ -71,28 +71,6 @@ def test_the_smallest_start_is_told_with_its_way(across, shock, way):
     unit = "m" if "x" in across.split() else "m/s"
     sentence = _shock([row, row | {"size": 2.1}], across.split())
     assert sentence == f"2 {unit} {way} is the smallest that leads to B; on 81 nodes 2.1 {unit} {way}."
-
-
-CALM = {"motion": "A", "status": "ok", "found_by": "rest", "tension_top_max_N": 4000.0, "confirmed": "on 81 nodes"}
-WORST = CALM | {"motion": "B", "found_by": "grid", "tension_top_max_N": 9000.0}
-SHOCK = {"motion": "B", "status": "ok", "size": 2.0, "kick_x_mps": 1.0, "kick_z_mps": 1.0}
-
-
-def answer(worst):
-    starts = [{"motion": letter, "status": "ok"} for letter in "AAB"]
-    starts += [{"motion": "", "status": "ok", "outcome": "unsettled"}, {"motion": "", "status": "newton-failed"}]
-    motions = [motion | {"regime": "period-1", "steepness": 0.13} for motion in (CALM, worst)]
-    parts = {"motions": motions, "shock": [SHOCK | {"nodes": nodes} for nodes in (41, 81)], "edge": []}
-    return "\n".join(sentences(starts, ["vx", "vz"], load_scene("tethered_buoy"), parts))
-
-
-@pytest.mark.parametrize("confirmed", ["NOT on 81 nodes", "not settled on 81 nodes"])
-def test_the_dangerous_motion_is_named_and_that_it_is_not_sure(confirmed):
-    sentences_told = answer(WORST | {"confirmed": confirmed})
-    assert "Of 5 starts 2 end in A and 1 end in B; 1 had not settled, and 1 failed." in sentences_told
-    assert "B is the dangerous one: it pulls 2.2 times as hard as A." in sentences_told
-    assert f"It depends on how it is computed: B is found {confirmed}." in sentences_told
-    assert "dangerous" not in answer(WORST | {"tension_top_max_N": 3000.0})
 
 
 def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(tmp_path, monkeypatch):

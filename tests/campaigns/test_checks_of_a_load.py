@@ -3,10 +3,11 @@
 import pytest
 
 from campaigns.explore.answer import sentences
-from campaigns.explore.load import use_of
+from campaigns.explore.load import load, use_of
 from engine import load_scene
 from tables import OTHER_MOTION
 
+SEA = {"waves.jonswap.significant_height_m": 1.0}
 KNOWN = {
     "grid and steps": {"tension_top_max_error_N": 30.0},
     "loops": {"loop_releases": 0},
@@ -38,6 +39,12 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
     assert checked(best, bedded, searched=True)[1] == "an irregular sea."
 
 
+def test_a_load_names_its_share_of_a_known_breaking_load_only():
+    row = PULLS | {"utilisation": 0.0173}
+    assert "1.7 % of the breaking load" in load([row], {"steepness": "kA"}, load_scene("tethered_buoy"))
+    assert "breaking load" not in load([PULLS], {"steepness": "kA"}, load_scene("tethered_buoy"))
+
+
 @pytest.mark.parametrize(
     ("name", "row", "changes"),
     [*((name, row, {}) for name, row in KNOWN.items()), *((name, {}, changes) for name, changes in IN_SCENE.items())],
@@ -45,6 +52,11 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
 def test_what_a_row_knows_or_a_scene_has_was_checked(name, row, changes):
     passed, missing = checked(PULLS | row, load_scene("tethered_buoy", changes))
     assert name in passed and name not in missing
+
+
+def test_the_error_of_the_largest_tension_is_told_in_kN_and_per_cent():
+    line, *_ = sentences([PULLS | KNOWN["grid and steps"]], "steepness", "kA", load_scene("tethered_buoy"))
+    assert "1 kN (± 0.03 kN)" in line and "grid and steps (± 3 %)" in line
 
 
 @pytest.mark.parametrize(("dimensions", "doubted"), [(2, True), (3, False)])
@@ -64,3 +76,21 @@ def test_other_motions_were_looked_for_where_a_share_is_known():
     kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
     assert "other motions" in single[0].partition("not checked")[2]
     assert "other motions" not in kicked[0].partition("not checked")[2]
+
+
+def test_a_random_sea_says_how_long_it_was():
+    missing = checked(PULLS, load_scene("tethered_buoy", SEA))[1]
+    assert "6 min" in missing and "irregular" not in missing
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes", "why"),
+    [
+        ("tethered_buoy", {}, "--periods ended them"),
+        ("tethered_buoy", SEA, "only for a buoy in regular waves"),
+        ("tethered_buoy", {"tether.bending_stiffness_Nm2": 0.0}, "bending stiffness"),
+    ],
+)
+def test_more_periods_are_asked_for_only_where_they_would_help(scene, changes, why):
+    undecided = sentences([PULLS], "steepness", "kA", load_scene(scene, changes))[-1]
+    assert undecided.startswith("OPEN") and why in undecided and ("--periods" in undecided) == ("--periods" in why)

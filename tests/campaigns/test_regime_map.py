@@ -14,7 +14,7 @@ from campaigns.regime_map.tables import _cell
 from engine import load_scene
 from reports.parts.content import Notice
 from reports.regime_map.report import report
-from tables import STATUS, Column, write_table
+from tables import FAILED, STATUS, Column, write_table
 from tests.campaigns.conftest import finished, ran, rows_of
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
@@ -123,6 +123,20 @@ def test_the_answer_counts_cells_of_the_coarse_grid_and_names_the_largest_tensio
     )
     assert motions_of_map.endswith("Some motion is chaotic on 50 % of the map.")
     assert "on 100 % of the map the start decides: up to 3 motions." in starts
+
+
+def test_the_answer_counts_cells_without_a_result_and_the_kicks_of_the_motion_that_pulls_hardest():
+    cells = [CELL | {"waves.steepness": 0.1, "tension_top_max_N": 2e3, "message": ""}]
+    for number in range(2):
+        cells.append({"level": 0, "waves.steepness": 0.2 + 0.1 * number, "source": FAILED, "regime_rest": ""})
+    motions = []
+    for pull_N, share in ((2e3, 0.5), (1e3, 0.25)):
+        motion = {"waves.steepness": 0.1, "level": 0, "regime": "period-1", "share": share, "kicks": 8}
+        motions.append(motion | {"tension_top_max_N": pull_N})
+    keys = grid("waves.steepness 0.1 0.3 3").columns
+    load, *_, failed = sentences(cells, motions, keys, lambda row: load_scene("tethered_buoy"))
+    assert "4 of 8 kicks there end in it" in load
+    assert failed.endswith("2 cells have no result; the column message of cells/table.csv says why.")
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """What a run says of itself, on motions made of known lines: period 2, a torus, a failed run, one without waves."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from engine.__main__ import main
 from engine.natural_frequencies import axial_period_s, impact_Nspm
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
+from engine.views import facts
 
 PERIODS, STEPS = 310, 100
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -68,6 +70,23 @@ def test_exponent_and_verdict_speak_of_the_same_part():
     assert "perturbations shrink" in verdict.reason
 
 
+@pytest.mark.parametrize(("ratio", "growth"), [(0.5, -0.2), (GOLDEN, 0.0), (GOLDEN, 0.3)])
+def test_a_run_has_one_number_for_the_growth_of_its_perturbations(ratio, growth):
+    run = moved(ratio, growth)
+    exponent = run.exponent()
+    for number in re.findall(r"(\S+ ± \S+) bits per period", str(run.verdict())):
+        assert number == f"{exponent.value:.3f} ± {exponent.error:.3f}"
+
+
+def test_the_snaps_of_a_run_are_one_of_its_facts():
+    """A tension that is zero in the first half of every wave, and in the second twice that at rest."""
+    run = moved(0.5)
+    pulls = np.where(np.arange(PERIODS * STEPS + 1) % STEPS >= STEPS // 2, 4000.0, 0.0)
+    pulls[0] = 2000.0
+    run.columns["tension_top_N"], run.columns["tension_top_high_N"] = pulls, pulls
+    assert facts(run)["snaps"] == "whole run: 310 in 1550 s; the hardest pulls with 4000.00 N (t = 2.5 s)"
+
+
 def test_a_column_is_told_by_its_name_or_refused_with_all_names():
     run = moved(0.5)
     np.testing.assert_array_equal(run.section("radius_m").points[:, 0], run.section().points[:, 0])
@@ -84,27 +103,38 @@ def test_a_notebook_shows_what_the_run_did():
     assert len(repr(moved(0.5))) < 100
 
 
-SEA = {"waves.jonswap.significant_height_m": 1.0}
-
-
-@pytest.mark.parametrize(
-    ("changes", "begun_s"),
-    [({}, 516.65), ({"waves.ramp_s": 600.0}, 600.0), (SEA, None), ({**SEA, "waves.ramp_s": 40.0}, 40.0)],
-)
-def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning(changes, begun_s):
+def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
     """The largest tension is at t = 5 s, within every beginning; the largest after t = 40 s is at t = 900 s."""
-    run = replace(moved(0.5, -0.2), scene=load_scene("tethered_buoy", changes))
+    sea = {"waves.jonswap.significant_height_m": 1.0}
+    largest, late_largest = "7000.00 N at the top (t = 5 s)", "5000.00 N at the top (t = 900 s)"
+    for changes, later in (
+        ({}, f"after t = 516.65 s: 0.00 (t = 516.65 s) to {late_largest}"),
+        ({"waves.ramp_s": 600.0}, f"after t = 600 s: 0.00 (t = 600 s) to {late_largest}"),
+        (sea, ""),
+        ({**sea, "waves.ramp_s": 40.0}, f"after t = 40 s: 0.00 (t = 40 s) to {late_largest}"),
+    ):
+        run = replace(moved(0.5, -0.2), scene=load_scene("tethered_buoy", changes))
+        time_s = run.columns["time_s"]
+        run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
+        text = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {largest}", later)))
+        assert facts(run)["tension"] == text
+
+
+def test_an_exponent_says_over_which_periods():
+    assert f"over periods {PERIODS // 3} to {PERIODS}" in moved(GOLDEN, 0.05).exponent().method
+    assert "over periods 100 to 310" in str(moved(GOLDEN, 0.05).exponent(transient_periods=100))
+
+
+def test_the_table_of_extremes_has_both_parts_with_moments():
+    run = moved(0.5, -0.2)
     time_s = run.columns["time_s"]
     run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
     run.columns["tension_max_N"] = np.where(time_s == 700.0, 8e3, 0.0)
     table = run.extremes()
-    largest = {"whole run": [7e3, 5.0]}
-    if begun_s is not None:
-        largest[f"after t = {begun_s:g} s"] = [5e3, 900.0]
-    assert list(table.index.unique("part")) == list(largest)
-    for part, expected in largest.items():
-        assert table.loc[(part, "tension_top_N"), ["largest", "largest_s"]].tolist() == expected
-        assert table.loc[(part, "tension_line_N"), ["largest", "largest_s"]].tolist() == [8e3, 700.0]
+    assert list(table.index.unique("part")) == ["whole run", "after t = 516.65 s"]
+    assert table.loc[("whole run", "tension_top_N"), ["largest", "largest_s"]].tolist() == [7e3, 5.0]
+    assert table.loc[("after t = 516.65 s", "tension_top_N"), ["largest", "largest_s"]].tolist() == [5e3, 900.0]
+    assert table.loc[("after t = 516.65 s", "tension_line_N"), ["largest", "largest_s"]].tolist() == [8e3, 700.0]
     assert table.loc[("whole run", "radius_m"), "largest"] == pytest.approx(21.5)
 
 

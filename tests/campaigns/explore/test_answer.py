@@ -69,6 +69,33 @@ def test_motions_become_others_as_the_table_of_ends_says():
     assert "Falling kA: B becomes A below 0.0246 (8 -> 3 kN, fold)." in jump
 
 
+@pytest.mark.parametrize("kicks", [0, 2, 4])
+def test_kicks_are_counted_with_an_interval(kicks):
+    assert f"{kicks} of 8 kicks (95 % interval 10 to 60 %) end in motion B" in answer(coexisting(kicks))["STARTS"]
+
+
+def test_a_rest_that_leaves_a_motion_which_goes_on_is_told_as_early():
+    rows = [row(0.02, motion="A"), row(0.03, motion="A"), row(0.04, motion="A", found_by="kick")]
+    rows += [row(0.04, "chaotic", 9000.0, motion="B"), row(0.05, "chaotic", 9100.0, motion="B")]
+    end = {"motion": "B", "end": "lower", "steepness_with": 0.035, "steepness_without": 0.033, "leads_to": "A"}
+    ends = [end | {"kind": "", "steepness_end": None}]
+    assert "From rest already: A becomes B between 0.03 and 0.04" in answer(rows, ends=ends)["JUMP"]
+
+
+def test_snaps_are_told_motion_by_motion_and_left_out_where_none_are_counted():
+    known = {"snap_peak_median_N": 4000.0, "snap_peak_95_N": 4500.0, "snap_speed_max_mps": 1.5}
+    rows = [
+        row(0.01, snaps_per_wave=0.0, motion="A"),
+        row(0.02, snaps_per_wave=1.0, motion="A", snap_peak_max_N=5000.0, **known),
+        row(0.03, snaps_per_wave=0.5, motion="A", snap_peak_max_N=6000.0, **known | {"snap_speed_max_mps": 3.0}),
+    ]
+    line = answer(rows)["SNAPS"]
+    assert "0.5 to 1 a wave from kA = 0.02 on" in line
+    assert "At kA = 0.03 median 4 kN, 95 % below 4.5 kN, largest 6 kN. Snap speed up to 3 m/s." in line
+    assert answer(rows[:1])["SNAPS"].startswith("none")
+    assert "SNAPS" not in answer([row(0.01), row(0.02)])
+
+
 @pytest.mark.parametrize("count", [0, 1, 2, 40])
 def test_an_answer_is_short_whatever_was_run(count):
     words = ["period-1", "period-12", "quasi-periodic", "chaotic", "transient", "undecided", ""]

@@ -17,9 +17,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from engine import goes_in_lanes
 from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
 from engine.physics.submergence import surface
 from engine.physics.waves import wave_number
+from engine.run.batch import kind_of
 from engine.scene.values import LARGEST, SMALLEST
 from tests.engine.kernels import parameters_of, waves_at
 from tests.engine.lines import SPACE, line
@@ -155,6 +157,13 @@ def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():
         assert not waves_at(scene(SPACE, direction_rad=angle), 3.1, X)[:, across].any()
 
 
+def test_under_another_gravity_a_wave_in_space_is_that_of_the_plane():
+    moon, X = {"gravity_mps2": 1.62, "buoy.mass_kg": 1700.0}, LINES["leaning"]
+    plane, space = waves_at(scene(moon), 3.1, X), waves_at(scene(moon, SPACE), 3.1, np.insert(X, 1, 3.0, axis=1))
+    assert space[:, [0, 2, 3, 5]] == pytest.approx(plane, abs=1e-12)
+    assert np.abs(plane - waves_at(scene(), 3.1, X)).max() > 0.1
+
+
 def jonswap(**keys):
     return line({"waves.jonswap": keys})
 
@@ -181,3 +190,10 @@ def test_the_seed_is_the_sea():
     assert all(np.array_equal(a, b) for a, b in zip(first, repeated, strict=True))
     assert not np.array_equal(first[0], reseeded[0]) and not np.array_equal(first[2], reseeded[2])
     assert np.array_equal(first[1], reseeded[1])  # every seed has the same energy at the same frequencies
+
+
+def test_a_regular_wave_is_no_sea():
+    """It takes the way that it took before; both share batches, each with its kind."""
+    plain, sea = sea_of("one"), sea_of("two")
+    assert (parameters_of(plain)[0]["sea_n"], parameters_of(sea)[0]["sea_n"]) == (0, 1)
+    assert goes_in_lanes(plain) and goes_in_lanes(sea) and kind_of(plain) != kind_of(sea)
