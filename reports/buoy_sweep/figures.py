@@ -27,9 +27,9 @@ from tables import (
 from ..figures.animations import tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain, series
 from ..parts.style import BLUE, INK, REGIME_COLOURS
-from ..sweep.quantities import in_order, series
+from ..sweep.quantities import in_order
 from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import STEEPNESS, Run, Sweep
 

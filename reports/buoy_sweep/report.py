@@ -6,9 +6,9 @@ from pathlib import Path
 
 from tables import COARSE, OTHER_MOTION, decimals, number, percent
 
-from ..parts import T_I, TAU_0, Heading, Items, Notice, Report, Text, limits, report_page, section_items
+from ..parts import T_I, TAU_0, Heading, Items, Notice, Report, Text, limits, report_page, section_items, series
 from ..sweep.motions import every_motion
-from ..sweep.quantities import extremes, series
+from ..sweep.quantities import extremes
 from ..sweep.snaps import snap_items
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items

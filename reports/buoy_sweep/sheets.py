@@ -5,8 +5,7 @@ from collections.abc import Sequence
 
 from tables import EMPTY, PEAK, PEAK_ERROR, count, number
 
-from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, shown_on
-from ..sweep.quantities import series
+from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, series, shown_on
 from .figures import axis_of, evidence_table, exponents
 from .runs import END_PERIODS, STEEPNESS, Run, Sweep
 

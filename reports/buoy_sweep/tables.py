@@ -21,11 +21,12 @@ from ..parts import (
     link,
     plain,
     scene_items,
+    series,
     shown_on,
     table_of,
     timing_items,
 )
-from ..sweep.quantities import batched, over_key, series
+from ..sweep.quantities import batched, over_key
 from .runs import Run, Sweep
 
 _MOST = 21  # columns of one table

@@ -5,7 +5,7 @@ import numpy as np
 from engine.animation import Shapes, animated, moving_picture, shape_panel, tension_panel
 
 from ..parts import Picture
-from ..parts.style import BLUE, INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
+from ..parts.style import BLUE, INK, SOFT, VERMILION, picture_of, sheet
 from .curves import Curve, Panel, curves
 
 _LINE_FRAMES_PER_SECOND = 10
@@ -28,7 +28,7 @@ def tether_stills(snap: Shapes) -> Picture:
     step = max(1, round(1.0 / 6.0 / max(float(snap.times[1] - snap.times[0]), 1e-9)))
     first = min(max(peak - 4 * step, 0), max(len(snap.times) - 1 - 5 * step, 0))
     rows = np.clip(first + step * np.arange(len(_STILLS)), 0, len(snap.times) - 1)
-    with sheet(4.6, WIDTH_IN) as figure:
+    with sheet(4.6, layout=None) as figure:
         places = {"left": 0.08, "right": 0.99, "bottom": 0.1, "top": 0.94, "hspace": 0.3, "wspace": 0.12}
         mosaic = [list(_STILLS), ["T"] * len(_STILLS)]
         grid = figure.subplot_mosaic(mosaic, height_ratios=[1.5, 1.0], gridspec_kw=places)

@@ -33,7 +33,6 @@ def basin_map(
     if width_in == WIDTH_IN:
         height_in = 0.5 + 0.62 * width_in
     with sheet(height_in, width_in) as figure:
-        figure.set_layout_engine("constrained")
         axes = figure.subplots()
         axes.grid(False)
         numbers = np.full(ended.shape, -1)

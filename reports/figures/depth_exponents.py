@@ -6,9 +6,8 @@ import numpy as np
 
 from tables import TANGENT_ERROR, TANGENT_EXPONENT, number
 
-from ..parts import Picture, Row, entries
+from ..parts import Picture, Row, entries, series
 from ..parts.style import INK
-from ..sweep.quantities import series
 from .curves import COLOURS, Curve, Panel, curves
 
 BESIDE = 0.14  # of the space between two values

@@ -89,7 +89,7 @@ class OrbitDiagram(NamedTuple):
         if legend:
             top_in = 0.3 + _LEGEND_IN * (len(legend) - 1)
         height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
-        with sheet(height_in, width_in) as figure:
+        with sheet(height_in, width_in, None) as figure:
             grid = figure.add_gridspec(
                 len(heights), 1, height_ratios=heights, hspace=_GAP_IN * len(heights) / sum(heights),
                 left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,

@@ -91,7 +91,6 @@ def regime_maps(
     rows, entries = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
     height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // entries) + 0.2
     with sheet(height_in, width_in) as figure:
-        figure.set_layout_engine("constrained")
         grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
         for axes in grid.flat[len(shown) :]:
             axes.set_visible(False)

@@ -32,9 +32,10 @@ from ..parts import (
     read_folder,
     report_page,
     section_items,
+    series,
 )
 from ..parts.style import INK, SOFT
-from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
+from ..sweep.quantities import batched, colours_of, filled_table, in_order
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
 from .curves import curve_items
 

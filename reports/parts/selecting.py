@@ -2,6 +2,10 @@
 
 from collections.abc import Iterable
 
+import numpy as np
+
+from tables import number_of
+
 from .content import Figure, Heading, Items
 
 
@@ -17,6 +21,11 @@ def having(rows: Iterable, **wanted: object) -> list:
 def entries(rows: Iterable, column: str) -> list:
     """A column of the rows, as it stands there."""
     return [row[column] for row in rows]
+
+
+def series(rows: Iterable, column: str) -> np.ndarray:
+    """A column of numbers over the rows (p,), nan where it is empty."""
+    return np.array([number_of(row, column) for row in rows])
 
 
 def picture_first(items: Items) -> Items:

@@ -29,12 +29,13 @@ from ..parts import (
     read_folder,
     report_page,
     scene_items,
+    series,
     shown_on,
     table_of,
     timing_items,
 )
 from .motions import every_motion
-from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
+from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key
 from .snaps import snap_items
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
@@ -124,27 +125,17 @@ def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motio
 
 
 def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> Items:
-    x, y = series(rows, keys[0].name), series(rows, keys[1].name)
-    places = np.unique(x), np.unique(y)
-    across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)
-
-    def laid(values: np.ndarray, nothing: object) -> np.ndarray:
-        cells = np.full((len(places[1]), len(places[0])), nothing, dtype=values.dtype)
-        cells[up, across] = values
-        return cells
-
-    regimes = np.array([str(row.get("regime") or "") for row in rows], dtype=object)
     drawn = []
+    regimes = [str(row.get("regime") or "") for row in rows]
     if any(regimes):
-        drawn.append(Map("", "regime", laid(regimes, "")))
+        drawn.append(Map("", "regime", regimes))
     for column in _columns_of(shown):
-        drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
+        drawn.append(Map(column.label, plain(column.head), series(rows, column.name)))
     items = []
     for part in batched(drawn, _MAPS):
         names = listed(drawn_map.name for drawn_map in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
-        picture = maps(places, (keys[0].label, keys[1].label), part)
-        items.append(Figure(picture, caption, f"Maps over two parameters of {names}{motion}."))
+        items.append(Figure(maps(keys, rows, part), caption, f"Maps over two parameters of {names}{motion}."))
     return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
 
 
