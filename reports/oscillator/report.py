@@ -23,9 +23,8 @@ from ..parts import (
     Notice,
     Report,
     Text,
-    appendix,
     picture_first,
-    provenance_items,
+    report_page,
     section_items,
     table_of,
 )
@@ -51,9 +50,9 @@ def report(directory: Path) -> Report:
             items += section(study, arrays)
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
-    method = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
+    made = [method_items(study), Heading("Parts and times"), parts]
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
-    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*picture_first(items), *method))
+    return report_page(study, "The snap oscillator, equation (33)", picture_first(items), made, ", ".join(numbers))
 
 
 def _section(study: Study, arrays: dict) -> Items:
