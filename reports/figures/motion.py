@@ -1,24 +1,13 @@
-"""What figures of a motion share: sections of two side by side, panels of spectra, long histories as envelopes."""
+"""What figures of a motion share: panels of spectra, long histories as envelopes."""
 
 from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 
-from ..parts import Picture
-from .curves import Curve, Panel, curves
+from .curves import Curve, Panel
 
 _BINS = 900  # columns of the whole-record view: about two a printed millimetre
-_LABELS = (r"$r$ (m)", r"$\dot{r}$ (m/s)")
-
-
-def section_pairs(panels: list[tuple[str, np.ndarray, np.ndarray]], names: tuple[str, str]) -> Picture:
-    """Args: per scene a title and the points r (m), r' (m/s) of two motions, (m, 2) and (k, 2); names of the two."""
-    drawn = []
-    for title, first, second in panels:
-        rings = Curve(*first.T, names[0], line="", mark="o", size=5.0, width=0.7, filled=False)
-        drawn.append(Panel([rings, Curve(*second.T, names[1], line="", mark=".", size=3.0)], *_LABELS, title, ticks=4))
-    return curves([drawn], 2.9, "below")
 
 
 def spectrum_panels(

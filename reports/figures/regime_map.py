@@ -8,7 +8,6 @@ from matplotlib.patheffects import withStroke
 
 from ..parts import MapPlace, Picture
 from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
-from .basins import widest
 from .curves import Curve, with_gaps
 
 LINES = {"fold": "-", "flip": "--", "torus": ":"}
@@ -236,3 +235,16 @@ def _borders(x: np.ndarray, y: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarra
 def _differ(kinds: np.ndarray) -> np.ndarray:
     """Which places of a raster differ from that of the row before."""
     return np.vstack([np.zeros((1, kinds.shape[1]), bool), kinds[1:] != kinds[:-1]])
+
+
+def widest(inside: np.ndarray, least: float = 0.0) -> tuple[int, int] | None:
+    """The cell that is farthest from all outside; None where none is as far as `least` cells."""
+    from scipy.ndimage import distance_transform_edt
+
+    if not inside.any():
+        return None
+    far = distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]
+    up, across = np.indices(inside.shape)
+    aside = np.hypot(up / inside.shape[0] - 0.5, across / inside.shape[1] - 0.5)  # of equals the one in the middle
+    cell = np.unravel_index(int(np.argmax(far - 0.1 * aside)), far.shape)
+    return tuple(map(int, cell)) if far[cell] >= least else None
