@@ -62,15 +62,15 @@ def report(directory: Path) -> Report:
     folder = read_folder(directory)
     judged = read_statements(folder.directory)
     items = [
-        *_question(folder, judged),
-        *_parts(folder),
-        *_figures(folder.directory),
-        *_statements(judged),
-        *dependence_items(folder),
+        _question(folder, judged),
+        _parts(folder),
+        _figures(folder.directory),
+        _statements(judged),
+        dependence_items(folder),
         Heading("Misprints"),
         Text("Whoever programs the paper needs these corrections; with the equations as printed some runs go wrong."),
         written("misprints"),
-        *index_items(),
+        index_items(),
     ]
     subtitle = "Tjavaras, Zhu, Liu, Triantafyllou and Yue, Journal of Sound and Vibration 213(4), 709-737, 1998"
     return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
