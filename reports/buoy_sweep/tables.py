@@ -24,7 +24,6 @@ from ..parts import (
     series,
     shown_on,
     table_of,
-    timing_items,
 )
 from ..sweep.quantities import batched, over_key
 from .runs import Run, Sweep
@@ -77,10 +76,7 @@ def runs_items(sweep: Sweep) -> Items:
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page "
         f"{sweep.key.head} leads to the sheet of the run."
     )
-    return [
-        Heading("Table of runs"),
-        *(sweep_table(sweep, part, sweep.runs, caption) for part in batched(names, _MOST)),
-    ]
+    return [Heading("Table of runs"), [sweep_table(sweep, part, sweep.runs, caption) for part in batched(names, _MOST)]]
 
 
 def plane_items(sweep: Sweep) -> Items:
@@ -122,18 +118,11 @@ def plane_items(sweep: Sweep) -> Items:
     return items
 
 
-def time_items(sweep: Sweep) -> Items:
-    """What each run cost, and the time split of the campaign."""
-    return timing_items(sweep.folder, _cost_figure(sweep))
-
-
-def _cost_figure(sweep: Sweep) -> Figure | None:
+def cost_figure(sweep: Sweep) -> Figure | None:
     """Time and Newton iterations of each run; None where no run tells its time."""
-    columns, rows, periods = sweep.folder.columns, [], 0.0
-    for run in sweep.runs:
-        if run.periods_done:
-            rows.append(run)
-            periods += run.periods_done
+    columns = sweep.folder.columns
+    rows = sweep.runs_with(lambda run: run.periods_done)
+    periods = sum(run.periods_done for run in rows)
     wall_s = series(rows, "wall_s")
     if not np.isfinite(wall_s).any():
         return None

@@ -57,18 +57,20 @@ def report(directory: Path) -> Report:
     key = _varied(folder)
     motions = having(rows_of(folder, "motions"), status="ok")
     branches = read_branches(folder, key.name, motions)
-    items = []
-    if branches:
-        items.append(_diagram(folder, key, branches, motions))
     located = {key.name: partial(_located, key=key.name)}
-    items += filled_table(part_of(folder, "events"), _EVENTS, ("branch", _EVENT[0], key.name, *_EVENT[1:]), located)
-    items += [*curve_items(folder)]
-    items += [*section_items("orbits"), Heading("Warnings"), _warnings(folder, key, branches)]
-    items += _chosen(folder, key, branches)
-    if branches:
-        items += _multipliers(key, branches)
-    items.append(Heading("Branches"))
-    items += filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH)
+    events = ("branch", _EVENT[0], key.name, *_EVENT[1:])
+    items = [
+        _diagram(folder, key, branches, motions) if branches else None,
+        filled_table(part_of(folder, "events"), _EVENTS, events, located),
+        curve_items(folder),
+        section_items("orbits"),
+        Heading("Warnings"),
+        _warnings(folder, key, branches),
+        _chosen(folder, key, branches),
+        _multipliers(key, branches) if branches else None,
+        Heading("Branches"),
+        filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH),
+    ]
     return report_page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
 
 
@@ -111,13 +113,9 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     )
     limits_of_modulus = {"ylim": (0.0, min(1.05 * far, _FAR))}
     modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, settings=limits_of_modulus)
-    diagram = OrbitDiagram(
-        _points_of_motions(folder, key, motions, colours),
-        (key.label, "strobed r (m)"),
-        [tension, modulus],
-        motions=named,
-        orbits=[*lines["strobes"], *_legend(met)],
-    )
+    points, labels = _points_of_motions(folder, key, motions, colours), (key.label, "strobed r (m)")
+    orbits = [*lines["strobes"], *_legend(met)]
+    diagram = OrbitDiagram(points, labels, [tension, modulus], motions=named, orbits=orbits)
     caption = (
         "Lines: r of each orbit once a wave period, solid where it is stable, dashed where no run stays on it. Dashes "
         "and small dots: the motions that runs have found, in the same colours (`motions/table.csv`). Below: largest "

@@ -71,29 +71,28 @@ def report(directory: Path) -> Report:
     if len(keys) == 1:
         (key,) = keys
         question = f"What does the scene `{folder.scene.name}` do as {key_names} varies?"
-        figures = _panels(key, rows, shown, motions) + every_motion(folder, key.name, key.head)
-        figures += snap_items(folder, key)
+        figures = _panels(key, rows, shown, motions), every_motion(folder, key.name, key.head), snap_items(folder, key)
         if set(NEEDED) <= set(folder.columns):  # of a buoy in regular waves
             sweep = read_sweep(directory, key)
-            first, sheets = [orbit_figure(sweep), *motions_items(sweep), explorer(sweep)], sheet_items(sweep)
+            first, sheets = [orbit_figure(sweep), motions_items(sweep), explorer(sweep)], sheet_items(sweep)
     else:
         question = f"What does the scene `{folder.scene.name}` do as {key_names} vary?"
         figures = _maps_of_each(keys, rows, shown, motions)
     items = [
-        *filter(None, first),
+        first,
         Heading("Question"),
         Text(question),
-        *extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
-        *figures,
+        extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
+        figures,
         Heading("Warnings"),
         _warnings(run_keys, rows),
         Heading("Table of runs"),
-        *_tables(folder.columns, key_cells, rows),
-        *sheets,
+        _tables(folder.columns, key_cells, rows),
+        sheets,
     ]
     if not first:
         items = picture_first(items)
-    made = [*timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE)]
+    made = [timing_items(folder), scene_items(folder.scene, shipped, varied, _SCENE)]
     return report_page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
 
 
@@ -116,12 +115,9 @@ def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, 
 
 def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> Items:
     if not motions:
-        return _maps(keys, rows, shown, "")
-    items = []
+        yield from _maps(keys, rows, shown, "")
     for letter in motions:
-        members = having(rows, motion=letter)
-        items += _maps(keys, members, shown, f", motion {letter}")
-    return items
+        yield from _maps(keys, having(rows, motion=letter), shown, f", motion {letter}")
 
 
 def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> Items:
