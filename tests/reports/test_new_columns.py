@@ -16,7 +16,7 @@ from reports.parts.folder import Folder, read_folder
 from reports.parts.provenance import _flat, scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
-from tables import PLANE, RUNS, SHEET, Column, read_columns, write_table
+from tables import PLANE, RUNS, SHEET, Column
 from tests.campaigns.conftest import rows_of
 from tests.reports.conftest import columns_of, write
 from tests.reports.test_regime_map import SYMBOLS, WORDS, folder_of
@@ -73,13 +73,6 @@ def test_a_column_is_printed_where_its_declaration_says(folder, tmp_path):
         items = content_of(place)[0].items
         assert len(shown(items)) == runs
         assert all((NEW.symbol, "0.25 1/T") in item.facts for item in items if isinstance(item, Sheet))
-
-
-def test_a_dictionary_of_before_there_were_pages_is_read(tmp_path):
-    write_table(tmp_path / "table.csv", (NEW,), [{NEW.name: 0.75}])
-    dictionary = tmp_path / "columns.csv"
-    dictionary.write_text("".join(line.rpartition(",")[0] + "\n" for line in dictionary.read_text().splitlines()))
-    assert "page" not in dictionary.read_text() and read_columns(dictionary) == {NEW.name: NEW}
 
 
 @pytest.mark.parametrize("scene", list_scenes())
