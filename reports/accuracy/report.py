@@ -16,18 +16,18 @@ SNAPPING = ("snap", "violent")  # works whose diagram is on the first page, in t
 def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    # on the first page: the diagram of the first work with a run that ended as asked, those of SNAPPING in front
-    drawable = [name for name in (*SNAPPING, *study.works) if study.timed(name)]
+    items, drawn = [], ""
+    for name in (*SNAPPING, *study.works):  # on the first page: the first work with a run that ended as asked
+        if study.timed(name):
+            drawn = name
+            items.append(sections.diagram(study, name))
+            break
+    items += [section_items("accuracy"), Heading("Error against run time"), Text(_protocol(study))]
     works = {setting.work for setting in study.settings}
-    items = [
-        [sections.diagram(study, name) for name in drawable[:1]],
-        section_items("accuracy"),
-        Heading("Error against run time"),
-        Text(_protocol(study)),
-        [sections.work_items(study, name, *drawable[:1]) for name in study.works if name in works],
-        peer_items(study),
-        sections.order_items(study),
-    ]
+    for name in study.works:
+        if name in works:
+            items.append(sections.work_items(study, name, drawn))
+    items += [peer_items(study), sections.order_items(study)]
     subtitle = "Work-precision of the engine and of other codes"
     return report_page(study.folder, "Error against run time", items, timing_items(study.folder), subtitle)
 

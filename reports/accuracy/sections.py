@@ -188,17 +188,17 @@ def diagram(study: Study, work: str) -> Figure:
     for setting in timed:
         settings_of_methods.setdefault(setting.method, []).append(setting)
     for name, settings in settings_of_methods.items():
-        drawn = [setting for setting in settings if setting.error < WORST]
-        time, error = (
-            factor * np.array([setting.wall_s for setting in drawn]),
-            np.array([setting.error for setting in drawn]),
-        )
-        error = np.maximum(error, 1e-12)
+        time, error = [], []
+        for setting in settings:
+            if setting.error < WORST:
+                time.append(factor * setting.wall_s)
+                error.append(max(setting.error, 1e-12))
+        time, error = np.array(time), np.array(error)
         colour, mark = _LOOKS.get(name.partition(",")[0], _OTHER)
         lines.append(Curve(time, error, "", "", mark, colour, size=2.6, alpha=0.45))
         front = cheapest(time, error)
         dash = "--" if name.endswith(DASHED) else "-"
-        width = 1.6 if drawn and drawn[-1].peer else 1.0
+        width = 1.6 if settings[0].peer else 1.0
         lines.append(Curve(time[front], error[front], name, dash, mark, colour, width=width))
     for setting in timed:
         if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED:

@@ -35,19 +35,23 @@ def maps(keys: Sequence[Column], rows: Sequence[Row], shown: Sequence[Map]) -> P
     with sheet(0.4 + 2.4 * ((len(shown) + 1) // 2)) as figure:
         for axes, shown_map in cells(figure, shown, 2, ("", "")):
             values = np.array(shown_map.values)
-            words = values.dtype.kind == "U"
-            grid = np.full((len(y), len(x)), "" if words else np.nan, values.dtype)
-            grid[up, across] = values
-            known = grid != "" if words else np.isfinite(grid)
+            grid = np.full((len(y), len(x)), np.zeros((), values.dtype))  # of words: of empty ones
             look = {"origin": "lower", "aspect": "auto"}
-            if words:
+            if values.dtype.kind == "U":
+                grid[up, across] = values
+                known = grid != ""
                 names, free_colours = np.unique(grid[known]), iter(_OTHERS * grid.size)
-                colours = [REGIME_COLOURS.get(name) or next(free_colours) for name in names]
-                look |= {"cmap": ListedColormap(colours), "vmin": -0.5, "vmax": len(names) - 0.5}
+                handles = []
+                for name in names:
+                    handles.append(Patch(facecolor=REGIME_COLOURS.get(name) or next(free_colours), label=name))
+                colours = ListedColormap([handle.get_facecolor() for handle in handles])
+                look |= {"cmap": colours, "vmin": -0.5, "vmax": len(names) - 0.5}
                 axes.imshow(np.ma.array(np.searchsorted(names, grid), mask=~known), **look)
-                handles = [Patch(facecolor=colour, label=name) for name, colour in zip(names, colours, strict=True)]
                 axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.0)
             else:
+                grid[:] = np.nan
+                grid[up, across] = values
+                known = np.isfinite(grid)
                 image = axes.imshow(np.ma.masked_invalid(grid), cmap="cividis", **look)
                 figure.colorbar(image, ax=axes, label=shown_map.label, shrink=0.9)
             nowhere_up, nowhere_across = np.nonzero(~known)

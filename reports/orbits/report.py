@@ -60,14 +60,14 @@ def report(directory: Path) -> Report:
     located = {key.name: partial(_located, key=key.name)}
     events = ("branch", _EVENT[0], key.name, *_EVENT[1:])
     items = [
-        _diagram(folder, key, branches, motions) if branches else None,
+        _diagram(folder, key, branches, motions),
         filled_table(part_of(folder, "events"), _EVENTS, events, located),
         curve_items(folder),
         section_items("orbits"),
         Heading("Warnings"),
         _warnings(folder, key, branches),
         _chosen(folder, key, branches),
-        _multipliers(key, branches) if branches else None,
+        _multipliers(key, branches),
         Heading("Branches"),
         filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH),
     ]
@@ -83,8 +83,10 @@ def _varied(folder: Folder) -> Column:
     raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
 
 
-def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
-    """Branches over the strobed points of the motions, with tension and multiplier below."""
+def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure | None:
+    """Branches over the strobed points of the motions, with tension and multiplier below; None without branches."""
+    if not branches:
+        return None
     colours = colours_of(motions)
     simulated, named = _simulated(key, motions, colours)
     met = Counter()
@@ -258,6 +260,8 @@ def _complex(row: Row, k: int) -> complex:
 
 
 def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
+    if not branches:
+        return
     every_value = np.concatenate([branch.at for branch in branches])
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))

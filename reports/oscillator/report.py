@@ -54,7 +54,9 @@ def report(directory: Path) -> Report:
 
 def _section(study: Study, arrays: dict) -> Items:
     states, boxes, row = arrays["section"], arrays["boxes"], study.rows["section"]
-    alpha = 0.6 if len(states) > 20000 else 1.0
+    alpha = 1.0
+    if len(states) > 20000:
+        alpha = 0.6
     lines = [Curve(*states.T, "", "", ",", INK, alpha=alpha), *_frames(boxes, 1)]
     orbit = attracting_orbit(study)
     if orbit is not None:
@@ -72,9 +74,10 @@ def _section(study: Study, arrays: dict) -> Items:
     panels = []
     for place, (points, box) in enumerate(zip(zooms, boxes, strict=True), 1):
         dots, limits = Curve(*points.T, "", "", ",", INK, alpha=0.7), {"xlim": box[:2], "ylim": box[2:]}
-        labels = STATE if place == 1 else (STATE[0], "")
-        lines = [dots, *_frames(boxes[place:], place + 1)]
-        panels.append(Panel(lines, *labels, f"zoom {place}", settings=limits, ticks=5))
+        lines, y_label = [dots, *_frames(boxes[place:], place + 1)], ""
+        if place == 1:
+            y_label = STATE[1]
+        panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", settings=limits, ticks=5))
     counts = " and ".join(str(len(zoom)) for zoom in zooms)
     caption = (
         "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "

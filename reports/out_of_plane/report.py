@@ -59,7 +59,8 @@ def _warnings(study: Study) -> Items:
     failed, lost, looped, turned = [], [], [], []
     for run in study.runs:
         if not run.ok:
-            failed.append(f"{_name(run)}: {_end(run)}.")
+            reason = ": ".join(filter(None, (run["status"], run["message"])))
+            failed.append(f"{_name(run)}: {reason}.")
         elif not study.folder.trajectory_path(run["run_key"]).exists():
             lost.append(f"{_name(run)}: its trajectory is missing; figures leave it out.")
     for run in pushed:
@@ -80,10 +81,6 @@ def _warnings(study: Study) -> Items:
     if not any(boxes.values()):
         nothing = "No run failed, no loop was released, and every turn is resolved."
         yield Notice("note", "Nothing to warn of", (nothing,))
-
-
-def _end(run: Run) -> str:
-    return ": ".join(filter(None, (run["status"], run["message"])))
 
 
 def _name(run: Run) -> str:

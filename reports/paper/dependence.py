@@ -65,7 +65,7 @@ def dependence_items(folder: Folder) -> Items:
     columns = files["columns.csv"]
     rows = list(by_columns(files["table.csv"], columns))
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
-    for steepness in _values(rows, "steepness"):
+    for steepness in _steepnesses(rows):
         items.append(_regimes(rows, columns, steepness))
     return [*items, *_stiffness(rows, columns), *_plane(folder.directory / "out_of_plane")]
 
@@ -97,8 +97,8 @@ def written(name: str, **taken: object) -> Table:
     return Table(heads(*texts["heads"]), rows, texts["caption"])
 
 
-def _values(rows: list[dict], key: str) -> list:
-    return sorted({row[key] for row in rows})
+def _steepnesses(rows: list[dict]) -> list[float]:
+    return sorted(set(entries(rows, "steepness")))
 
 
 def _like(rows: list[dict], **wanted) -> list[dict]:
@@ -112,7 +112,7 @@ def _like(rows: list[dict], **wanted) -> list[dict]:
 def _depth_figure(rows: list[dict]) -> Figure:
     waves, drowned = _treatments(rows, ABOVE), _treatments(rows, DROWNED)
     panels = []
-    for kA in _values(rows, "steepness"):
+    for kA in _steepnesses(rows):
         panels.append([])
         for under in drowned:
             curves = []

@@ -48,14 +48,14 @@ def report(directory: Path) -> Report:
     items = [_figure(atlas, first_maps, legend(atlas), f"Maps of regimes over {over}", _REGIMES)]
     items.append(cell_sheets(folder, atlas))
     other_figures = [_figure(atlas, maps, (), f"Maps over {over}", _OTHERS) for maps in numbers(atlas)]
-    pages = [[Heading(page.place), figure] for page, figure in zip(atlas.pages, other_figures, strict=True)]
-    if len(pages) == 1:
+    if len(other_figures) == 1:
         items += other_figures
     items.append(section_items("regime_map"))
     if computed:
         items += [Heading("Regimes"), _regimes(atlas)]
-    if len(pages) > 1:
-        items += pages
+    if len(other_figures) > 1:
+        for page, figure in zip(atlas.pages, other_figures, strict=True):
+            items += [Heading(page.place), figure]
     items += [Heading("Warnings"), _warnings(folder, atlas)]
     return report_page(folder, f"Regimes over {over}", items)
 

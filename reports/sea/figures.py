@@ -69,7 +69,9 @@ def history_figure(folder: Folder, cell: Row) -> Figure | None:
 
 def _radius_panel(axes, time: np.ndarray, runs, shown: slice, together: float) -> None:
     for number, run in enumerate(runs):
-        name = f"kick {number}" if number else "from rest"
+        name = "from rest"
+        if number:
+            name = f"kick {number}"
         radius_m = run.columns["radius_m"][shown]
         line = thinned(time[: len(radius_m)], radius_m, _BINS)
         axes.plot(*line, color=_STARTS[number % len(_STARTS)], linewidth=0.8, label=name, rasterized=True)
