@@ -6,18 +6,21 @@ import numpy as np
 import xarray
 from matplotlib.colors import LinearSegmentedColormap
 
+from engine.animation import moving_picture
 from tables import listed, number, percent
 
-from ..figures.animations import line_animation, line_strip
 from ..figures.curves import Curve, Panel, cells, curves
-from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, folds, line_panels, named, seen
-from ..parts import Figure
-from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, VERMILION, picture_of, sheet
+from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, named, seen
+from ..parts import Figure, Picture
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
+from ..sweep.quantities import batched
 from .runs import FAST, SLOW, Line, of_kind
 
 INSTANT_S = 0.010
 FRAME_S = 0.002  # of the animation
 NEAR_M = (-1.0, 4.0)
+_WIDTH_IN = 5.6  # of all panels of a row of folds
+_FRAMES_PER_SECOND, _STRIP = 10, 6
 CURVE_POINTS = 120
 WIDE = 4  # panels a row
 KINDS = ("strain", "kinetic", "taken out by the end force", "dissipated", "bending")
@@ -62,21 +65,28 @@ def _figure(drawn: list[Line], column: str, figure: int) -> Figure:
 
 
 def folds_figure(lines: list[Line]) -> Figure | None:
-    """The neighbourhood of the fixed end at the end of every run, in true proportion."""
-    panels = []
-    for line in shown(lines, ("1", "1p", "2", "2p", "3", "3p", "4", "4p")):
-        profiles = line.trajectory.profiles
-        shape = profiles.x_m[-1], profiles.z_m[-1], profiles.time_s[-1:]
-        panels.append(LinePanel(line["case"], line["force_N"], *shape))
-    if not panels:
+    """The neighbourhood of the fixed end at the end of every run, in true proportion, two panels a row."""
+    drawn = shown(lines, ("1", "1p", "2", "2p", "3", "3p", "4", "4p"))
+    if not drawn:
         return None
-    near = np.concatenate([panel.y[panel.x < NEAR_M[1]] for panel in panels])
-    low, high = float(near.min()) - 0.05, float(near.max()) + 0.05
+    fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
+    panels, low, high = [], np.inf, -np.inf
+    for line in drawn:
+        profiles = line.trajectory.profiles
+        x, z = profiles.x_m[-1], profiles.z_m[-1]
+        near = z[x < NEAR_M[1]]
+        low, high = min(low, near.min() - 0.05), max(high, near.max() + 0.05)
+        title = f"case {line.name}, {1e3 * float(profiles.time_s[-1]):.0f} ms"
+        panels.append(Panel([Curve(x, z, width=0.7), fixed], "$x$ (m)", "$z$ (m)", title))
+    limits = {"aspect": "equal", "xlim": NEAR_M, "ylim": (float(low), float(high))}
+    rows = batched([panel._replace(settings=limits) for panel in panels], 2)
+    height = _WIDTH_IN / len(rows[0]) * (high - low) / (NEAR_M[1] - NEAR_M[0])
     caption = (
         "The fixed end (dot) at the end of every run, in true proportion; the table of the cases tells up to which "
         "unstretched length the line is folded."
     )
-    return Figure(folds(panels, NEAR_M, (low, high)), caption, "Folds at the fixed end, one panel a case.")
+    picture = curves(rows, 0.4 + len(rows) * (0.45 + height))
+    return Figure(picture, caption, "Folds at the fixed end, one panel a case.")
 
 
 def plane_figure(lines: list[Line], exact: xarray.Dataset) -> Figure:
@@ -172,18 +182,49 @@ def energy_figure(lines: list[Line]) -> Figure | None:
 
 
 def animation_figure(lines: list[Line], case: str) -> Figure | None:
-    """The moving picture of one case."""
+    """The moving picture of one case: its shape, and the tension along the line below; a few shapes for paper."""
     drawn = shown(lines, (case,))
     if not drawn:
         return None
     profiles = drawn[0].trajectory.profiles
     rows = slice(None, None, max(1, round(FRAME_S / float(profiles.time_s[1]))))
     time_s, x, z = profiles.time_s[rows], profiles.x_m[rows], profiles.z_m[rows]
+    x_room, z_room = 0.03 * np.ptp(x), 0.1 * np.ptp(z)
+    limits = {"xlim": (x.min() - x_room, x.max() + x_room), "ylim": (z.min() - z_room, z.max() + z_room)}
     caption = (
         f"Case {named(case)} in motion, a frame every {number(1e3 * FRAME_S)} ms on the page, six frames on paper. "
         "Heights much enlarged; below on the page: tension along the line."
     )
     alt = f"The line of case {named(case)} after the break: it recoils and folds at the fixed end."
-    return Figure(
-        line_strip(time_s, x, z), caption, alt, line_animation(time_s, profiles.s_m, x, z, profiles.tension_N[rows])
-    )
+    moving = _animation(time_s, profiles.s_m, x, z, 1e-3 * profiles.tension_N[rows], limits)
+    strip = []
+    for row in np.linspace(0, len(time_s) - 1, _STRIP).round().astype(int):
+        end = Curve(x[row, -1:], z[row, -1:], line="", mark="o", colour=VERMILION, size=3.0)
+        shape, title = [Curve(x[row], z[row], width=1.0), end], f"{1e3 * time_s[row]:.0f} ms"
+        strip.append([Panel(shape, "", "$z$ (m)", title, settings=limits, marks=[(0.0, "")])])
+    strip[-1][0] = strip[-1][0]._replace(x_label="$x$ (m)")
+    return Figure(curves(strip, 0.4 + 0.85 * _STRIP, share="x"), caption, alt, moving)
+
+
+def _animation(time_s, s_m, x_m, z_m, tension_kN, limits) -> Picture:
+    """The GIF; times (m,), places (n,), the other arrays (m, n)."""
+    with sheet(3.6) as figure:
+        shape, tension = figure.subplots(2, 1)
+        (curve,) = shape.plot([], [], color=BLUE, linewidth=1.2)
+        (end,) = shape.plot([], [], "o", color=VERMILION, markersize=4)
+        shape.axvline(0.0, color=SOFT, linewidth=0.7, linestyle=(0, (2, 2)))
+        shape.set(xlabel="$x$ (m)", ylabel="$z$ (m)", **limits)
+        (pull,) = tension.plot([], [], color=INK, linewidth=1.0)
+        ends = min(1.05 * float(tension_kN.min()), -20.0), 1.08 * float(tension_kN.max())
+        words = {"xlabel": "$s$ (m), unstretched, from the fixed end", "ylabel": "$T$ (kN)"}
+        tension.set(xlim=(s_m[0], s_m[-1]), ylim=ends, **words)
+        clock = shape.set_title("t = 0 ms")
+
+        def show(row: int) -> None:
+            curve.set_data(x_m[row], z_m[row])
+            end.set_data(x_m[row, -1:], z_m[row, -1:])
+            pull.set_data(s_m, tension_kN[row])
+            clock.set_text(f"t = {1e3 * time_s[row]:.0f} ms")
+
+        artists = [curve, end, pull, clock]
+        return Picture(moving_picture(figure, artists, len(time_s), show, _FRAMES_PER_SECOND), "gif")

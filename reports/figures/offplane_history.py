@@ -6,8 +6,7 @@ import numpy as np
 
 from ..parts import Picture
 from ..parts.style import BLUE, VERMILION
-from .curves import Curve, Panel, curves
-from .motion import envelope
+from .curves import Curve, Panel, curves, envelope
 
 INPLANE = "in-plane half range of the buoy"
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope

@@ -10,7 +10,7 @@ from engine.physics.sea import elevation_m
 from engine.views import snaps_of
 from tables import number_of
 
-from ..figures.motion import envelope as thinned
+from ..figures.curves import envelope as thinned
 from ..parts import Figure, Folder, Row, having, part_of, series
 from ..parts.style import (
     BLUE,

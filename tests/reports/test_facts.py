@@ -12,7 +12,7 @@ import pytest
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
-from reports.figures.motion import envelope
+from reports.figures.curves import envelope
 from reports.figures.run_sheet import NOTHING, run_sheet
 from reports.parts.columns import shown_on, table_of
 from reports.parts.content import Explorer, ExplorerColumn, plain
