@@ -76,6 +76,10 @@ class Study(NamedTuple):
     columns: dict[str, Column]
     cases: list[dict[str, str]]
 
+    def judged(self, verdict: str) -> list[dict[str, str]]:
+        """The cases with that verdict."""
+        return having(self.cases, verdict=verdict)
+
 
 def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
@@ -129,7 +133,7 @@ def stiffness_items(study: Study) -> Items:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
     measured = {}  # how it was checked -> stiffness in N, error, Newton iterations a second
     unit = math.nan
-    for row in having(study.cases, verdict="ok"):
+    for row in study.judged("ok"):
         shown = row["group"] == "EA" or row["how"] == "waves in a bar"
         if not shown or not row["measured_tension"] or row.get("warning", row["message"]):
             continue
@@ -175,7 +179,7 @@ def limit_items(study: Study) -> Items:
         (Heading("Refused, and what the user is told", 2), "refused", ("case", "message"), "Scenes not started."),
     )
     for heading, verdict, names, caption in sections:
-        rows = sorted(having(study.cases, verdict=verdict), key=lambda row: row["limit"])
+        rows = sorted(study.judged(verdict), key=lambda row: row["limit"])
         yield heading
         if rows:
             yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", cells)
@@ -186,7 +190,7 @@ def limit_items(study: Study) -> Items:
 def unexplained_items(study: Study) -> Items:
     """A warning with all that nobody expected, or a note that there is nothing of the kind."""
     lines = []
-    for row in having(study.cases, verdict="unexplained"):
+    for row in study.judged("unexplained"):
         lines.append(f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip())
     if lines:
         return [Notice("warning", "Unexplained", lines)]

@@ -23,7 +23,7 @@ from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, legend, numbe
 from reports.regime_map.report import _regimes, _warnings
 from reports.regime_map.sheets import cell_sheets
 from tests.campaigns.fake_engine import sines
-from tests.reports.conftest import columns_of, folder_at, write
+from tests.reports.conftest import columns_of, folder_at, of_kind, write
 from tests.reports.test_browser import violations
 from tests.reports.test_words_apart import crowded
 
@@ -216,10 +216,10 @@ def test_a_screen_alone_has_its_report_too(folder_of):
     table = place / "cells" / "table.csv"
     table.write_text(table.read_text().replace(COMPUTED, SCREENED))
     items = content_of(place)[0].items
-    first, sheets = (next(item for item in items if isinstance(item, kind)) for kind in (Figure, CellSheets))
+    (first, *_), (sheets,) = (of_kind(items, kind) for kind in (Figure, CellSheets))
     assert not any(cell["motions"] for cell in sheets.cells)
     assert "only screened" in first.alt and "chaotic" not in first.alt
-    assert not [item for item in items if isinstance(item, Table) and item.columns[0].title == "motion from rest"]
+    assert "motion from rest" not in {table.columns[0].title for table in of_kind(items, Table)}
     table.unlink()
     with pytest.raises(FolderError, match="cells"):
         content_of(place)
@@ -227,7 +227,7 @@ def test_a_screen_alone_has_its_report_too(folder_of):
 
 @pytest.mark.slow
 def test_each_page_has_its_maps_and_no_word_lies_on_another(folder_of, drawn):
-    figures = [item for item in content_of(folder_of(("full", "spherical-cap")))[0].items if isinstance(item, Figure)]
+    figures = of_kind(content_of(folder_of(("full", "spherical-cap")))[0].items, Figure)
     assert [len(figure.places[0]) for figure in figures] == [2, 4, 4] and not any(map(crowded, drawn))
     assert [{place.page for place in figure.places[1]} for figure in figures] == [{0, 1}, {0}, {1}]
 
