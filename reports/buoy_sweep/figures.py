@@ -44,15 +44,6 @@ _DEFINED = (
 )
 
 
-def exponents(sweep: Sweep) -> list[tuple[str, str]]:
-    """The pairs of columns, value and error, in which some run has an exponent."""
-    pairs = []
-    for value, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
-        if np.isfinite(series(sweep.judged, value)).any():
-            pairs.append((value, error))
-    return pairs
-
-
 def orbit_figure(sweep: Sweep) -> Figure | None:
     """The answer in one figure; None where no run has strobed points."""
     drawn = [run for run in (*sweep.good, *sweep.between) if len(run.section)]
