@@ -45,10 +45,7 @@ def sheet_items(sweep: Sweep) -> Items:
         f"perturbations were carried. The PDF has those nearest {printed}, and the first of a motion that repeats "
         "after several periods."
     )
-    items = [Heading("Every run"), Text(introduction)]
-    for run in sweep.runs:
-        items.append(_sheet(sweep, run))
-    return items
+    return [Heading("Every run"), Text(introduction), [_sheet(sweep, run) for run in sweep.runs]]
 
 
 def _sheet(sweep: Sweep, run: Run) -> Sheet:

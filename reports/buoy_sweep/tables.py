@@ -86,7 +86,7 @@ def plane_items(sweep: Sweep) -> Items:
     shown = sweep.runs_with(lambda run: run.in_space or run["loop_releases"] > 0)
     across = sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name))
     if not shown and not across:
-        return []
+        return
     provenance = sweep.folder.provenance
     dimensions = provenance.get("dimensions")
     words = (
@@ -96,7 +96,8 @@ def plane_items(sweep: Sweep) -> Items:
     push = provenance.get("push_mps")
     if push:
         words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
-    items = [Heading("Out of the plane"), Text(words)]
+    yield Heading("Out of the plane")
+    yield Text(words)
     if across:
         growth, error = columns[growth_name], columns[error_name]
         picture = over_key(across, columns[sweep.key.name], [((growth, error),)], sweep.colours)
@@ -104,7 +105,7 @@ def plane_items(sweep: Sweep) -> Items:
             "Exponent of an infinitesimal perturbation across the plane, with one standard error, in planar runs that "
             f"released no loop: below zero the planar motion is stable. From `{growth.name}` and `{error.name}`."
         )
-        items.append(Figure(picture, caption, "Exponent across the plane, with standard errors."))
+        yield Figure(picture, caption, "Exponent across the plane, with standard errors.")
     if shown:
         caption = (
             "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). Columns called planar are of "
@@ -114,8 +115,8 @@ def plane_items(sweep: Sweep) -> Items:
         for name, column in columns.items():
             if column.page == PLANE:  # a column of the planar run stands behind the same one of the run in space
                 names += [name.removeprefix("planar_"), name]
-        items += [Text(COMPARED), sweep_table(sweep, names, shown, caption)]
-    return items
+        yield Text(COMPARED)
+        yield sweep_table(sweep, names, shown, caption)
 
 
 def cost_figure(sweep: Sweep) -> Figure | None:
@@ -147,7 +148,7 @@ def scene_and_modes(sweep: Sweep) -> Items:
         push = sweep.folder.provenance.get("push_mps")
         if push:
             varied["start.buoy_velocity_mps"] = f"{number(push)} across the waves in three dimensions"
-    items = scene_items(sweep.folder.scene, "tethered_buoy", varied)
+    yield scene_items(sweep.folder.scene, "tethered_buoy", varied)
     if modes:
         rows = (
             ("static tension", T_S, number(modes.static_tension_N), "N"),
@@ -157,5 +158,4 @@ def scene_and_modes(sweep: Sweep) -> Items:
             ("wave frequency", OMEGA_I, number(modes.wave_radps), "rad/s"),
         )
         columns = heads("quantity", "symbol", ("value", ""), ("unit", ""))
-        items.append(Table(columns, rows, "What follows from the scene in closed form.", small=False))
-    return items
+        yield Table(columns, rows, "What follows from the scene in closed form.", small=False)

@@ -78,7 +78,7 @@ def _key(name: str) -> str:
 
 def timing_items(folder: Folder, *costs: Item | None) -> Items:
     """What the runs cost: `costs`, where there are any, and the time split of a campaign; nothing for none of them."""
-    items, rows = [*filter(None, costs)], []
+    items, rows = flat(costs), []
     for name, time in _flat(folder.provenance.get("timing")):
         if isinstance(time, (int, float)):
             part = _TIMES.get(name, name.removesuffix("_s").replace("_", " "))
@@ -93,21 +93,21 @@ def timing_items(folder: Folder, *costs: Item | None) -> Items:
 
 def provenance_items(folder: Folder) -> Items:
     """The command and everything else that provenance.json holds."""
-    items = [Heading("Provenance")]
+    yield Heading("Provenance")
     entries = dict(folder.provenance)
     entries.pop("timing", None)
     command = entries.pop("command", None)
     if command:
         if isinstance(command, list):
             command = shlex.join(map(str, command))
-        items += [Text("The command:"), Listing(str(command))]
+        yield Text("The command:")
+        yield Listing(str(command))
     rows = []
     for key, entry in _flat(entries):
         rows.append((f"`{key}`", _shown(entry)))
     if rows:
         caption = "All of `provenance.json` but the command and the times."
-        items.append(Table(heads("entry", "value"), rows, caption))
-    return items
+        yield Table(heads("entry", "value"), rows, caption)
 
 
 def report_page(folder: Folder, title: str, items: Items, made: Items | None = None, subtitle: str = "") -> Report:

@@ -105,12 +105,13 @@ def _columns_of(shown: Sequence[Measured]) -> list[Column]:
 
 
 def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> Items:
-    items = []
+    yield Heading(f"Over {key.head}")
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for column in _columns_of(part))
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
-        items.append(Figure(over_key(rows, key, part, motions), caption, f"Panels over {plain(key.head)} of {names}."))
-    return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
+        yield Figure(over_key(rows, key, part, motions), caption, f"Panels over {plain(key.head)} of {names}.")
+    if not shown:
+        yield _NOTHING
 
 
 def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> Items:
@@ -127,12 +128,13 @@ def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) 
         drawn.append(Map("", "regime", regimes))
     for column in _columns_of(shown):
         drawn.append(Map(column.label, plain(column.head), series(rows, column.name)))
-    items = []
+    yield Heading(f"Over {keys[0].head} and {keys[1].head}{motion}")
     for part in batched(drawn, _MAPS):
         names = listed(drawn_map.name for drawn_map in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
-        items.append(Figure(maps(keys, rows, part), caption, f"Maps over two parameters of {names}{motion}."))
-    return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
+        yield Figure(maps(keys, rows, part), caption, f"Maps over two parameters of {names}{motion}.")
+    if not drawn:
+        yield _NOTHING
 
 
 def _warnings(keys: Sequence[Column], rows) -> Notice:
