@@ -166,38 +166,34 @@ def _star(page: Page) -> int | None:
 
 def legend(atlas: Atlas) -> list[tuple[str, str]]:
     """What colours and marks of the maps of regimes mean, each with its share of the map."""
-    entries = []
-    for colour, words in _words_by_colour(atlas).items():
+    words, words_of_colours, entries = set(), {}, []
+    for page in atlas.pages:
+        words.update(page.kinds[page.area > 0.0])
+    for word in sorted(words, key=_order):
+        words_of_colours.setdefault(colour_of(word), []).append(word)
+    words_of_colours.pop("", None)
+    for colour, words in words_of_colours.items():
         share = atlas.share(partial(_computed_as, words=words))
-        entries.append((colour, _with_share(_words_listed(words), share)))
+        meaning = _words_listed(words)
+        if share:
+            meaning += f": {_percent(share)}"
+        entries.append((colour, meaning))
     for mark, source, meaning in (("dot", SCREENED, "only screened"), ("cross", FAILED, "failed")):
         share = atlas.of_source(source)
         if share:
-            entries.append((mark, _with_share(meaning, share)))
+            entries.append((mark, f"{meaning}: {_percent(share)}"))
     for kind, line in LINES.items():
         if any(curve.line == line for curve in atlas.pages[0].curves):
             entries.append((line, f"{kind}s of orbits"))
     for hatch, reason in zip(HATCHES, atlas.pages[0].hatched, strict=False):
         share = atlas.limited(reason)
         if share:
-            entries.append((hatch, _with_share(reason, share)))
+            entries.append((hatch, f"{reason}: {_percent(share)}"))
     if any(_star(page) is not None for page in atlas.pages):
         entries.append(("star", "largest tension"))
     if any(atlas.marks):
         entries.append(("mark", "the paper's steepnesses"))
     return entries
-
-
-def _words_by_colour(atlas: Atlas) -> dict[str, list[str]]:
-    """The regimes that can be seen on the maps, by their colour, in the order of the legend."""
-    words = set()
-    for page in atlas.pages:
-        words.update(page.kinds[page.area > 0.0])
-    by_colour = {}
-    for word in sorted(words, key=_order):
-        by_colour.setdefault(colour_of(word), []).append(word)
-    by_colour.pop("", None)
-    return by_colour
 
 
 def _order(word: str) -> tuple[int, str]:
@@ -224,12 +220,6 @@ def _words_listed(words: Sequence[str]) -> str:
     if len(words) > 1:
         return f"{first} and more"
     return first
-
-
-def _with_share(meaning: str, share: float) -> str:
-    if share == 0.0:
-        return meaning
-    return f"{meaning}: {_percent(share)}"
 
 
 def _percent(share: float) -> str:
