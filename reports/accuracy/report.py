@@ -16,34 +16,20 @@ SNAPPING = ("snap", "violent")  # works whose diagram is on the first page, in t
 def report(directory: Path) -> Report:
     """The content of the report on an accuracy folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    timed = {setting.work for setting in study.settings}
-    drawn = _work_of_first_page(study, timed)
-    first = []
-    if drawn:
-        first.append(sections.diagram(study, drawn))
-    items = [
-        *first,
-        *section_items("accuracy"),
-        Heading("Error against run time"),
-        Text(_protocol(study)),
-    ]
+    items, drawn = [], ""
+    for name in (*SNAPPING, *study.works):  # on the first page: the first work with a run that ended as asked
+        if study.timed(name):
+            drawn = name
+            items.append(sections.diagram(study, name))
+            break
+    items += [section_items("accuracy"), Heading("Error against run time"), Text(_protocol(study))]
+    works = {setting.work for setting in study.settings}
     for name in study.works:
-        if name in timed:
-            items += sections.work_items(study, name, drawn)
-    items += [
-        *peer_items(study),
-        *sections.order_items(study),
-    ]
+        if name in works:
+            items.append(sections.work_items(study, name, drawn))
+    items += [peer_items(study), sections.order_items(study)]
     subtitle = "Work-precision of the engine and of other codes"
     return report_page(study.folder, "Error against run time", items, timing_items(study.folder), subtitle)
-
-
-def _work_of_first_page(study: Study, timed: set[str]) -> str:
-    """The first work with a run that ended as asked, those of SNAPPING in front; "" where there is none."""
-    for name in (*SNAPPING, *study.works):
-        if name in timed and study.timed(name):
-            return name
-    return ""
 
 
 def _protocol(study: Study) -> str:

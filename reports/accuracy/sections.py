@@ -11,8 +11,9 @@ import numpy as np
 
 from tables import Column, count, number
 
-from ..figures.work_precision import work_precision
+from ..figures.curves import Curve, Panel, curves
 from ..parts import Figure, Folder, FolderError, Heading, Items, Table, Text, heads, read_files, read_folder, table_of
+from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION
 
 OURS, PEER = "point", "peer"
 _WORDS = {
@@ -50,7 +51,6 @@ class Study(NamedTuple):
 
     folder: Folder
     works: dict[str, dict]
-    rows: tuple[dict, ...]
     settings: list[Setting]
     orders: list[dict]
     order_columns: dict[str, Column]
@@ -77,8 +77,7 @@ def read_study(directory: Path) -> Study:
         raise FolderError(folder.directory, "provenance.json cannot be read: it does not describe the works")
     wanted = {"orders.csv": "orders of convergence", "orders_columns.csv": "what the columns of orders.csv are"}
     files = read_files(directory, wanted)
-    orders, columns = files.values()
-    return Study(folder, works, folder.table, list(_settings(folder.table)), orders, columns)
+    return Study(folder, works, list(_settings(folder.table)), *files.values())
 
 
 def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
@@ -93,6 +92,20 @@ def _settings(rows: Sequence[Mapping[str, object]]) -> Iterator[Setting]:
         yield Setting(*named, *middle, len(bad), first["kind"] == PEER, first["status"], first["message"])
 
 
+_LOOKS = {  # method: colour, mark
+    "esdirk43": (BLUE, "o"),
+    "trbdf2": (GREEN, "s"),
+    "generalized-alpha": (ORANGE, "^"),
+    "midpoint": (PURPLE, "v"),
+    "backward-euler": (SKY, "D"),
+    "paper-box": (SOFT, "p"),
+    "scipy Radau": (VERMILION, "X"),
+    "scipy BDF": (VERMILION, "*"),
+    "MoorDyn": (INK, "P"),
+    "CableDyn": (SOFT, "<"),
+}
+_OTHER = (SOFT, ".")
+DASHED = (", shock viscosity", ", stretched grid")
 LEVELS = {"mm": (5.0, 2.0, 1.0, 0.1, 0.01), "%": (1.0, 0.3, 0.1, 0.03)}
 WORST = 1e4  # mm or %: what is further off is not drawn
 SHIPPED = ("esdirk43", 41, "rtol", 0.03)
@@ -120,28 +133,20 @@ def per_period(study: Study, work: str) -> tuple[float, str]:
     return 1e3, "ms"
 
 
-def shipped(study: Study, work: str) -> Setting | None:
-    """The shipped setting of the buoy on a work, or None."""
-    for setting in study.timed(work):
-        if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED:
-            return setting
-    return None
-
-
 def within(settings: list[Setting], level: float) -> Setting | None:
     """The cheapest setting whose median error is within the level."""
     accurate = [setting for setting in settings if setting.error <= level]
     return min(accurate, key=lambda setting: setting.wall_s, default=None)
 
 
-def work_items(study: Study, work: str, drawn: str) -> Items:
+def work_items(study: Study, work: str, drawn: str = "") -> Items:
     """Everything on one work; drawn: that whose diagram is on the first page."""
     entry = study.works[work]
     smooth = f"Not smooth: {entry['rough']}." if entry["rough"] else "Smooth."
     yield Heading(entry["title"], 2)
     yield Text(f"{ERRORS[entry['measure']]} {smooth}")
     references = []
-    for row in study.rows:
+    for row in study.folder.table:
         if row["work"] == work and row["kind"] in ("reference", "check"):
             references.append(row)
     if references:
@@ -165,26 +170,47 @@ def work_items(study: Study, work: str, drawn: str) -> Items:
         yield Table(heads("method", "setting", "outcome"), list(failed), caption)
 
 
+def cheapest(time: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Indices of the settings that no setting as cheap or cheaper beats, by time."""
+    best, chosen = np.inf, []
+    for i in np.lexsort((error, time)):
+        if error[i] < best:
+            chosen.append(i)
+            best = error[i]
+    return np.array(chosen, dtype=int)
+
+
 def diagram(study: Study, work: str) -> Figure:
-    """Error against run time of every setting of a work."""
+    """Error against run time, log-log: a mark for every setting, a line a method through what nothing cheaper beats."""
     (factor, unit), error_unit, timed = per_period(study, work), study.unit(work), study.timed(work)
-    names = list(dict.fromkeys(setting.method for setting in timed))
-    series = []
-    for name in names:
-        time, error, is_peer = [], [], False
-        for setting in timed:
-            if setting.method == name and setting.error < WORST:
-                time.append(setting.wall_s)
-                error.append(setting.error)
-                is_peer = setting.peer
-        series.append((name, factor * np.array(time), np.maximum(error, 1e-12), is_peer))
-    ring = shipped(study, work)
-    marked = (factor * ring.wall_s, ring.error) if ring else None
-    picture = work_precision(series, f"stepping time ({unit})", f"error ({error_unit})", marked)
+    settings_of_methods = {}
+    lines = []
+    for setting in timed:
+        settings_of_methods.setdefault(setting.method, []).append(setting)
+    for name, settings in settings_of_methods.items():
+        time, error = [], []
+        for setting in settings:
+            if setting.error < WORST:
+                time.append(factor * setting.wall_s)
+                error.append(max(setting.error, 1e-12))
+        time, error = np.array(time), np.array(error)
+        colour, mark = _LOOKS.get(name.partition(",")[0], _OTHER)
+        lines.append(Curve(time, error, "", "", mark, colour, size=2.6, alpha=0.45))
+        front = cheapest(time, error)
+        dash = "--" if name.endswith(DASHED) else "-"
+        width = 1.6 if settings[0].peer else 1.0
+        lines.append(Curve(time[front], error[front], name, dash, mark, colour, width=width))
+    for setting in timed:
+        if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED:
+            time, error = np.array([factor * setting.wall_s]), np.array([setting.error])
+            lines.append(Curve(time, error, "shipped setting", "", "o", INK, size=9.0, filled=False))
+            break
+    panel = Panel(lines, f"stepping time ({unit})", f"error ({error_unit})", log="xy")
     best = min(timed, key=lambda setting: setting.error)
     seen = (
-        f"{count(len(timed), 'setting')} of {count(len(names), 'method')}; the least error, {number(best.error, 2)} "
-        f"{error_unit}, has {best.method} ({best.named}) in {number(factor * best.wall_s, 3)} {unit}"
+        f"{count(len(timed), 'setting')} of {count(len(settings_of_methods), 'method')}; the least error, "
+        f"{number(best.error, 2)} {error_unit}, has {best.method} ({best.named}) in "
+        f"{number(factor * best.wall_s, 3)} {unit}"
     )
     caption = (
         f"Error against run time, {study.works[work]['title']}. A mark is a setting (median of its rounds). A line "
@@ -192,7 +218,8 @@ def diagram(study: Study, work: str) -> Figure:
         "grid. Other codes (thick) are held against their own refined runs. "
         f"Seen: {seen}. From `error` and `wall_s` of `table.csv`."
     )
-    return Figure(picture, caption, f"Error over stepping time for every method, both on log scales: {seen}.")
+    alt = f"Error over stepping time for every method, both on log scales: {seen}."
+    return Figure(curves([[panel]], 3.7, "right"), caption, alt)
 
 
 def order_items(study: Study) -> Items:

@@ -1,15 +1,19 @@
 """The report of `campaigns.basins`: what is said, in which order. Everything comes from the campaign's folder."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
 
 from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 
-from ..figures.basins import basin_map
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN
+from ..figures.regime_map import widest
 from ..parts import (
     LONGEST_CELL,
     Figure,
@@ -29,7 +33,7 @@ from ..parts import (
     shown_on,
     table_of,
 )
-from ..parts.style import BLUE, INK
+from ..parts.style import BLUE, INK, SHADES, WIDTH_IN, picture_of, sheet
 from ..sweep.quantities import batched, colours_of, filled_table
 
 _AXES = {
@@ -49,6 +53,8 @@ _EDGE = (
     "run side by side until they part, and bisected again (Skufca, Yorke and Eckhardt, Phys. Rev. Lett. 96, "
     "174101, 2006). Both settle on the edge state, which no start keeps. Its strobed states: `edge/orbit.csv`."
 )
+_OPEN = {"unsettled": "x", "failed": "P"}  # marks of starts that belong to no motion
+_HALO = [withStroke(linewidth=2.0, foreground="white")]
 _MOST = 14  # columns of one table
 _PERIODS = 8  # of a motion without a period, drawn
 
@@ -63,13 +69,13 @@ def report(directory: Path) -> Report:
     motions = []
     if motion_runs is not None:
         motions = [row for row in motion_runs.table if row["motion"]]
-    items = [*_map(folder, across, motions, shock), *section_items("basins")]
+    items = [_map(folder, across, motions, shock), section_items("basins")]
     if motions:
-        items += _motions(motion_runs, motions, edge)
+        items.append(_motions(motion_runs, motions, edge))
     if shock is not None:
-        items += [Heading("The smallest start"), *filled_table(shock, _SMALLEST)]
+        items += [Heading("The smallest start"), filled_table(shock, _SMALLEST)]
     if edge is not None:
-        items += [Heading("The edge state"), Text(_EDGE), *filled_table(edge, "The edge state.")]
+        items += [Heading("The edge state"), Text(_EDGE), filled_table(edge, "The edge state.")]
     items += [Heading("Warnings"), _warnings(folder, across)]
     return report_page(folder, "Basins: which start ends in which motion", items)
 
@@ -87,28 +93,97 @@ def _value(row, axis: str) -> float:
 
 
 def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Items:
-    x_axis, y_axis = across
-    x, across_place = np.unique([_value(row, x_axis) for row in folder.table], return_inverse=True)
-    y, up_place = np.unique([_value(row, y_axis) for row in folder.table], return_inverse=True)
+    values = [[_value(row, axis) for row in folder.table] for axis in across]
+    x, columns = np.unique(values[0], return_inverse=True)
+    y, rows = np.unique(values[1], return_inverse=True)
     ended = np.full((len(y), len(x)), "", dtype=object)
-    for row, up, right in zip(folder.table, up_place, across_place, strict=True):
+    for row, up, right in zip(folder.table, rows, columns, strict=True):
         ended[up, right] = row["motion"] or _outcome(row)
     colours, names = _colours(motions), {}
     colours.pop("", None)
     for row in motions:
         letter, regime = str(row["motion"]), row["regime"] or row["status"]
         names[letter] = f"{letter}: {regime}, {number(row['tension_top_max_N'] / 1e3, 3)} kN"
-    arrow = _arrow(across, shock)
-    labels = _AXES[x_axis][1], _AXES[y_axis][1]
-    picture = basin_map((x, y), ended, labels, colours, names, arrow)
-    narrow = basin_map((x, y), ended, labels, colours, names, arrow, NARROW_IN)
     caption = (
         "Motion in which each start of the grid ends, with its largest tension (`table.csv`, `motions/table.csv`)."
     )
+    arrow = _arrow(across, shock)
     if arrow is not None:
         caption += " Arrow: the smallest start that leads to the motion of the largest tension."
     alt = f"Map of {count(len(folder.table), 'start')}, a colour a motion; shares in the text."
-    yield Figure(picture, caption, alt, narrow=narrow)
+    pictures = []
+    for width_in, height_in in ((WIDTH_IN, 0.62 * WIDTH_IN), (NARROW_IN, 0.9 * NARROW_IN)):
+        with sheet(0.5 + height_in, width_in) as figure:
+            axes = figure.subplots()
+            _draw(axes, (x, y), ended, across, colours, arrow)
+            handles = [Patch(facecolor=colour, label=names[letter]) for letter, colour in colours.items()]
+            handles += axes.get_legend_handles_labels()[0]
+            figure.legend(handles=handles, loc="outside upper left", ncols=max(1, int(width_in / 2.2)))
+            pictures.append(picture_of(figure))
+    yield Figure(pictures[0], caption, alt, narrow=pictures[1])
+
+
+def _draw(axes, places: tuple[np.ndarray, np.ndarray], ended: np.ndarray, across: list[str], colours, arrow) -> None:
+    """The grid as cells in the colours of its motions, each with its letter where it is widest.
+
+    places: values of the starts (p,) and (q,). ended: (q, p) letters of motions, or keys of _OPEN.
+    """
+    x, y = places
+    letters = list(colours)
+    numbers = np.full(ended.shape, -1)
+    for place, letter in enumerate(letters):
+        numbers[ended == letter] = place
+    look = {"cmap": ListedColormap([*colours.values()]), "vmin": -0.5, "vmax": len(letters) - 0.5}
+    axes.grid(False)
+    axes.pcolormesh(_edges(x), _edges(y), np.ma.masked_less(numbers, 0), rasterized=True, **look)
+    axes.set_facecolor(SHADES[-1])
+    size = max(2.0, min(6.0, 160.0 / len(x)))
+    for word, mark in _OPEN.items():
+        rows, columns = np.nonzero(ended == word)
+        if len(rows):
+            axes.plot(x[columns], y[rows], mark, color=INK, markersize=size, label=word, linestyle="")
+    for place, letter in enumerate(letters):
+        inside = numbers == place
+        if arrow is not None:
+            off_the_arrow = inside & _aside(x, y)
+            if off_the_arrow.any():
+                inside = off_the_arrow
+        cell = widest(inside)
+        if cell is not None:
+            look = {"fontsize": 13, "weight": "bold", "path_effects": _HALO}
+            axes.text(x[cell[1]], y[cell[0]], letter, ha="center", va="center", **look)
+    if arrow is not None:
+        end, text = arrow
+        begin = (0.0, end[1] if across[1] == "phase" else 0.0)
+        axes.plot(*begin, "o", color="white", markeredgecolor=INK, markersize=4.5)
+        look = {"arrowstyle": "-|>", "color": INK, "linewidth": 1.4, "shrinkA": 0.0, "shrinkB": 0.0}
+        axes.annotate("", tuple(end), begin, arrowprops=look).arrow_patch.set_path_effects(_HALO)
+        _arrow_text(axes, text, begin, end)
+    axes.set(xlabel=_AXES[across[0]][1], ylabel=_AXES[across[1]][1])
+
+
+def _arrow_text(axes, text: str, begin: Sequence[float], end: Sequence[float]) -> None:
+    """The text of an arrow beside its head, on the side that the arrow points to."""
+    (across, up), (x_offset, y_offset), look = np.subtract(end, begin), (6.0, 3.0), {"ha": "left", "va": "bottom"}
+    if across < 0.0:
+        x_offset, look["ha"] = -x_offset, "right"
+    if up < 0.0:
+        y_offset, look["va"] = -y_offset, "top"
+    offset = (x_offset, y_offset)
+    axes.annotate(text, tuple(end), offset, textcoords="offset points", path_effects=_HALO, weight="bold", **look)
+
+
+def _edges(values: np.ndarray) -> np.ndarray:
+    half = 0.5 * (values[1] - values[0])
+    return np.append(values - half, values[-1] + half)
+
+
+def _aside(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Which cells (q, p) are not near the places of no kick at all."""
+    x, y = (values / max(np.abs(values).max(), 1e-9) for values in (x, y))
+    if y.min() >= 0.0:  # a time: without a kick it makes no difference
+        y = np.zeros_like(y)
+    return np.hypot(x[None, :], y[:, None]) > 0.15
 
 
 def _outcome(row) -> str:

@@ -11,12 +11,12 @@ from ..figures.line_panels import named
 from ..parts import (
     Folder,
     Heading,
-    Item,
     Items,
     Notice,
     Report,
     Text,
     counted,
+    flat,
     picture_first,
     read_folder,
     read_statements,
@@ -56,39 +56,34 @@ def report(directory: Path) -> Report:
     of_cases = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
     exact = read_exact(folder)
-    first = []
-    if exact is not None:
-        first.append(figures.speeds_figure(exact))
     items = [
-        *first,
-        *section_items("breaking_line"),
-        *_section("The cases", table("cases"), *_warnings(lines), text=ended),
-        *_section("Fast breaks", *figures.paper_figures(lines, FAST)),
-        *_section("Slow breaks", *figures.paper_figures(lines, SLOW)),
-        *_section("At the fixed end", figures.folds_figure(lines)),
-        *_section("In motion", figures.animation_figure(lines, ANIMATED)),
-        *_section("Fronts and shocks", *_fronts(folder, lines, exact), text=THEORY),
-        *_section("Energy", figures.energy_figure(lines), table("energies"), text=BUDGET),
-        *_section("The paper's statements", statements_table(judged, verdicts)),
-        *_section("Bending stiffness", table("stiffness")),
-        *_section("Doubled grids", table("doubled")),
+        exact and figures.speeds_figure(exact),
+        section_items("breaking_line"),
+        _section("The cases", table("cases"), _warnings(lines), text=ended),
+        _section("Fast breaks", figures.paper_figures(lines, FAST)),
+        _section("Slow breaks", figures.paper_figures(lines, SLOW)),
+        _section("At the fixed end", figures.folds_figure(lines)),
+        _section("In motion", figures.animation_figure(lines, ANIMATED)),
+        _section("Fronts and shocks", _fronts(folder, lines, exact), text=THEORY),
+        _section("Energy", figures.energy_figure(lines), table("energies"), text=BUDGET),
+        _section("The paper's statements", statements_table(judged, verdicts)),
+        _section("Bending stiffness", table("stiffness")),
+        _section("Doubled grids", table("doubled")),
     ]
     solved = section_items("breaking_line_solved", "Equations", law=folder.scene.tether.tension.law)
     cases = listed(named(case) for case in folder.provenance.get("cases") or ["as asked"])
     varied = {"end.force_N": f"cases {cases}", "end.force_decay_s": "0.005 (1 to 4), 0.05 (1′ to 4′)"}
     scene = scene_items(folder.scene, "breaking_line", varied)
-    made = [*timing_items(folder, table("cost")), *scene, *solved]
+    made = [timing_items(folder, table("cost")), scene, solved]
     return report_page(folder, "The breaking synthetic line", picture_first(items), made)
 
 
-def _section(heading: str, *items: Item | None, text: str = "") -> Items:
-    present = [item for item in items if item is not None]
+def _section(heading: str, *items: Items, text: str = "") -> Items:
+    """The items below their heading and text; nothing where there are none."""
+    present = flat(items)
     if not present:
         return []
-    first: list[Item] = [Heading(heading)]
-    if text:
-        first.append(Text(text))
-    return first + present
+    return [Heading(heading), Text(text) if text else None, *present]
 
 
 def _warnings(lines: list[Line]) -> Items:
@@ -117,13 +112,9 @@ def _run(line: Line) -> str:
     return f"{run}, {number(line['nodes'])} nodes"
 
 
-def _fronts(folder: Folder, lines: list[Line], exact: xarray.Dataset | None) -> list[Item | None]:
+def _fronts(folder: Folder, lines: list[Line], exact: xarray.Dataset | None) -> Items:
     """Nothing where no case has a theory."""
     if not any(line.known("front_speed_theory_mps") for line in of_kind(lines, "case")):
         return []
-    items = []
-    if exact is not None:
-        items.append(figures.plane_figure(lines, exact))
-    for kind in ("speeds", "shocks"):
-        items.append(table_of_runs(lines, folder.columns, kind))
-    return [*items, series_table(lines, folder.columns)]
+    speeds, shocks = (table_of_runs(lines, folder.columns, kind) for kind in ("speeds", "shocks"))
+    return [exact and figures.plane_figure(lines, exact), speeds, shocks, series_table(lines, folder.columns)]

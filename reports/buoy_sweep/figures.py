@@ -27,9 +27,9 @@ from tables import (
 from ..figures.animations import tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain, series
 from ..parts.style import BLUE, INK, REGIME_COLOURS
-from ..sweep.quantities import in_order, series
+from ..sweep.quantities import in_order
 from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import STEEPNESS, Run, Sweep
 
@@ -42,15 +42,6 @@ _DEFINED = (
     "stay, and a spectral line does not fit the waves. Transient: still changing at the end of the record. Everything "
     "else is undecided. A verdict is one over the periods of the run: a longer chaotic transient is called chaotic."
 )
-
-
-def exponents(sweep: Sweep) -> list[tuple[str, str]]:
-    """The pairs of columns, value and error, in which some run has an exponent."""
-    pairs = []
-    for value, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
-        if np.isfinite(series(sweep.judged, value)).any():
-            pairs.append((value, error))
-    return pairs
 
 
 def orbit_figure(sweep: Sweep) -> Figure | None:

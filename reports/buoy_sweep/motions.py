@@ -10,10 +10,9 @@ from tables import EMPTY, PEAK, PERIODIC, listed, number, of_kicks, ranges
 
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
-from ..parts import Items, Table, heads
+from ..parts import Items, Table, heads, series
 from ..parts.style import INK, SOFT
 from ..sweep.motions import ends_of
-from ..sweep.quantities import series
 from .runs import Run, Sweep
 
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"

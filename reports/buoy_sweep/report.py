@@ -6,15 +6,28 @@ from pathlib import Path
 
 from tables import COARSE, OTHER_MOTION, decimals, number, percent
 
-from ..parts import T_I, TAU_0, Heading, Items, Notice, Report, Text, limits, report_page, section_items
+from ..parts import (
+    T_I,
+    TAU_0,
+    Heading,
+    Items,
+    Notice,
+    Report,
+    Text,
+    limits,
+    report_page,
+    section_items,
+    series,
+    timing_items,
+)
 from ..sweep.motions import every_motion
-from ..sweep.quantities import extremes, series
+from ..sweep.quantities import extremes
 from ..sweep.snaps import snap_items
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
-from .tables import plane_items, runs_items, scene_and_modes, time_items
+from .tables import cost_figure, plane_items, runs_items, scene_and_modes
 
 _EXTREMES = (
     "slack_fraction", "tension_top_max_N", "radius_min_m", "radius_max_m", "loop_releases", "rope_lateral_max_m",
@@ -34,21 +47,21 @@ def report(directory: Path) -> Report:
     sweep = read_sweep(directory)
     items = [
         orbit_figure(sweep) or Text("No run gave strobed points after the transient, so there is no orbit diagram."),
-        *motions_items(sweep),
+        motions_items(sweep),
         explorer(sweep),
-        *_question(sweep),
+        _question(sweep),
         Heading("Warnings"),
         warnings(sweep),
-        *regime_items(sweep),
-        *every_motion(sweep.folder, "steepness", "kA"),
-        *close_up_items(sweep),
-        *snap_items(sweep.folder, sweep.folder.columns["steepness"]),
-        *plane_items(sweep),
-        *runs_items(sweep),
-        *sheet_items(sweep),
+        regime_items(sweep),
+        every_motion(sweep.folder, "steepness", "kA"),
+        close_up_items(sweep),
+        snap_items(sweep.folder, sweep.folder.columns["steepness"]),
+        plane_items(sweep),
+        runs_items(sweep),
+        sheet_items(sweep),
     ]
     solved = section_items("buoy_sweep_solved", "Equations", law=sweep.folder.scene.tether.tension.law)
-    made = [*time_items(sweep), *scene_and_modes(sweep), *solved]
+    made = [timing_items(sweep.folder, cost_figure(sweep)), scene_and_modes(sweep), solved]
     return report_page(sweep.folder, "Tethered buoy: a sweep of wave steepness", items, made)
 
 
@@ -58,17 +71,15 @@ def _question(sweep: Sweep) -> Items:
     keys = [columns["steepness"]]
     if sweep.colours:
         keys.append(columns["motion"])
-    items = [
-        *section_items("buoy_sweep"),
-        *extremes(keys, sweep.good, shown, _EXTREMES_CAPTION),
-    ]
+    yield section_items("buoy_sweep")
+    yield extremes(keys, sweep.good, shown, _EXTREMES_CAPTION)
     if sweep.judged:
-        return items
+        return
     reason = (
         "No run was judged. Without `--periods` runs last as long as their regime needs. With `--periods` a run needs "
         "at least 135 wave periods and has to carry perturbations (`output.tangent_vectors`)."
     )
-    return [*items, Notice("note", "No verdict on regular or chaotic motion", (reason,))]
+    yield Notice("note", "No verdict on regular or chaotic motion", (reason,))
 
 
 def warnings(sweep: Sweep) -> Notice:

@@ -3,11 +3,10 @@
 import math
 from collections.abc import Sequence
 
-from tables import EMPTY, PEAK, PEAK_ERROR, count, number
+from tables import EMPTY, PEAK, PEAK_ERROR, TANGENT_ERROR, TANGENT_EXPONENT, WOLF_ERROR, WOLF_EXPONENT, count, number
 
-from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, shown_on
-from ..sweep.quantities import series
-from .figures import axis_of, evidence_table, exponents
+from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, series, shown_on
+from .figures import axis_of, evidence_table
 from .runs import END_PERIODS, STEEPNESS, Run, Sweep
 
 # columns that a sheet shows in its title, its drawing, its table or its message
@@ -27,8 +26,10 @@ def explorer(sweep: Sweep) -> Explorer:
         ("peak tension (kN)", tuple(peak_kN), tuple(error_kN)),
         ("slack fraction (–)", tuple(series(rows, "slack_fraction")), (math.nan,) * len(rows)),
     ]
-    for column, error in exponents(sweep)[:1]:
-        lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))
+    for column, error in ((TANGENT_EXPONENT, TANGENT_ERROR), (WOLF_EXPONENT, WOLF_ERROR)):
+        if any(run.known(column) for run in sweep.judged):
+            lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))
+            break
     return Explorer(axis_of(sweep), "strobed r (m)", tuple(columns), tuple(lower))
 
 
@@ -44,10 +45,7 @@ def sheet_items(sweep: Sweep) -> Items:
         f"perturbations were carried. The PDF has those nearest {printed}, and the first of a motion that repeats "
         "after several periods."
     )
-    items = [Heading("Every run"), Text(introduction)]
-    for run in sweep.runs:
-        items.append(_sheet(sweep, run))
-    return items
+    return [Heading("Every run"), Text(introduction), [_sheet(sweep, run) for run in sweep.runs]]
 
 
 def _sheet(sweep: Sweep, run: Run) -> Sheet:

@@ -21,11 +21,11 @@ from ..parts import (
     link,
     plain,
     scene_items,
+    series,
     shown_on,
     table_of,
-    timing_items,
 )
-from ..sweep.quantities import batched, over_key, series
+from ..sweep.quantities import batched, over_key
 from .runs import Run, Sweep
 
 _MOST = 21  # columns of one table
@@ -76,10 +76,7 @@ def runs_items(sweep: Sweep) -> Items:
         f"its range, N ≤ {sweep.longest}; “none” where no N does. A dash: not known. On the page "
         f"{sweep.key.head} leads to the sheet of the run."
     )
-    return [
-        Heading("Table of runs"),
-        *(sweep_table(sweep, part, sweep.runs, caption) for part in batched(names, _MOST)),
-    ]
+    return [Heading("Table of runs"), [sweep_table(sweep, part, sweep.runs, caption) for part in batched(names, _MOST)]]
 
 
 def plane_items(sweep: Sweep) -> Items:
@@ -89,7 +86,7 @@ def plane_items(sweep: Sweep) -> Items:
     shown = sweep.runs_with(lambda run: run.in_space or run["loop_releases"] > 0)
     across = sweep.runs_with(lambda run: run.known(growth_name) and run.known(error_name))
     if not shown and not across:
-        return []
+        return
     provenance = sweep.folder.provenance
     dimensions = provenance.get("dimensions")
     words = (
@@ -99,7 +96,8 @@ def plane_items(sweep: Sweep) -> Items:
     push = provenance.get("push_mps")
     if push:
         words += f" At t = 0 the buoy got {number(push)} m/s across the waves; else it would stay in the plane."
-    items = [Heading("Out of the plane"), Text(words)]
+    yield Heading("Out of the plane")
+    yield Text(words)
     if across:
         growth, error = columns[growth_name], columns[error_name]
         picture = over_key(across, columns[sweep.key.name], [((growth, error),)], sweep.colours)
@@ -107,7 +105,7 @@ def plane_items(sweep: Sweep) -> Items:
             "Exponent of an infinitesimal perturbation across the plane, with one standard error, in planar runs that "
             f"released no loop: below zero the planar motion is stable. From `{growth.name}` and `{error.name}`."
         )
-        items.append(Figure(picture, caption, "Exponent across the plane, with standard errors."))
+        yield Figure(picture, caption, "Exponent across the plane, with standard errors.")
     if shown:
         caption = (
             "Runs in three dimensions (D = 3) and planar runs with loop releases (D = 2). Columns called planar are of "
@@ -117,22 +115,15 @@ def plane_items(sweep: Sweep) -> Items:
         for name, column in columns.items():
             if column.page == PLANE:  # a column of the planar run stands behind the same one of the run in space
                 names += [name.removeprefix("planar_"), name]
-        items += [Text(COMPARED), sweep_table(sweep, names, shown, caption)]
-    return items
+        yield Text(COMPARED)
+        yield sweep_table(sweep, names, shown, caption)
 
 
-def time_items(sweep: Sweep) -> Items:
-    """What each run cost, and the time split of the campaign."""
-    return timing_items(sweep.folder, _cost_figure(sweep))
-
-
-def _cost_figure(sweep: Sweep) -> Figure | None:
+def cost_figure(sweep: Sweep) -> Figure | None:
     """Time and Newton iterations of each run; None where no run tells its time."""
-    columns, rows, periods = sweep.folder.columns, [], 0.0
-    for run in sweep.runs:
-        if run.periods_done:
-            rows.append(run)
-            periods += run.periods_done
+    columns = sweep.folder.columns
+    rows = sweep.runs_with(lambda run: run.periods_done)
+    periods = sum(run.periods_done for run in rows)
     wall_s = series(rows, "wall_s")
     if not np.isfinite(wall_s).any():
         return None
@@ -157,7 +148,7 @@ def scene_and_modes(sweep: Sweep) -> Items:
         push = sweep.folder.provenance.get("push_mps")
         if push:
             varied["start.buoy_velocity_mps"] = f"{number(push)} across the waves in three dimensions"
-    items = scene_items(sweep.folder.scene, "tethered_buoy", varied)
+    yield scene_items(sweep.folder.scene, "tethered_buoy", varied)
     if modes:
         rows = (
             ("static tension", T_S, number(modes.static_tension_N), "N"),
@@ -167,5 +158,4 @@ def scene_and_modes(sweep: Sweep) -> Items:
             ("wave frequency", OMEGA_I, number(modes.wave_radps), "rad/s"),
         )
         columns = heads("quantity", "symbol", ("value", ""), ("unit", ""))
-        items.append(Table(columns, rows, "What follows from the scene in closed form.", small=False))
-    return items
+        yield Table(columns, rows, "What follows from the scene in closed form.", small=False)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,8 @@ from ..parts import Picture
 from ..parts.style import BLUE, GREEN, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
 
 COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY)
+
+_BINS = 900  # columns of the whole-record view: about two a printed millimetre
 
 
 class Curve(NamedTuple):
@@ -191,3 +194,20 @@ def cells(figure: Figure, panels: Sequence, wide: int, labels: tuple[str, str], 
     for axes in grid[:, 0]:
         axes.set_ylabel(labels[1])
     return zip(grid.flat, panels, strict=False)
+
+
+def envelope(x: np.ndarray, y: np.ndarray, bins: int = _BINS) -> tuple[np.ndarray, np.ndarray]:
+    """A line through the least and greatest y of each of `bins` equal spans: looks like the full line at that width.
+
+    Args: x (n,) increasing, y (n,). Returns x, y of at most 2*bins points; a shorter record comes back as it is.
+    Every extreme of y is kept, which simple thinning would lose.
+    """
+    if len(y) <= 2 * bins:
+        return x, y
+    indices = set()
+    for first, end in pairwise(np.linspace(0, len(y), bins + 1).astype(int)):
+        part = y[first:end]
+        if np.isfinite(part).any():
+            indices.update((first + int(np.nanargmin(part)), first + int(np.nanargmax(part))))
+    index = sorted(indices)
+    return x[index], y[index]

@@ -8,8 +8,8 @@ import numpy as np
 from tables import number
 
 from ..parts import Picture
-from ..parts.style import SOFT, VERMILION, picture_of, sheet
-from .curves import Curve, Panel, cells, curves
+from ..parts.style import SOFT, picture_of, sheet
+from .curves import cells
 
 QUANTITIES = {  # what is drawn -> the same in words, label of its axis, unit
     "z_m": ("motion of a breaking line in the x-z plane", "$z$ (m)", "m"),
@@ -24,7 +24,6 @@ SCALED = {
 }
 MARGINS = {"z_m": (0.06, 0.06), "tension_N": (0.03, 0.05), "speed_mps": (0.03, 0.05)}
 TENSIONS = (-0.1, 1.06)  # of the largest static tension of the two cases that share a scale
-_WIDTH_IN = 5.6  # of all panels of a row
 
 
 class LinePanel(NamedTuple):
@@ -115,16 +114,3 @@ def named(case: str) -> str:
 def thousands(newtons: float) -> str:
     """As the paper prints forces: 45 000."""
     return f"{np.round(newtons):,.0f}".replace(",", "\u202f").replace("-", "−")
-
-
-def folds(panels: list[LinePanel], x_limits: tuple[float, float], z_limits: tuple[float, float]) -> Picture:
-    """Shapes in true proportion, two panels a row; x and y of each panel (n,), time_s its one instant."""
-    limits = {"aspect": "equal", "xlim": x_limits, "ylim": z_limits}
-    fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
-    drawn = []
-    for panel in panels:
-        title = f"case {named(panel.case)}, {1e3 * float(panel.time_s[0]):.0f} ms"
-        drawn.append(Panel([Curve(panel.x, panel.y, width=0.7), fixed], "$x$ (m)", "$z$ (m)", title, settings=limits))
-    rows = [drawn[k : k + 2] for k in range(0, len(drawn), 2)]
-    height = _WIDTH_IN / len(rows[0]) * (z_limits[1] - z_limits[0]) / (x_limits[1] - x_limits[0])
-    return curves(rows, 0.4 + len(rows) * (0.45 + height))

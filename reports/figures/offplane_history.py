@@ -1,4 +1,4 @@
-"""Lateral motion over time on a logarithmic axis (the paper's figure 20), and over the depth."""
+"""Lateral motion over time on a logarithmic axis (the paper's figure 20)."""
 
 from typing import NamedTuple
 
@@ -6,8 +6,7 @@ import numpy as np
 
 from ..parts import Picture
 from ..parts.style import BLUE, VERMILION
-from .curves import COLOURS, Curve, Panel, curves
-from .motion import envelope
+from .curves import Curve, Panel, curves, envelope
 
 INPLANE = "in-plane half range of the buoy"
 _DECADES_BELOW = 1.5  # room for the swings through zero below the least of the envelope
@@ -45,19 +44,3 @@ def lateral_histories(panels: list[tuple[str, list[History]]], kind: str = "svg"
         x_label = r"$t/T_i$ (wave periods)" if len(rows) == len(panels) - 1 else ""
         rows.append([Panel(lines, x_label, label, log="y", settings=limits, **further)])
     return curves(rows, 0.7 + 2.3 * len(panels), "below", "x", kind)
-
-
-def dependence(panels: list[tuple[str, list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]]], label: str) -> Picture:
-    """Panels (title, curves): each curve is (name, depth (p,) in m, lateral distance (p,) in m, decays (p,) bool).
-
-    Filled marks: the motion goes on; open ones: it decays, and the mark is what is left of it.
-    """
-    drawn = []
-    for title, series in panels:
-        lines = []
-        for (name, depth, size, decays), colour, mark in zip(series, COLOURS, "os^D", strict=False):
-            lines.append(Curve(depth, size, colour=colour, width=0.6, alpha=0.6))
-            lines.append(Curve(depth[~decays], size[~decays], name, "", mark, colour, size=4.5))
-            lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
-        drawn.append(Panel(lines, "depth $H$ (m)", label, title, log="y"))
-    return curves([drawn], 2.9, "below")

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tables import PERIODIC
+
 from ..parts import content
 from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
 from .curves import Curve, Panel, draw
@@ -18,12 +20,11 @@ _BAR_OF_MOTION_IN, _MAIN_OF_MOTIONS_IN, _MAIN_OF_ORBITS_IN = 0.12, 1.6, 2.3
 _LEGEND_IN, _NAMED = 0.14, 1.6  # a row of the legend, and the width of a motion in it
 _EDGE_IN, _NUMBERS_IN = 0.1, 0.27  # beside the first and the last run; left of it, where numbers stand there
 _NEUTRAL = "#8b95a0"
+_WORD = {"va": "center", "fontsize": 7.0}  # of a bar
 _LETTER_IN = 0.062  # mean width of a letter of 7 points
 _SMALL = 1 / 3  # of the range of all points: what of it motions may take that are drawn again, larger
 _LEAST_WIDE = 0.15  # of the axis, for those
 _LEAST_LARGER = 2.0  # times, for which it is drawn again
-_PERIOD = "period-"
-_BETWEEN = "not judged"
 _HATCHES = {"quasi-periodic": "////", "chaotic": "xxxxxx", "transient": "....", "undecided": "---"}  # of words
 
 Motions = Mapping[str, tuple[str, str]]  # letter -> its colour, what the legend says of it
@@ -89,7 +90,7 @@ class OrbitDiagram(NamedTuple):
         if legend:
             top_in = 0.3 + _LEGEND_IN * (len(legend) - 1)
         height_in = top_in + sum(heights) + _GAP_IN * (len(heights) - 1) + _BOTTOM_IN
-        with sheet(height_in, width_in) as figure:
+        with sheet(height_in, width_in, None) as figure:
             grid = figure.add_gridspec(
                 len(heights), 1, height_ratios=heights, hspace=_GAP_IN * len(heights) / sum(heights),
                 left=_LEFT_IN / width_in, right=1 - _RIGHT_IN / width_in, bottom=_BOTTOM_IN / height_in,
@@ -131,13 +132,9 @@ class OrbitDiagram(NamedTuple):
                 axes.yaxis.set_label_coords((_LABEL_IN - _LEFT_IN) / (width_in - _LEFT_IN - _RIGHT_IN), 0.5)
             return picture_of(figure)
 
-    @property
-    def _judged(self) -> list[Strobes]:
-        return [column for column in self.columns if column.word]
-
     def _words(self) -> dict[str, list[Span]]:
         """The bar of words of each motion, with nothing where a value has it not; "" in a sweep of one motion."""
-        judged, spans = self._judged, {}
+        judged, spans = [column for column in self.columns if column.word], {}
         at = sorted({column.at for column in judged})
         if not judged:
             return spans
@@ -154,21 +151,22 @@ class OrbitDiagram(NamedTuple):
         last one, is still empty."""
         from matplotlib.patches import Patch
 
-        judged, rows, names = self._judged, [], {}
-        for column in judged:
-            kind = _kind(column.word)
-            names[kind] = kind.replace(_PERIOD, "periodic")
-        if judged and self.motions:
+        rows, names = [], {}
+        for column in self.columns:
+            if column.word:
+                kind = _kind(column.word)
+                names[kind] = kind.replace(PERIODIC, "periodic")
+        if names and self.motions:
             patches = []
             for letter, (colour, title) in self.motions.items():
                 patches.append(Patch(color=colour, label=f"{letter}: {title}"))
             for first in range(0, len(patches), wide):
                 rows.append(patches[first : first + wide])
             rows.append([Patch(**_hatched(kind, SOFT), label=name) for kind, name in names.items()])
-        elif judged:
+        elif names:
             rows.append([Patch(color=REGIME_COLOURS[kind], label=name) for kind, name in names.items()])
-            if len(judged) < len(self.columns):
-                rows[0].append(Patch(color=_NEUTRAL, label=_BETWEEN))
+            if not all(column.word for column in self.columns):
+                rows[0].append(Patch(color=_NEUTRAL, label="not judged"))
         if self.orbits:
             rows.append([])
         return rows
@@ -232,7 +230,7 @@ def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[Span]:
 
 def _kind(word: str) -> str:
     """The word, one for all periods."""
-    return _PERIOD if word.startswith(_PERIOD) else word
+    return PERIODIC if word.startswith(PERIODIC) else word
 
 
 def _hatched(kind: str, colour: str) -> dict[str, object]:
@@ -244,22 +242,20 @@ def _hatched(kind: str, colour: str) -> dict[str, object]:
 
 def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str) -> None:
     """Words as a bar with numbers of periods: in their colours, or hatched in that of a motion, its letter beside."""
-    look = {"va": "center", "fontsize": 7.0}
     for word, low, high in spans:
-        kind, number_text = _kind(word), word.removeprefix(_PERIOD)
+        kind, number_text = _kind(word), word.removeprefix(PERIODIC)
         filling = {"facecolor": colour or REGIME_COLOURS[kind], "edgecolor": "white", "linewidth": 0.7}
         if colour and kind in _HATCHES:
             filling = _hatched(kind, colour)
         axes.axvspan(low, high, **filling)
-        if kind == _PERIOD and (high - low) * inch > _LETTER_IN * len(number_text):
-            axes.text(0.5 * (low + high), 0.45, number_text, color="white", ha="center", **look)
+        if kind == PERIODIC and (high - low) * inch > _LETTER_IN * len(number_text):
+            axes.text(0.5 * (low + high), 0.45, number_text, color="white", ha="center", **_WORD)
     if letter:
-        axes.text(-0.008, 0.45, letter, transform=axes.transAxes, color=colour, ha="right", weight="bold", **look)
+        axes.text(-0.008, 0.45, letter, transform=axes.transAxes, color=colour, ha="right", weight="bold", **_WORD)
 
 
 def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
     """Spans as a bar of one shade, with its text once."""
-    look = {"va": "center", "fontsize": 7.0}
     for _, low, high in spans:
         axes.axvspan(low, high, facecolor=SHADES[-1], linewidth=0.0)
     if not spans:
@@ -274,7 +270,7 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
         place, side = low, "right"
     elif x_max - high > wide:
         place = high
-    axes.text(place, 0.45, text, ha=side, **look)
+    axes.text(place, 0.45, text, ha=side, **_WORD)
 
 
 def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> None:
@@ -288,7 +284,7 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
         points = [column.points for column in members]
         x = np.repeat([column.at for column in members], list(map(len, points)))
         wide, thick, alpha = 1.6, 0.45, 0.8
-        if word.startswith(_PERIOD):
+        if word.startswith(PERIODIC):
             thick = 1.1
         elif not word:
             wide, thick = 0.9, 0.7

@@ -1,36 +1,46 @@
 """Maps over two parameters with cells of any size: a colour a cell, borders as lines, hatches over what limits them."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.patheffects import withStroke
 
-from ..parts import MapPlace, Picture
+from tables import FAILED, SCREENED
+
+from ..parts import MapPlace, Picture, Row, series
 from ..parts.style import INK, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
-from .basins import widest
 from .curves import Curve, with_gaps
 
 LINES = {"fold": "-", "flip": "--", "torus": ":"}
-HATCHES = "////", "\\\\\\\\"  # of the first and the second of `Cells.hatched`
+HATCHES = "////", "\\\\\\\\"  # of the first and the second of `Page.hatched`
 _FINE = 200  # points to a side of the even grid on which a place for a text is looked for
 _LEAST = 3.5  # of them that a text is away from the border of its region
 _DOT = 0.5  # share of a cell's sides that its dot takes
 
 
-class Cells(NamedTuple):
-    """The n cells of a map, each over those before it.
+@dataclass(frozen=True, eq=False)
+class Page:
+    """The n cells of one map, each over those before it.
 
-    boxes (n, 4): left, right, low and high edge. kinds (n,): lines are drawn between cells that differ in it. dots,
-    crosses (n,): which have a dot in place of a full cell, which a cross alone. hatched: what is hatched -> (n,).
+    boxes (n, 4): left, right, low and high edge. kinds (n,): lines are drawn between cells that differ in it. source
+    (n,): a cell that is screened has a dot in place of a full cell, one that failed a cross alone. hatched: what is
+    hatched -> (n,). curves: drawn on it, each in its own line or marks. rows: of the table. number, place: of the page,
+    and the value that it stands for, "" for the only one.
     """
 
     boxes: np.ndarray
     kinds: np.ndarray
-    dots: np.ndarray
-    crosses: np.ndarray
-    hatched: Mapping[str, np.ndarray] = {}
+    source: np.ndarray
+    hatched: Mapping[str, np.ndarray] = field(default_factory=dict)
+    curves: Sequence[Curve] = ()
+    rows: Sequence[Row] = ()
+    number: int = 0
+    place: str = ""
 
+    @cached_property
     def laid(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(edges x (p + 1,), y (q + 1,), which cell is on top between them (q, p), -1 for none).
 
@@ -47,29 +57,40 @@ class Cells(NamedTuple):
             top[y_low:y_high, x_low:x_high] = cell
         return *edges, top
 
-    def areas(self) -> np.ndarray:
-        """(n,) share of the map that each cell takes which is on top."""
-        x, y, top = self.laid()
+    @cached_property
+    def area(self) -> np.ndarray:
+        """(n,) share of the map that each cell takes where it is on top."""
+        x, y, top = self.laid
         parts = np.outer(np.diff(y), np.diff(x))
         return np.bincount(top[top >= 0], parts[top >= 0], len(self.boxes)) / parts.sum()
+
+    def column(self, name: str) -> np.ndarray:
+        """A number of each cell (n,), nan where it has none."""
+        return series(self.rows, name)
+
+    def on_top(self, source: str) -> np.ndarray:
+        """(n,) which cells are of that source and not covered by others."""
+        return (self.area > 0.0) & (self.source == source)
+
+    def share(self, chosen: np.ndarray) -> float:
+        """Of the map."""
+        return float(self.area[chosen].sum())
 
 
 class Map(NamedTuple):
     """One quantity of the cells of a page: colours (n,), "" for none, with a scale (colours, norm, ticks) or a legend.
 
     texts (n,): written where neighbours of one kind have most room. star: a cell to be marked. limited: whether it is
-    hatched. curves: drawn on it, each in its own line or marks.
+    hatched.
     """
 
-    cells: Cells
+    page: Page
     title: str
     colours: np.ndarray
-    page: int = 0
     scale: tuple | None = None
     texts: np.ndarray | None = None
     star: int | None = None
     limited: bool = True
-    curves: Sequence[Curve] = ()
 
 
 def regime_maps(
@@ -91,7 +112,6 @@ def regime_maps(
     rows, entries = -(-len(shown) // wide), max(1, int(width_in / 2.2))  # of maps; entries of the legend in a row
     height_in = rows * (0.35 + 0.6 * width_in / wide**0.9) + 0.22 * -(-len(legend) // entries) + 0.2
     with sheet(height_in, width_in) as figure:
-        figure.set_layout_engine("constrained")
         grid = figure.subplots(rows, wide, squeeze=False, sharex=True, sharey=True)
         for axes in grid.flat[len(shown) :]:
             axes.set_visible(False)
@@ -119,7 +139,7 @@ def regime_maps(
 def _place(axes, regime_map: Map) -> MapPlace:
     x, y, width, height = axes.get_position().bounds
     ends = (*axes.get_xlim(), *axes.get_ylim())
-    return MapPlace((x, 1.0 - y - height, width, height), ends, regime_map.page)
+    return MapPlace((x, 1.0 - y - height, width, height), ends, regime_map.page.number)
 
 
 def _drawn(axes, regime_map: Map, marks) -> None:
@@ -128,28 +148,28 @@ def _drawn(axes, regime_map: Map, marks) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
-    x, y, top = regime_map.cells.laid()
+    page = regime_map.page
+    dots = page.source == SCREENED
+    x, y, top = page.laid
     shown, known = np.unique(top[top >= 0]), regime_map.colours != ""
     colours = np.array([to_rgba(colour or "white") for colour in regime_map.colours])
-    filled = (known & ~regime_map.cells.dots)[top] & (top >= 0)
+    filled = (known & ~dots)[top] & (top >= 0)
     axes.pcolormesh(x, y, np.where(filled[..., None], colours[top], 0.0), rasterized=True)
-    small = shown[(known & regime_map.cells.dots)[shown]]
-    corners = _corners(regime_map.cells.boxes[small], _DOT)
+    small = shown[(known & dots)[shown]]
+    corners = _corners(page.boxes[small], _DOT)
     axes.add_collection(PolyCollection(corners, facecolors=colours[small], linewidths=0, rasterized=True))
-    hatched_cells = regime_map.cells.hatched.values() if regime_map.limited else ()
+    hatched_cells = page.hatched.values() if regime_map.limited else ()
     for hatch, hatched in zip(HATCHES, hatched_cells, strict=False):
         boxes = _runs(x, y, hatched[top] & (top >= 0))
         parts = [Path(outline, closed=True) for outline in _corners(boxes, 1.0)]
         if parts:
             look = {"facecolor": "none", "edgecolor": INK, "hatch": hatch, "linewidth": 0.0, "hatch_linewidth": 0.35}
             axes.add_patch(PathPatch(Path.make_compound_path(*parts), **look))
-    kinds = np.where(top >= 0, np.unique(regime_map.cells.kinds, return_inverse=True)[1][top], -1)
+    kinds = np.where(top >= 0, np.unique(page.kinds, return_inverse=True)[1][top], -1)
     axes.plot(*_borders(x, y, kinds), color=INK, linewidth=0.8, solid_capstyle="projecting")
-    lost = shown[regime_map.cells.crosses[shown]]
-    middles = regime_map.cells.boxes[lost].reshape(-1, 2, 2).mean(axis=2)
+    lost = shown[page.source[shown] == FAILED]
+    middles = page.boxes[lost].reshape(-1, 2, 2).mean(axis=2)
     axes.plot(*middles.T, "x", color=VERMILION, markersize=3.5, markeredgewidth=0.9)
-    for curve in regime_map.curves:
-        axes.plot(curve.x, curve.y, curve.mark or curve.line, **_CURVE)
     _written(axes, regime_map, x, y, top)
     axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]], title=regime_map.title)
     axes.locator_params(nbins=6)
@@ -169,11 +189,13 @@ _STAR = {"marker": "*", "color": "white", "markeredgecolor": INK, "markersize": 
 
 
 def _written(axes, regime_map: Map, x: np.ndarray, y: np.ndarray, top: np.ndarray) -> None:
-    """Texts of regions where they have room, and the star."""
+    """On a map with texts the curves, and the texts of regions where they have room; the star."""
     from scipy.ndimage import label
 
     halo = {"path_effects": [withStroke(linewidth=2.0, foreground="white")], "weight": "bold"}
     if regime_map.texts is not None:
+        for curve in regime_map.page.curves:
+            axes.plot(curve.x, curve.y, curve.mark or curve.line, **_CURVE)
         even_x, even_y = _middles(x), _middles(y)
         rows, columns = np.searchsorted(y, even_y) - 1, np.searchsorted(x, even_x) - 1
         even = top[np.ix_(rows, columns)]
@@ -185,7 +207,7 @@ def _written(axes, regime_map: Map, x: np.ndarray, y: np.ndarray, top: np.ndarra
                     row, column = place
                     axes.text(even_x[column], even_y[row], text, ha="center", va="center", fontsize=9, **halo)
     if regime_map.star is not None:
-        axes.plot(*regime_map.cells.boxes[regime_map.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
+        axes.plot(*regime_map.page.boxes[regime_map.star].reshape(2, 2).mean(axis=1), linestyle="", zorder=5, **_STAR)
 
 
 def _middles(edges: np.ndarray) -> np.ndarray:
@@ -237,3 +259,16 @@ def _borders(x: np.ndarray, y: np.ndarray, kinds: np.ndarray) -> tuple[np.ndarra
 def _differ(kinds: np.ndarray) -> np.ndarray:
     """Which places of a raster differ from that of the row before."""
     return np.vstack([np.zeros((1, kinds.shape[1]), bool), kinds[1:] != kinds[:-1]])
+
+
+def widest(inside: np.ndarray, least: float = 0.0) -> tuple[int, int] | None:
+    """The cell that is farthest from all outside; None where none is as far as `least` cells."""
+    from scipy.ndimage import distance_transform_edt
+
+    if not inside.any():
+        return None
+    far = distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]
+    up, across = np.indices(inside.shape)
+    aside = np.hypot(up / inside.shape[0] - 0.5, across / inside.shape[1] - 0.5)  # of equals the one in the middle
+    cell = np.unravel_index(int(np.argmax(far - 0.1 * aside)), far.shape)
+    return tuple(map(int, cell)) if far[cell] >= least else None

@@ -10,9 +10,9 @@ import numpy as np
 from tables import PEAK, any_rows, number_of
 
 from ..figures.curves import COLOURS, Curve, with_gaps
-from ..parts import Folder, Row, having, part_of
+from ..parts import Folder, Row, having, part_of, series
 from ..parts.style import INK
-from ..sweep.quantities import colours_of, series
+from ..sweep.quantities import colours_of
 
 EVENTS = {"fold": "D", "flip": "s", "torus": "^"}  # kinds, with their marks
 DASHED = (0, (3.5, 1.5))

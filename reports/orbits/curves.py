@@ -10,9 +10,9 @@ from tables import Column, listed, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..figures.regime_map import LINES
-from ..parts import Figure, Folder, Heading, Items, having, part_of
+from ..parts import Figure, Folder, Heading, Items, having, part_of, series
 from ..parts.style import INK
-from ..sweep.quantities import filled_table, series
+from ..sweep.quantities import filled_table
 
 
 def keys_of(part: Folder) -> tuple[Column, Column]:

@@ -32,9 +32,10 @@ from ..parts import (
     read_folder,
     report_page,
     section_items,
+    series,
 )
 from ..parts.style import INK, SOFT
-from ..sweep.quantities import batched, colours_of, filled_table, in_order, series
+from ..sweep.quantities import batched, colours_of, filled_table, in_order
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
 from .curves import curve_items
 
@@ -56,18 +57,20 @@ def report(directory: Path) -> Report:
     key = _varied(folder)
     motions = having(rows_of(folder, "motions"), status="ok")
     branches = read_branches(folder, key.name, motions)
-    items = []
-    if branches:
-        items.append(_diagram(folder, key, branches, motions))
     located = {key.name: partial(_located, key=key.name)}
-    items += filled_table(part_of(folder, "events"), _EVENTS, ("branch", _EVENT[0], key.name, *_EVENT[1:]), located)
-    items += [*curve_items(folder)]
-    items += [*section_items("orbits"), Heading("Warnings"), _warnings(folder, key, branches)]
-    items += _chosen(folder, key, branches)
-    if branches:
-        items += _multipliers(key, branches)
-    items.append(Heading("Branches"))
-    items += filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH)
+    events = ("branch", _EVENT[0], key.name, *_EVENT[1:])
+    items = [
+        _diagram(folder, key, branches, motions),
+        filled_table(part_of(folder, "events"), _EVENTS, events, located),
+        curve_items(folder),
+        section_items("orbits"),
+        Heading("Warnings"),
+        _warnings(folder, key, branches),
+        _chosen(folder, key, branches),
+        _multipliers(key, branches),
+        Heading("Branches"),
+        filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH),
+    ]
     return report_page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
 
 
@@ -80,8 +83,10 @@ def _varied(folder: Folder) -> Column:
     raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
 
 
-def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure:
-    """Branches over the strobed points of the motions, with tension and multiplier below."""
+def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: Sequence[Row]) -> Figure | None:
+    """Branches over the strobed points of the motions, with tension and multiplier below; None without branches."""
+    if not branches:
+        return None
     colours = colours_of(motions)
     simulated, named = _simulated(key, motions, colours)
     met = Counter()
@@ -110,13 +115,9 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     )
     limits_of_modulus = {"ylim": (0.0, min(1.05 * far, _FAR))}
     modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, settings=limits_of_modulus)
-    diagram = OrbitDiagram(
-        _points_of_motions(folder, key, motions, colours),
-        (key.label, "strobed r (m)"),
-        [tension, modulus],
-        motions=named,
-        orbits=[*lines["strobes"], *_legend(met)],
-    )
+    points, labels = _points_of_motions(folder, key, motions, colours), (key.label, "strobed r (m)")
+    orbits = [*lines["strobes"], *_legend(met)]
+    diagram = OrbitDiagram(points, labels, [tension, modulus], motions=named, orbits=orbits)
     caption = (
         "Lines: r of each orbit once a wave period, solid where it is stable, dashed where no run stays on it. Dashes "
         "and small dots: the motions that runs have found, in the same colours (`motions/table.csv`). Below: largest "
@@ -259,6 +260,8 @@ def _complex(row: Row, k: int) -> complex:
 
 
 def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
+    if not branches:
+        return
     every_value = np.concatenate([branch.at for branch in branches])
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))

@@ -9,13 +9,8 @@ import numpy as np
 from analysis.oscillator import SnapOscillator, grazing_force
 from tables import count, number, percent, sub
 
-from ..figures.oscillator import (
-    oscillator_diagram,
-    oscillator_errors,
-    oscillator_history,
-    oscillator_section,
-    oscillator_zooms,
-)
+from ..figures.curves import Curve, Panel, curves
+from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts import (
     Figure,
     Heading,
@@ -23,15 +18,16 @@ from ..parts import (
     Notice,
     Report,
     Text,
-    appendix,
     picture_first,
-    provenance_items,
+    report_page,
     section_items,
     table_of,
 )
+from ..parts.style import BLUE, GREEN, INK, SOFT, VERMILION
 from .sections import NUMBERS, Study, attracting_orbit, method_items, orbit_items, read_study
 
 LAMBDA_1 = "λ" + sub("1")
+STATE = (r"displacement $\gamma$ (–)", r"velocity $\dot\gamma$ (–)")
 
 
 def report(directory: Path) -> Report:
@@ -48,43 +44,73 @@ def report(directory: Path) -> Report:
         if arrays is None:
             items.append(Text(f"The part `{part}` has no results: {study.faults.get(part)}."))
         else:
-            items += section(study, arrays)
+            items.append(section(study, arrays))
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
-    method = appendix(*method_items(study), Heading("Parts and times"), parts, *provenance_items(study))
+    made = [method_items(study), Heading("Parts and times"), parts]
     numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
-    return Report("The snap oscillator, equation (33)", ", ".join(numbers), (*picture_first(items), *method))
+    return report_page(study, "The snap oscillator, equation (33)", picture_first(items), made, ", ".join(numbers))
 
 
 def _section(study: Study, arrays: dict) -> Items:
     states, boxes, row = arrays["section"], arrays["boxes"], study.rows["section"]
+    alpha = 1.0
+    if len(states) > 20000:
+        alpha = 0.6
+    lines = [Curve(*states.T, "", "", ",", INK, alpha=alpha), *_frames(boxes, 1)]
+    orbit = attracting_orbit(study)
+    if orbit is not None:
+        lines.append(Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION))
     caption = (
         f"Poincaré section at the forcing phase {number(study.oscillator['phase'])} rad, in the layout of the paper's "
         f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. From the part "
         "`section`."
     )
     alt = f"Scatter of {len(states)} strobed points of displacement and velocity."
-    items = [Figure(oscillator_section(states, boxes, attracting_orbit(study)), caption, alt)]
+    yield Figure(curves([[Panel(lines, *STATE)]], 4.9, "upper left", kind="png"), caption, alt)
     zooms = [arrays[name] for name in ("zoom_1", "zoom_2") if name in arrays]
-    if zooms and study.chaotic:  # a zoom into a periodic orbit shows a point
-        counts = " and ".join(str(len(zoom)) for zoom in zooms)
-        caption = (
-            "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
-            f"{counts} points out of {row['periods']} periods of the same orbit. A line resolves into several lines, "
-            "and each of these again, because each period stretches the attractor along its lines and folds it at the "
-            "snap. From the part `section`."
-        )
-        items.append(Figure(oscillator_zooms(zooms, boxes), caption, "Two zooms: bundles of nearly parallel lines."))
-    return items
+    if not zooms or not study.chaotic:  # a zoom into a periodic orbit shows a point
+        return
+    panels = []
+    for place, (points, box) in enumerate(zip(zooms, boxes, strict=True), 1):
+        dots, limits = Curve(*points.T, "", "", ",", INK, alpha=0.7), {"xlim": box[:2], "ylim": box[2:]}
+        lines, y_label = [dots, *_frames(boxes[place:], place + 1)], ""
+        if place == 1:
+            y_label = STATE[1]
+        panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", settings=limits, ticks=5))
+    counts = " and ".join(str(len(zoom)) for zoom in zooms)
+    caption = (
+        "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
+        f"{counts} points out of {row['periods']} periods of the same orbit. A line resolves into several lines, "
+        "and each of these again, because each period stretches the attractor along its lines and folds it at the "
+        "snap. From the part `section`."
+    )
+    picture = curves([panels], 3.5, "upper left", kind="png")
+    yield Figure(picture, caption, "Two zooms: bundles of nearly parallel lines.")
+
+
+def _frames(boxes: np.ndarray, first: int) -> Items:
+    """The outlines of the boxes (b, 4) of zooms, with their numbers, as curves."""
+    for place, (left, right, low, high) in enumerate(boxes, first):
+        x, y = np.array([left, right, right, left, left]), np.array([low, low, high, high, low])
+        yield Curve(x, y, f"zoom {place}", colour=(BLUE, GREEN)[place - 1])
 
 
 def _history(study: Study, arrays: dict) -> Items:
+    """Displacement and velocity over time, shaded where the tether is slack."""
     switches = count(len(arrays.get("switches", ())), "switch", "switches")
     share = percent(study.number("history", "slack_fraction"))
     seen = f"{switches} in {study.rows['history']['periods']} periods, {share} of the time slack"
-    picture = oscillator_history(arrays["time"] / study.period, arrays["displacement"], arrays["velocity"])
+    periods, slack = arrays["time"] / study.period, arrays["displacement"] < 0.0
+    rows = []
+    for name, label in (("displacement", r"$\gamma$ (–)"), ("velocity", r"$\dot\gamma$ (–)")):
+        values = arrays[name]
+        band = periods, np.where(slack, values.min(), np.nan), np.where(slack, values.max(), np.nan)
+        history = Curve(periods, values, colour=INK, band=band)
+        x_label = r"$t/T$ (forcing periods)" if rows else ""
+        rows.append([Panel([history], x_label, label, level=0.0, settings={"xlim": (periods[0], periods[-1])})])
     caption = f"The first periods from γ = 0.68 at rest; shaded: slack. Seen: {seen}. From the part `history`."
-    return [Figure(picture, caption, f"Histories of displacement and velocity: {seen}.")]
+    return [Figure(curves(rows, 2.9, share="x"), caption, f"Histories of displacement and velocity: {seen}.")]
 
 
 def _exponents(study: Study, arrays: dict) -> Items:
@@ -97,13 +123,6 @@ def _exponents(study: Study, arrays: dict) -> Items:
         f"{float(arrays['block_error'][0]):.2g}. Both exponents and the damping must add up to zero. A Kaplan-Yorke "
         "dimension D between 1 and 2 is that of a fractal between a curve and an area."
     )
-    caption = (
-        f"Errors of the largest exponent. Left: {LAMBDA_1} against the length of the averages. Right: scatter "
-        "of the mean of k starts against k (bars: two standard errors of the scatter) beside the line of independent "
-        "starts. From the part `exponents`."
-    )
-    alt = "Convergence of the largest exponent with time, and its scatter against the number of starts."
-    figure = Figure(oscillator_errors(arrays["convergence"], arrays["of_start"][:, 0]), caption, alt)
     shown = (
         "lambda_1_nats_per_time",
         "lambda_1_bits_per_period",
@@ -111,23 +130,72 @@ def _exponents(study: Study, arrays: dict) -> Items:
         "sum_plus_damping",
         "section_dimension",
     )
-    return [Text(text), table_of(study.columns, shown, [row], "The exponents, from `table.csv`."), figure]
+    table = table_of(study.columns, shown, [row], "The exponents, from `table.csv`.")
+    return [Text(text), table, _errors(arrays["convergence"], arrays["of_start"][:, 0])]
+
+
+def _errors(convergence: np.ndarray, of_start: np.ndarray) -> Figure:
+    """How the exponent settles: its mean over (time, mean, standard error) (b, 3), and the standard deviation of the
+    mean of k starts, from of_start (n,) cut into groups of k.
+    """
+    time, mean, error = convergence.T
+    band = (time, mean - 2 * error, mean + 2 * error)
+    running = Curve(time, mean, "mean over starts, ± 2 standard errors", colour=BLUE, band=band)
+    labels = ("time of each start's average (–)", r"$\lambda_1$ (nats per time)")
+    left = Panel([running], *labels, level=float(mean[-1]))
+    sizes = 2 ** np.arange(20)
+    sizes = sizes[(len(of_start) // sizes >= 8) | (sizes == 1)]
+    groups, scatter = len(of_start) // sizes, np.empty(len(sizes))
+    for place, (size, number_of_groups) in enumerate(zip(sizes, groups, strict=True)):
+        means = of_start[: size * number_of_groups].reshape(number_of_groups, size).mean(axis=1)
+        scatter[place] = means.std(ddof=1)
+    observed = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
+    ends = sizes[[0, -1]]
+    law = Curve(ends, scatter[0] * ends**-0.5, r"$k^{-1/2}$ from $k = 1$", colour=VERMILION)
+    log = "xy" if (scatter > 0).all() else "x"  # starts on one periodic orbit may agree to the last bit
+    right = Panel([observed, law], r"starts averaged, $k$", "scatter of the mean (nats per time)", log=log)
+    caption = (
+        f"Errors of the largest exponent. Left: {LAMBDA_1} against the length of the averages. Right: scatter "
+        "of the mean of k starts against k (bars: two standard errors of the scatter) beside the line of independent "
+        "starts. From the part `exponents`."
+    )
+    alt = "Convergence of the largest exponent with time, and its scatter against the number of starts."
+    return Figure(curves([[left, right]], 2.8, "upper right"), caption, alt)
 
 
 def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> Items:
     if not np.isfinite(arrays["section"]).any():
         return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
-    values, largest, errors = arrays["values"], arrays["exponents"][..., 0], arrays["errors"]
+    values, largest = arrays["values"], arrays["exponents"][..., 0]
     marks = [(study.oscillator[key], "as run")]
     grazing = grazing_force(SnapOscillator(**study.oscillator))
     if key == "force" and math.isfinite(grazing):
         marks.append((grazing, "grazing"))
-    curves = (arrays[name] for name in ("section", "exponents", "errors", "slack_fraction"))
-    chaotic = int((largest - 2 * errors > 0).any(axis=1).sum())
+    marks = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
+    positive = largest - 2 * arrays["errors"] > 0
+    across = np.broadcast_to(values[:, None], largest.shape)
+
+    def dots(x: np.ndarray, y: np.ndarray, name: str, colour: str, size: float) -> Curve:
+        return Curve(x.ravel(), y.ravel(), name, "", "o", colour, size=size)
+
+    lines = [
+        dots(across, arrays["exponents"][..., 1], r"$\lambda_2$", SOFT, 1.0),
+        dots(across[~positive], largest[~positive], r"$\lambda_1$", BLUE, 1.3),
+        dots(across[positive], largest[positive], r"$\lambda_1$, above 0 by two errors", VERMILION, 1.3),
+    ]
+    slack = dots(across, arrays["slack_fraction"], "", BLUE, 1.0)
+    below = [
+        Panel(lines, y_label="exponents\n(nats per time)", level=0.0),
+        Panel([slack], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)}),
+    ]
+    columns = []
+    for at, points in zip(values, arrays["section"], strict=True):
+        columns.append(Strobes(at, points[np.isfinite(points)]))
+    picture = OrbitDiagram(columns, (label, r"strobed $\gamma$ (–)"), below, marks=marks).drawn()
     top = number(float(np.nanmax(largest)), 3), number(float(values[int(np.nanargmax(largest.max(axis=1)))]))
     seen = (
-        f"{LAMBDA_1} is above zero by two errors, for one start at least, at {chaotic} of {len(values)} values; "
-        f"its largest value is {top[0]} at {symbol} = {top[1]}"
+        f"{LAMBDA_1} is above zero by two errors, for one start at least, at {int(positive.any(axis=1).sum())} of "
+        f"{len(values)} values; its largest value is {top[0]} at {symbol} = {top[1]}"
     )
     row = study.rows[f"diagram-{key}"]
     caption = (
@@ -135,7 +203,6 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> I
         f"starts at every value, {row['periods']} periods after {row['transient']}. Where the four differ, "
         f"attractors coexist or a transient is long. Seen: {seen}. From the part `{row['part']}`."
     )
-    picture = oscillator_diagram(values, *curves, label, marks)
     return [Figure(picture, caption, f"Orbit diagram over {symbol} with exponents below: {seen}.")]
 
 

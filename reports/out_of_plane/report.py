@@ -31,18 +31,18 @@ def report(directory: Path) -> Report:
     """The content of the report on an out-of-plane folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
     items = [
-        *section_items("out_of_plane"),
-        *sections.statement_items(study),
-        *sections.growth_items(study),
-        *sections.dependence_items(study),
-        *sections.comparison_items(study),
+        section_items("out_of_plane"),
+        sections.statement_items(study),
+        sections.growth_items(study),
+        sections.dependence_items(study),
+        sections.comparison_items(study),
         Heading("Warnings"),
-        *_warnings(study),
+        _warnings(study),
         Heading("Table of runs"),
-        *_runs_tables(study),
+        _runs_tables(study),
     ]
-    items = picture_first(items)
-    return report_page(study.folder, "Tethered buoy: out of the plane of the waves", items, _scene_and_times(study))
+    title = "Tethered buoy: out of the plane of the waves"
+    return report_page(study.folder, title, picture_first(items), _scene_and_times(study))
 
 
 def _runs_tables(study: Study) -> Items:
@@ -59,7 +59,8 @@ def _warnings(study: Study) -> Items:
     failed, lost, looped, turned = [], [], [], []
     for run in study.runs:
         if not run.ok:
-            failed.append(f"{_name(run)}: {_end(run)}.")
+            reason = ": ".join(filter(None, (run["status"], run["message"])))
+            failed.append(f"{_name(run)}: {reason}.")
         elif not study.folder.trajectory_path(run["run_key"]).exists():
             lost.append(f"{_name(run)}: its trajectory is missing; figures leave it out.")
     for run in pushed:
@@ -82,10 +83,6 @@ def _warnings(study: Study) -> Items:
         yield Notice("note", "Nothing to warn of", (nothing,))
 
 
-def _end(run: Run) -> str:
-    return ": ".join(filter(None, (run["status"], run["message"])))
-
-
 def _name(run: Run) -> str:
     pushed = f"push {number(run['seed_mps'])} m/s {run['seed_direction']}" if run["dimensions"] == 3 else "planar"
     return (
@@ -95,7 +92,7 @@ def _name(run: Run) -> str:
 
 
 def _scene_and_times(study: Study) -> Items:
-    yield from timing_items(study.folder)
+    yield timing_items(study.folder)
     keys = {
         "steepness": "waves.steepness",
         "depth_m": "water.depth_m",
@@ -111,4 +108,4 @@ def _scene_and_times(study: Study) -> Items:
         varied |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
     if any(entries(study.runs, "profiles")):
         varied["output.profiles"] = "yes in one run"
-    yield from scene_items(study.folder.scene, "tethered_buoy", varied)
+    yield scene_items(study.folder.scene, "tethered_buoy", varied)

@@ -7,8 +7,8 @@ import numpy as np
 from engine.views import strobed_radius
 from tables import BODIES, PAIRS, PLANE, any_rows, errors_of, number, number_of
 
-from ..figures.motion import section_pairs
-from ..figures.offplane_history import History, dependence, lateral_histories
+from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..figures.offplane_history import History, lateral_histories
 from ..parts import (
     Bullets,
     Figure,
@@ -20,6 +20,7 @@ from ..parts import (
     having,
     read_columns,
     read_statements,
+    series,
     shown_on,
     statements_table,
     table_of,
@@ -125,28 +126,28 @@ def dependence_items(study: Study) -> Items:
     stiffnesses = sorted(set(entries(large, "bending_stiffness_Nm2")))
     panels = []
     for body in BODIES:
-        panels.append((body, [_curve(large, body, stiffness) for stiffness in stiffnesses]))
+        lines = []
+        for stiffness, colour, mark in zip(stiffnesses, COLOURS, "os^D", strict=False):
+            runs = having(large, bending_stiffness_Nm2=stiffness)
+            depth, size = series(runs, "depth_m"), series(runs, f"{body}_lateral_late_m")
+            decays = np.array(entries(runs, f"{body}_motion")) == "decay"
+            name = f"EI = {number(stiffness)} N m²"
+            lines.append(Curve(depth, size, colour=colour, width=0.6, alpha=0.6))
+            lines.append(Curve(depth[~decays], size[~decays], name, "", mark, colour, size=4.5))
+            lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
+        panels.append(Panel(lines, "depth $H$ (m)", "max $|y|$, second half (m)", body, log="y"))
     caption = (
         f"Largest lateral distance in the second half of each run at kA = {number(study.base['steepness'])} over the "
         "depth. Filled: bursts, or neither; open: exponential decay, and what is left of it."
     )
-    picture = dependence(panels, "max $|y|$, second half (m)")
     yield Heading("Depth and bending stiffness")
-    yield Figure(picture, caption, "Lateral motion of buoy and rope over the depth.")
+    yield Figure(curves([panels], 2.9, "below"), caption, "Lateral motion of buoy and rope over the depth.")
     bodies = columns_of_bodies("motion", "rate_bits_per_period", "lateral_max_m")
     bursts = ("rope_bursts", "rope_burst_median_m", "rope_share_of_inplane")
     limits = ("slack_fraction", "loop_releases", "max_turn_rad")
     names = ["steepness", "depth_m", "bending_stiffness_Nm2", *bodies, *bursts, *limits]
     caption = "Every depth and stiffness of the large wave, every stiffness of the small one."
     yield study.table(names, [*large, *small], caption)
-
-
-def _curve(runs, body: str, stiffness: float) -> tuple:
-    chosen = having(runs, bending_stiffness_Nm2=stiffness)
-    depth_m = np.array(entries(chosen, "depth_m"))
-    late_m = np.array(entries(chosen, f"{body}_lateral_late_m"))
-    decays = np.array(entries(chosen, f"{body}_motion")) == "decay"
-    return f"EI = {number(stiffness)} N m²", depth_m, late_m, decays
 
 
 def comparison_items(study: Study) -> Items:
@@ -171,15 +172,18 @@ def comparison_items(study: Study) -> Items:
     columns = read_columns(study.folder.directory / "pairs_columns.csv")
     shown = [name for name in columns if not name.endswith("_key")]
     yield table_of(columns, shown, pair_rows, "What the runs of a pair differ in. From `pairs.csv`.")
-    sections = []
+    panels = []
     for row, pair in zip(pair_rows, pairs, strict=True):
         points = [strobed_radius(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
         if len(points) == 2:
-            sections.append((f"H = {number(number_of(row, 'depth_m'))} m", *points))
-    if sections:
+            title, labels = f"H = {number(number_of(row, 'depth_m'))} m", (r"$r$ (m)", r"$\dot{r}$ (m/s)")
+            rings = Curve(*points[0].T, "planar", line="", mark="o", size=5.0, width=0.7, filled=False)
+            dots = Curve(*points[1].T, "three dimensions", line="", mark=".", size=3.0)
+            panels.append(Panel([rings, dots], *labels, title, ticks=4))
+    if panels:
         caption = (
             f"Poincaré sections of planar runs with loop release and of runs in three dimensions, after "
             f"{study.transient} wave periods. From `radius_m` and `radius_rate_mps`."
         )
-        picture = section_pairs(sections, ("planar", "three dimensions"))
+        picture = curves([panels], 2.9, "below")
         yield Figure(picture, caption, "Sections of planar and three-dimensional runs over each other.")

@@ -2,13 +2,16 @@
 
 import math
 import tomllib
+from itertools import chain
 from pathlib import Path
+
+import numpy as np
 
 from engine import Scene, load_scene
 from engine.natural_frequencies import natural_frequencies
 from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
 
-from ..figures.depth_exponents import depth_exponents
+from ..figures.curves import COLOURS, Curve, Panel, curves
 from ..out_of_plane.runs import read_study
 from ..out_of_plane.sections import comparison_items
 from ..parts import (
@@ -17,6 +20,8 @@ from ..parts import (
     FolderError,
     Heading,
     Items,
+    Picture,
+    Row,
     Table,
     Text,
     entries,
@@ -25,9 +30,16 @@ from ..parts import (
     plus_minus,
     provenance_of,
     read_files,
+    series,
     table_of,
 )
+from ..parts.style import INK
 
+BESIDE = 0.14  # of the space between two values
+DASHES = ("-", "--", ":", "-.", "-")
+MARKS = {"periodic": "o", "quasi-periodic": "s", "chaotic": "*", "transient": "v", "undecided": "x", "": "+"}
+Exponents = tuple[str, list[Row]]  # the name of a curve, and the rows of the table on it
+Panels = list[list[tuple[str, list[Exponents]]]]  # rows and columns of them, each (title, curves)
 TREATMENTS = {
     "extrapolate": "linear waves continued above still water",
     "zero": "no water above still water",
@@ -53,7 +65,7 @@ def dependence_items(folder: Folder) -> Items:
     columns = files["columns.csv"]
     rows = list(by_columns(files["table.csv"], columns))
     items += [Heading("Depth, waves above still water, buoyancy out of the water", 2), _depth_figure(rows)]
-    for steepness in _values(rows, "steepness"):
+    for steepness in _steepnesses(rows):
         items.append(_regimes(rows, columns, steepness))
     return [*items, *_stiffness(rows, columns), *_plane(folder.directory / "out_of_plane")]
 
@@ -85,8 +97,8 @@ def written(name: str, **taken: object) -> Table:
     return Table(heads(*texts["heads"]), rows, texts["caption"])
 
 
-def _values(rows: list[dict], key: str) -> list:
-    return sorted({row[key] for row in rows})
+def _steepnesses(rows: list[dict]) -> list[float]:
+    return sorted(set(entries(rows, "steepness")))
 
 
 def _like(rows: list[dict], **wanted) -> list[dict]:
@@ -100,7 +112,7 @@ def _like(rows: list[dict], **wanted) -> list[dict]:
 def _depth_figure(rows: list[dict]) -> Figure:
     waves, drowned = _treatments(rows, ABOVE), _treatments(rows, DROWNED)
     panels = []
-    for kA in _values(rows, "steepness"):
+    for kA in _steepnesses(rows):
         panels.append([])
         for under in drowned:
             curves = []
@@ -188,3 +200,50 @@ def _plane(part: Path) -> Items:
         return [heading, *list(comparison_items(study))[1:]]
     except FolderError:
         return [heading, Text("The part `out_of_plane` is not there.")]
+
+
+def kind_of(regime: str) -> str:
+    """The mark that a regime gets: one for all periods."""
+    return "periodic" if regime.startswith("period-") else regime
+
+
+def depth_exponents(panels: Panels, key: str, label: str, log: bool = False) -> Picture:
+    """The panels over the column `key`, on an axis with that label: lines with error bars, marked by regime.
+
+    Its values are evenly spaced, and curves beside each other, so that marks do not hide marks; with `log` both stay
+    where they are, on a logarithmic axis.
+    """
+    everything = []
+    for _, exponents in chain.from_iterable(panels):
+        for _, members in exponents:
+            everything += members
+    values, kinds = np.unique(series(everything, key)), set(map(kind_of, entries(everything, "regime")))
+    meanings, nothing = [], np.empty(0)  # of the marks, as curves without points
+    for kind, mark in MARKS.items():
+        if kind in kinds:
+            meanings.append(Curve(nothing, nothing, kind or "no verdict", "", mark, INK))
+    axis, ticks = "x", {}
+    if not log:
+        axis, ticks = "", {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
+    rows = []
+    for row in panels:
+        drawn = []
+        for title, exponents in row:
+            lines = []
+            for k, (name, members) in enumerate(exponents):
+                at, colour, dash = series(members, key), COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
+                if not log:
+                    at = np.searchsorted(values, at) + BESIDE * (k - 0.5 * (len(exponents) - 1))
+                exponent = series(members, TANGENT_EXPONENT)
+                lines.append(Curve(at, exponent, name, dash, "", colour, series(members, TANGENT_ERROR)))
+                kinds = np.array(list(map(kind_of, entries(members, "regime"))), object)
+                for kind, mark in MARKS.items():
+                    chosen = kinds == kind
+                    if chosen.any():
+                        size = 7.0 if mark == "*" else 4.5
+                        lines.append(Curve(at[chosen], exponent[chosen], "", "", mark, colour, size=size))
+            y_label = "" if drawn else r"$\sigma$ (bits per $T_i$)"
+            x_label = label if row is panels[-1] else ""
+            drawn.append(Panel([*lines, *meanings], x_label, y_label, title, axis, 0.0, ticks))
+        rows.append(drawn)
+    return curves(rows, 2.1 * len(rows) + 0.7, "below", "xy")

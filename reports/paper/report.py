@@ -62,34 +62,31 @@ def report(directory: Path) -> Report:
     folder = read_folder(directory)
     judged = read_statements(folder.directory)
     items = [
-        *_question(folder, judged),
-        *_parts(folder),
-        *_figures(folder.directory),
-        *_statements(judged),
-        *dependence_items(folder),
+        _question(folder, judged),
+        _parts(folder),
+        _figures(folder.directory),
+        _statements(judged),
+        dependence_items(folder),
         Heading("Misprints"),
         Text("Whoever programs the paper needs these corrections; with the equations as printed some runs go wrong."),
         written("misprints"),
-        *index_items(),
+        index_items(),
     ]
     subtitle = "Tjavaras, Zhu, Liu, Triantafyllou and Yue, Journal of Sound and Vibration 213(4), 709-737, 1998"
     return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
 
 
 def _question(folder: Folder, judged: list[Judged]) -> Items:
-    items = [
-        *section_items("paper"),
-        Heading("What does not simply hold"),
-        Bullets(short_answer(judged)),
-    ]
+    yield section_items("paper")
+    yield Heading("What does not simply hold")
+    yield Bullets(short_answer(judged))
     if folder.provenance.get("quick"):
         lines = ("This folder was made with `--quick`: runs are short and few; nothing is to be concluded from it.",)
-        items.append(Notice("warning", "A quick look", lines))
+        yield Notice("warning", "A quick look", lines)
     missing = [part for part in PARTS if not (folder.directory / part / "table.csv").exists()]
     if missing:
         lines = [f"`{part}`: {part}/table.csv is missing" for part in missing]
-        items.append(Notice("warning", "Parts that are not there", lines))
-    return items
+        yield Notice("warning", "Parts that are not there", lines)
 
 
 def short_answer(judged: list[Judged]) -> list[str]:
@@ -132,25 +129,23 @@ def _parts(folder: Folder) -> Items:
 
 def _figures(directory: Path) -> Items:
     drawn, missing = figures_of(directory), left_out(directory)
-    items = [
-        Heading("The figures of the paper"),
-        Text(PREFACE),
-        Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds."),
-    ]
+    yield Heading("The figures of the paper")
+    yield Text(PREFACE)
+    yield Text("The numbers behind figure N are in `figures/fig_NN.nc`, which names its runs, settings and seconds.")
     for heading, numbers in SECTIONS.items():
         section = [drawn[number] for number in numbers if number in drawn]
         if section:
-            items += [Heading(heading, 2), *section]
+            yield [Heading(heading, 2), *section]
     if missing:
         lines = [f"Fig. {number} of the paper: {reason}." for number, reason in missing.items()]
-        items.append(Notice("warning", "Figures of the paper that are left out", lines))
-    return items
+        yield Notice("warning", "Figures of the paper that are left out", lines)
 
 
 def _statements(judged: list[Judged]) -> Items:
-    items = [Heading("The statements of the paper"), Text(VERDICTS)]
+    yield Heading("The statements of the paper")
+    yield Text(VERDICTS)
     for heading, places in TOPICS.items():
         topic = [row for row in judged if row["place"].startswith(places)]
         if topic:
-            items += [Heading(heading, 2), statements_table(topic, f"{heading}: {counted(topic)}.")]
-    return [*items, Heading("Not judged", 2), written("not_judged")]
+            yield [Heading(heading, 2), statements_table(topic, f"{heading}: {counted(topic)}.")]
+    yield [Heading("Not judged", 2), written("not_judged")]

@@ -220,7 +220,7 @@ class Links:
 
 
 Item = Heading | Text | Bullets | Equation | Figure | Table | Notice | Listing | Explorer | Sheet | CellSheets | Links
-Items = Iterable[Item]
+Items = Iterable["Item | Items | None"]  # lists within lists; None stands for nothing
 
 
 @dataclass(frozen=True)
@@ -285,6 +285,17 @@ def spans(text: str) -> list[tuple[str, str]]:
 def plain(text: str) -> str:
     """The text without its marks, for places that take letters only, such as a text alternative."""
     return "".join(piece for _, piece in spans(text))
+
+
+def flat(items: Items) -> list[Item]:
+    """The items in their order, without lists and without None."""
+    flat_items = []
+    for item in items:
+        if isinstance(item, Item):
+            flat_items.append(item)
+        elif item is not None:
+            flat_items += flat(item)
+    return flat_items
 
 
 def numbered(items: Iterable[Item]) -> list[dict]:

@@ -1,6 +1,6 @@
 """The first page of every report: what its campaign found, and how long that took; the contents come after it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,17 +24,10 @@ def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
     duration = how_long(provenance, any_rows(directory / "table.csv"))
     if duration:
         first_page.append(Text(duration))
-    end = _start_of_appendix(report.items)
-    items = (*first_page, *report.items[:end], *symbols(report.items), *report.items[end:])
-    return replace(report, items=items)
-
-
-def _start_of_appendix(items: Sequence) -> int:
-    """The place of its heading among the items, or the number of items where there is none."""
-    for place, item in enumerate(items):
-        if isinstance(item, Heading) and item.text == APPENDIX:
-            return place
-    return len(items)
+    items, appendix, end = list(report.items), Heading(APPENDIX), len(report.items)
+    if appendix in items:
+        end = items.index(appendix)
+    return replace(report, items=[*first_page, *items[:end], *symbols(items), *items[end:]])
 
 
 def symbols(items: Items) -> Items:

@@ -1,12 +1,13 @@
 """Statements of the paper as a campaign judged them: rows of statements.csv, counts of verdicts, tables."""
 
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 
-from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS
+from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS, read_rows
 
 from .content import Head, Table
-from .folder import FolderError, read_files
+from .folder import read_files
 from .selecting import entries
 
 Judged = dict[str, str]
@@ -14,13 +15,8 @@ Judged = dict[str, str]
 
 def read_statements(directory: Path) -> list[Judged]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
-    rows = read_files(directory, {STATEMENTS: "the statements of the paper as judged"})[STATEMENTS]
-    for row in rows:
-        if tuple(row) != STATEMENT_COLUMNS:
-            raise FolderError(
-                directory, [f"{STATEMENTS} cannot be read: its first line is not {','.join(STATEMENT_COLUMNS)}"]
-            )
-    return rows
+    reader = {".csv": partial(read_rows, needed=STATEMENT_COLUMNS)}
+    return read_files(directory, {STATEMENTS: "the statements of the paper as judged"}, reader)[STATEMENTS]
 
 
 def counted(rows: Iterable[Judged]) -> str:

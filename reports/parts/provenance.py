@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from tables import EMPTY, decimals, number
 
-from .content import Heading, Item, Items, Listing, Notice, Report, Table, Text, heads, with_subscripts
+from .content import Heading, Item, Items, Listing, Notice, Report, Table, Text, flat, heads, with_subscripts
 from .folder import Folder
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def _key(name: str) -> str:
 
 def timing_items(folder: Folder, *costs: Item | None) -> Items:
     """What the runs cost: `costs`, where there are any, and the time split of a campaign; nothing for none of them."""
-    items, rows = list(filter(None, costs)), []
+    items, rows = flat(costs), []
     for name, time in _flat(folder.provenance.get("timing")):
         if isinstance(time, (int, float)):
             part = _TIMES.get(name, name.removesuffix("_s").replace("_", " "))
@@ -93,21 +93,21 @@ def timing_items(folder: Folder, *costs: Item | None) -> Items:
 
 def provenance_items(folder: Folder) -> Items:
     """The command and everything else that provenance.json holds."""
-    items = [Heading("Provenance")]
+    yield Heading("Provenance")
     entries = dict(folder.provenance)
     entries.pop("timing", None)
     command = entries.pop("command", None)
     if command:
         if isinstance(command, list):
             command = shlex.join(map(str, command))
-        items += [Text("The command:"), Listing(str(command))]
+        yield Text("The command:")
+        yield Listing(str(command))
     rows = []
     for key, entry in _flat(entries):
         rows.append((f"`{key}`", _shown(entry)))
     if rows:
         caption = "All of `provenance.json` but the command and the times."
-        items.append(Table(heads("entry", "value"), rows, caption))
-    return items
+        yield Table(heads("entry", "value"), rows, caption)
 
 
 def report_page(folder: Folder, title: str, items: Items, made: Items | None = None, subtitle: str = "") -> Report:
@@ -116,11 +116,16 @@ def report_page(folder: Folder, title: str, items: Items, made: Items | None = N
     made: of the appendix, in front of the provenance; None: run times and scene. subtitle: "" for the title of the
     scene.
     """
-    scene = folder.scene
     if made is None:
-        made = [*timing_items(folder), *scene_items(scene, str(folder.provenance.get("scene") or scene.name), {})]
-    subtitle = subtitle or scene.title or scene.name
-    return Report(title, subtitle, [*items, *appendix(*made, *provenance_items(folder))])
+        scene = folder.scene
+        made = [timing_items(folder), scene_items(scene, str(folder.provenance.get("scene") or scene.name), {})]
+    appendix = []
+    for item in flat([made, provenance_items(folder)]):
+        if isinstance(item, Heading):
+            item = Heading(item.text, 2)  # it divides the appendix
+        appendix.append(item)
+    subtitle = subtitle or folder.scene.title or folder.scene.name
+    return Report(title, subtitle, [*flat(items), Heading(APPENDIX), *appendix])
 
 
 def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:
@@ -129,18 +134,6 @@ def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:
     if not lines:
         return Notice("note", "Nothing to warn of", (nothing,))
     return Notice("warning", title, lines)
-
-
-def appendix(*items: Item) -> Items:
-    """The last section of a report: how it was made; headings among the items divide it."""
-    if not items:
-        return []
-    section: list[Item] = [Heading(APPENDIX)]
-    for item in items:
-        if isinstance(item, Heading):
-            item = Heading(item.text, 2)
-        section.append(item)
-    return section
 
 
 def _flat(section: object, prefix: str = "") -> Iterator[tuple[str, object]]:

@@ -2,7 +2,11 @@
 
 from collections.abc import Iterable
 
-from .content import Figure, Heading, Items
+import numpy as np
+
+from tables import number_of
+
+from .content import Figure, Heading, Items, flat
 
 
 def having(rows: Iterable, **wanted: object) -> list:
@@ -19,18 +23,21 @@ def entries(rows: Iterable, column: str) -> list:
     return [row[column] for row in rows]
 
 
-def picture_first(items: Items) -> Items:
+def series(rows: Iterable, column: str) -> np.ndarray:
+    """A column of numbers over the rows (p,), nan where it is empty."""
+    return np.array([number_of(row, column) for row in rows])
+
+
+def picture_first(items: Items) -> list:
     """The items with their first figure in front of all, so that it is on the first page.
 
     A heading that has nothing else below it goes.
     """
-    items = list(items)
-    figures = [item for item in items if isinstance(item, Figure)]
-    if not figures:
-        return items
-    place = items.index(figures[0])
-    before, after = items[:place], items[place + 1 :]
-    empty = not after or isinstance(after[0], Heading)
-    if before and isinstance(before[-1], Heading) and empty:
-        before.pop()
-    return [figures[0], *before, *after]
+    items = flat(items)
+    for place, item in enumerate(items):
+        if isinstance(item, Figure):
+            before, after = items[:place], items[place + 1 :]
+            if before and isinstance(before[-1], Heading) and (not after or isinstance(after[0], Heading)):
+                before.pop()
+            return [item, *before, *after]
+    return items

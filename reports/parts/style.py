@@ -35,17 +35,16 @@ SHADES = ("#f7f1e6", "#eee0c8")  # colours of ranges on an axis; the second is d
 
 
 @contextmanager
-def sheet(height_in: float, width_in: float | None = None) -> Iterator[Figure]:
-    """A blank figure of the given height; everything drawn inside the block has the look of the report.
+def sheet(height_in: float, width_in: float = WIDTH_IN, layout: str | None = "constrained") -> Iterator[Figure]:
+    """A blank figure; everything drawn inside the block has the look of the report.
 
-    width_in: width of a figure whose caller places the panels. None: the figure is as wide as the page, and matplotlib
-    places the panels. When the block ends, the matplotlib settings of the caller are back.
+    layout: how matplotlib places the panels; None: the caller places them. When the block ends, the matplotlib settings
+    of the caller are back.
     """
-    layout = None if width_in else "constrained"
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(_SETTINGS)
-        yield Figure(figsize=(width_in or WIDTH_IN, height_in), layout=layout)
+        yield Figure(figsize=(width_in, height_in), layout=layout)
 
 
 def picture_of(figure: Figure, kind: str = "svg") -> Picture:

@@ -8,44 +8,16 @@ import numpy as np
 
 from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENED, Column, listed, number
 
-from ..figures.curves import Curve
-from ..figures.regime_map import HATCHES, LINES, Cells, Map
+from ..figures.regime_map import HATCHES, LINES, Map, Page
 from ..orbits.curves import drawn_curves
-from ..parts import Folder, Row, entries, part_of
+from ..parts import Folder, entries, part_of, series
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
-from ..sweep.quantities import at, series
+from ..sweep.quantities import at
 
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
 _FINE = 100  # places on a curve from one point to the next, at which its cell is looked for
 _WHOLE = 0.995  # share of a map that is called all of it
-
-
-class Page(NamedTuple):
-    """The n cells of one page, the small ones behind those that they cover. place: its value, "" for the only one.
-
-    area (n,): share of the map that each cell takes where it is on top. curves: of events of orbits over both keys.
-    """
-
-    number: int
-    place: str
-    rows: Sequence[Row]
-    cells: Cells
-    area: np.ndarray
-    curves: Sequence[Curve]
-
-    def column(self, name: str) -> np.ndarray:
-        """A number of each cell (n,), nan where it has none."""
-        return series(self.rows, name)
-
-    def on_top(self, source: str) -> np.ndarray:
-        """(n,) which cells are of that source and not covered by others."""
-        sources = np.array(entries(self.rows, "source"))
-        return (self.area > 0.0) & (sources == source)
-
-    def share(self, chosen: np.ndarray) -> float:
-        """Of the map."""
-        return float(self.area[chosen].sum())
 
 
 class Atlas(NamedTuple):
@@ -76,7 +48,7 @@ class Atlas(NamedTuple):
 
     def limited(self, reason: str) -> float:
         """Share of all maps that is hatched for that reason."""
-        return self.share(lambda page: page.cells.hatched[reason])
+        return self.share(lambda page: page.hatched[reason])
 
 
 def _paper_marks(key: Column) -> Sequence[float]:
@@ -104,26 +76,21 @@ def read_atlas(folder: Folder) -> Atlas | None:
         rows_of_pages.setdefault(value, []).append(row)
     curves, pages = part_of(folder, "curves"), []
     lines = [] if curves is None else [*drawn_curves(curves, keys[-2:])]
-    for page_number, page_rows in enumerate(rows_of_pages.values()):
+    for number_of_page, page_rows in enumerate(rows_of_pages.values()):
         page_rows.sort(key=lambda row: row["level"])
-        cells = _cells(page_rows, *axes)
-        pages.append(Page(page_number, at(keys[:-2], page_rows[0]), page_rows, cells, cells.areas(), lines))
+        edges = []
+        for axis in axes:
+            middle, width = series(page_rows, axis), series(page_rows, f"width_{axis}")
+            edges += [middle - 0.5 * width, middle + 0.5 * width]
+        source, kinds = (np.array(entries(page_rows, name)) for name in ("source", "regime_rest"))
+        kinds = np.where(kinds == "", source, kinds)
+        hatched = {}
+        for name, reason in LIMITS.items():
+            if name in part.columns:
+                hatched[reason] = series(page_rows, name) > 0.0
+        place = at(keys[:-2], page_rows[0])
+        pages.append(Page(np.column_stack(edges), kinds, source, hatched, lines, page_rows, number_of_page, place))
     return Atlas(keys, pages, part.columns)
-
-
-def _cells(rows, x: str, y: str) -> Cells:
-    edges = []
-    for name in (x, y):
-        middle, width = series(rows, name), series(rows, f"width_{name}")
-        edges += [middle - 0.5 * width, middle + 0.5 * width]
-    source = np.array(entries(rows, "source"))
-    kinds = np.array(entries(rows, "regime_rest"))
-    kinds = np.where(kinds == "", source, kinds)
-    hatched = {}
-    for name, reason in LIMITS.items():
-        if name in rows[0]:
-            hatched[reason] = series(rows, name) > 0.0
-    return Cells(np.column_stack(edges), kinds, source == SCREENED, source == FAILED, hatched)
 
 
 def without_border(page: Page) -> tuple[int, int]:
@@ -131,7 +98,7 @@ def without_border(page: Page) -> tuple[int, int]:
 
     A border: between regimes from rest or numbers of motions, in the cells that touch the crossed one.
     """
-    computed, boxes = page.on_top(COMPUTED), page.cells.boxes
+    computed, boxes = page.on_top(COMPUTED), page.boxes
     left, right, low, high = boxes.T
     crossed = np.zeros(len(boxes), bool)
     for curve in page.curves:
@@ -144,7 +111,7 @@ def without_border(page: Page) -> tuple[int, int]:
     for cell in np.flatnonzero(crossed):
         x, y = 0.01 * (right - left)[cell], 0.01 * (high - low)[cell]
         near = (left < right[cell] + x) & (right > left[cell] - x) & (low < high[cell] + y) & (high > low[cell] - y)
-        alike = (page.cells.kinds == page.cells.kinds[cell]) & (motions == motions[cell])
+        alike = (page.kinds == page.kinds[cell]) & (motions == motions[cell])
         alone += bool(alike[near & computed].all())
     return int(crossed.sum()), alone
 
@@ -160,18 +127,17 @@ def colour_of(word: str) -> str:
 
 def regimes(page: Page) -> Map:
     """The regime of the motion from rest, with its periods as numbers, and a star where the line pulls hardest."""
-    kinds = page.cells.kinds
+    kinds = page.kinds
     colours = np.array(list(map(colour_of, kinds)))
     texts = np.full(len(kinds), "", dtype=object)
     for cell, word in enumerate(kinds):
         if word.startswith(PERIODIC):
             texts[cell] = word.removeprefix(PERIODIC)
-    star = _star(page)
-    title = "\n".join(_lines_of_title(page, star))
-    return Map(page.cells, title, colours, page.number, texts=texts.astype(str), star=star, curves=page.curves)
+    title = "\n".join(_lines_of_title(page))
+    return Map(page, title, colours, texts=texts.astype(str), star=_star(page))
 
 
-def _lines_of_title(page: Page, star: int | None) -> list[str]:
+def _lines_of_title(page: Page) -> list[str]:
     """The value of the page, how much of its map is chaotic and how much computed, and the largest tension."""
     lines = []
     if page.place:
@@ -184,6 +150,7 @@ def _lines_of_title(page: Page, star: int | None) -> list[str]:
         lines.append("motion from rest: only screened")
     if 0.0 < computed < _WHOLE:
         lines.append(f"{_percent(computed)} of the map is computed")
+    star = _star(page)
     if star is not None:
         lines.append(f"largest tension {number(page.rows[star][PULL], 3)} × static (star)")
     return lines
@@ -199,38 +166,34 @@ def _star(page: Page) -> int | None:
 
 def legend(atlas: Atlas) -> list[tuple[str, str]]:
     """What colours and marks of the maps of regimes mean, each with its share of the map."""
-    entries = []
-    for colour, words in _words_by_colour(atlas).items():
+    words, words_of_colours, entries = set(), {}, []
+    for page in atlas.pages:
+        words.update(page.kinds[page.area > 0.0])
+    for word in sorted(words, key=_order):
+        words_of_colours.setdefault(colour_of(word), []).append(word)
+    words_of_colours.pop("", None)
+    for colour, words in words_of_colours.items():
         share = atlas.share(partial(_computed_as, words=words))
-        entries.append((colour, _with_share(_words_listed(words), share)))
+        meaning = _words_listed(words)
+        if share:
+            meaning += f": {_percent(share)}"
+        entries.append((colour, meaning))
     for mark, source, meaning in (("dot", SCREENED, "only screened"), ("cross", FAILED, "failed")):
         share = atlas.of_source(source)
         if share:
-            entries.append((mark, _with_share(meaning, share)))
+            entries.append((mark, f"{meaning}: {_percent(share)}"))
     for kind, line in LINES.items():
         if any(curve.line == line for curve in atlas.pages[0].curves):
             entries.append((line, f"{kind}s of orbits"))
-    for hatch, reason in zip(HATCHES, atlas.pages[0].cells.hatched, strict=False):
+    for hatch, reason in zip(HATCHES, atlas.pages[0].hatched, strict=False):
         share = atlas.limited(reason)
         if share:
-            entries.append((hatch, _with_share(reason, share)))
+            entries.append((hatch, f"{reason}: {_percent(share)}"))
     if any(_star(page) is not None for page in atlas.pages):
         entries.append(("star", "largest tension"))
     if any(atlas.marks):
         entries.append(("mark", "the paper's steepnesses"))
     return entries
-
-
-def _words_by_colour(atlas: Atlas) -> dict[str, list[str]]:
-    """The regimes that can be seen on the maps, by their colour, in the order of the legend."""
-    words = set()
-    for page in atlas.pages:
-        words.update(page.cells.kinds[page.area > 0.0])
-    by_colour = {}
-    for word in sorted(words, key=_order):
-        by_colour.setdefault(colour_of(word), []).append(word)
-    by_colour.pop("", None)
-    return by_colour
 
 
 def _order(word: str) -> tuple[int, str]:
@@ -245,7 +208,7 @@ def _order(word: str) -> tuple[int, str]:
 
 def _computed_as(page: Page, words: Sequence[str]) -> np.ndarray:
     """(n,) which cells are computed, with one of these words for the motion from rest."""
-    return page.on_top(COMPUTED) & np.isin(page.cells.kinds, words)
+    return page.on_top(COMPUTED) & np.isin(page.kinds, words)
 
 
 def _words_listed(words: Sequence[str]) -> str:
@@ -257,12 +220,6 @@ def _words_listed(words: Sequence[str]) -> str:
     if len(words) > 1:
         return f"{first} and more"
     return first
-
-
-def _with_share(meaning: str, share: float) -> str:
-    if share == 0.0:
-        return meaning
-    return f"{meaning}: {_percent(share)}"
 
 
 def _percent(share: float) -> str:
@@ -316,4 +273,4 @@ def _shaded(page: Page, name: str, title: str, colours, norm, ticks) -> Map:
     filled = np.where(np.isfinite(values), shades, "")
     star = _star(page) if name == PULL else None
     limited = name in (PULL, _EXPONENT)
-    return Map(page.cells, title, filled, page.number, (colours, norm, ticks), star=star, limited=limited)
+    return Map(page, title, filled, (colours, norm, ticks), star=star, limited=limited)

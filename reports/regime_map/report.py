@@ -50,7 +50,7 @@ def report(directory: Path) -> Report:
     other_figures = [_figure(atlas, maps, (), f"Maps over {over}", _OTHERS) for maps in numbers(atlas)]
     if len(other_figures) == 1:
         items += other_figures
-    items += section_items("regime_map")
+    items.append(section_items("regime_map"))
     if computed:
         items += [Heading("Regimes"), _regimes(atlas)]
     if len(other_figures) > 1:
@@ -91,7 +91,7 @@ def _regimes(atlas: Atlas) -> Table:
     cells_of_words = {}
     for page in atlas.pages:
         for cell in np.flatnonzero(page.on_top(COMPUTED)):
-            word = str(page.cells.kinds[cell])
+            word = str(page.kinds[cell])
             area = page.area[cell] / len(atlas.pages)
             cells_of_words.setdefault(word, []).append((page.rows[cell], area))
     body = []

@@ -32,7 +32,7 @@ def cell_sheets(folder: Folder, atlas: Atlas) -> CellSheets:
         motions_of_places.setdefault(_place(row, atlas), []).append((row, facts, curves))
     sheets = []
     for page in atlas.pages:
-        for row, box, area in zip(page.rows, page.cells.boxes, page.area, strict=True):
+        for row, box, area in zip(page.rows, page.boxes, page.area, strict=True):
             if area <= 0.0:
                 continue
             sheet = {

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from matplotlib.patches import Patch
 
 from tables import Column, count, number, number_of
 
-from ..figures.stability import case_grid, stiffness
 from ..parts import (
     Figure,
     FolderError,
@@ -20,15 +20,15 @@ from ..parts import (
     Notice,
     Report,
     Text,
-    appendix,
     entries,
     having,
-    provenance_items,
     read_files,
+    report_page,
     section_items,
     table_of,
     timing_items,
 )
+from ..parts.style import BLUE, GREEN, ORANGE, SKY, SOFT, VERMILION, picture_of, sheet
 
 
 def report(directory: Path) -> Report:
@@ -36,15 +36,15 @@ def report(directory: Path) -> Report:
     study = read_study(directory)
     items = [
         grid_figure(study),
-        *unexplained_items(study),  # before the first heading: on the first page, after the answer
-        *section_items("stability"),
-        *stiffness_items(study),
-        *case_items(study),
-        *limit_items(study),
-        *appendix(*timing_items(study), *provenance_items(study)),
+        unexplained_items(study),  # before the first heading: on the first page, after the answer
+        section_items("stability"),
+        stiffness_items(study),
+        case_items(study),
+        limit_items(study),
     ]
     kind = "quick selection" if study.provenance.get("quick") else "all cases"
-    return Report("Stiff and extreme scenes", f"{count(len(study.cases), 'case')} ({kind})", items)
+    subtitle = f"{count(len(study.cases), 'case')} ({kind})"
+    return report_page(study, "Stiff and extreme scenes", items, timing_items(study), subtitle)
 
 
 FILES = {
@@ -65,6 +65,8 @@ SHOWN = (
     "unresolved_ringing_N", "length_s", "case_wall_s",
 )  # fmt: skip
 DEFAULT = "EA", "EA = 50000 N, regular wave"  # whose cost is the unit
+VERDICT_COLOURS = {"ok": GREEN, "refused": SKY, "known limit": ORANGE, "unexplained": VERMILION}
+LEAST = 1e-8  # where smaller errors are drawn
 
 
 class Study(NamedTuple):
@@ -81,12 +83,10 @@ class Study(NamedTuple):
 
 def read_study(directory: Path) -> Study:
     """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
-    files = read_files(directory, FILES)
-    table, columns, provenance = files.values()
+    table, columns, provenance = read_files(directory, FILES).values()
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
         raise FolderError(directory, "table.csv cannot be read: it has no rows, or not those of this campaign")
-    cases = having(table, part="case")
-    return Study(provenance, columns, cases)
+    return Study(provenance, columns, having(table, part="case"))
 
 
 def case_items(study: Study) -> Items:
@@ -100,21 +100,38 @@ def case_items(study: Study) -> Items:
 
 def by_group(study: Study) -> dict[str, list[dict[str, str]]]:
     """The cases of each group, by its title."""
-    return {about: having(study.cases, about=about) for about in dict.fromkeys(entries(study.cases, "about"))}
+    groups = {}
+    for row in study.cases:
+        groups.setdefault(row["about"], []).append(row)
+    return groups
 
 
 def grid_figure(study: Study) -> Figure:
     """All cases as cells in the colours of their verdicts, a row for each group."""
-    verdicts = {about: entries(cases, "verdict") for about, cases in by_group(study).items()}
-    counts = Counter(entries(study.cases, "verdict"))
+    groups, counts = by_group(study), Counter(entries(study.cases, "verdict"))
+    rows = len(groups)
+    with sheet(0.6 + 0.24 * rows) as figure:
+        axes = figure.add_subplot()
+        for row, cases in enumerate(groups.values()):
+            colours = [VERDICT_COLOURS.get(case["verdict"], SOFT) for case in cases]
+            axes.bar(range(len(cases)), 0.8, 0.8, row - 0.4, color=colours, align="edge")
+        axes.set(ylim=(rows - 0.4, -0.6), yticks=range(rows), yticklabels=list(groups), xticks=[])
+        axes.tick_params(axis="y", length=0, labelsize=7.5)
+        axes.spines[:].set_visible(False)
+        axes.grid(False)
+        names = [word for word in VERDICT_COLOURS if word in counts]
+        names += sorted(counts.keys() - VERDICT_COLOURS.keys())
+        handles = [Patch(color=VERDICT_COLOURS.get(name, SOFT), label=name) for name in names]
+        figure.legend(handles=handles, loc="outside upper left", ncols=len(handles))
+        picture = picture_of(figure)
     words = ", ".join(f"{number_of_cases} {verdict}" for verdict, number_of_cases in counts.most_common())
     caption = "Every case, a cell each, in the colour of its verdict, in the order of the table of cases."
-    return Figure(case_grid(verdicts), caption, f"A grid of {count(len(study.cases), 'case')}: {words}.")
+    return Figure(picture, caption, f"A grid of {count(len(study.cases), 'case')}: {words}.")
 
 
 def stiffness_items(study: Study) -> Items:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
-    measured = {}
+    measured = {}  # how it was checked -> stiffness in N, error, Newton iterations a second
     unit = math.nan
     for row in study.judged("ok"):
         shown = row["group"] == "EA" or row["how"] == "waves in a bar"
@@ -128,14 +145,26 @@ def stiffness_items(study: Study) -> Items:
             measured.setdefault(row["how"], []).append((stiffness_N, number_of(row, "measured_tension"), cost))
     if not measured or math.isnan(unit):
         return
-    points, worst, largest = {}, 0.0, 0.0
-    for name, checks in measured.items():
-        points[name] = np.array(checks).T / np.array([[1.0], [1.0], [unit]])
-        worst, largest = max(worst, points[name][1].max()), max(largest, points[name][2].max())
+    worst, largest = 0.0, 0.0
+    with sheet(2.6) as figure:
+        left, right = figure.subplots(1, 2, subplot_kw={"xscale": "log", "yscale": "log"})
+        for (name, checks), colour, mark in zip(
+            measured.items(), (BLUE, VERMILION, GREEN, ORANGE), "osD^", strict=False
+        ):
+            stiff, error, cost = np.array(checks).T
+            look = {"color": colour, "markersize": 3.5, "label": name}
+            left.plot(stiff, np.maximum(error, LEAST), mark, **look)
+            right.plot(stiff, cost / unit, mark, **look)
+            worst, largest = max(worst, error.max()), max(largest, (cost / unit).max())
+        left.set(xlabel="axial stiffness EA (N)", ylabel="error of the largest tension (–)")
+        right.set(xlabel="axial stiffness EA (N)", ylabel="Newton iterations a second,\nover the default scene's (–)")
+        handles, names = left.get_legend_handles_labels()
+        figure.legend(handles, names, loc="outside upper center", ncols=len(names), fontsize=7.0)
+        picture = picture_of(figure)
     seen = f"errors up to {number(worst, 2)}, {number(largest, 2)} times as many iterations at most"
     yield Heading("Tension and cost over stiffness")
     yield Figure(
-        stiffness(points),
+        picture,
         f"Largest tension at the top against what it should be, and its cost: {seen}. A stiff line costs more only "
         "while it rings. From `table.csv`.",
         f"Error of the largest tension and cost over axial stiffness: {seen}.",

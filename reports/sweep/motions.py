@@ -32,16 +32,15 @@ def ends_of(folder: Folder, key: str) -> list[dict]:
 
 def every_motion(folder: Folder, key: str, title: str) -> Items:
     """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
-    items = []
-    ends = ends_of(folder, key)
+    ends, starts = ends_of(folder, key), part_of(folder, "starts")
+    if not ends and starts is None:
+        return
+    yield Heading("Every motion")
+    yield Text(_METHOD)
     if ends:
-        items.append(_ends_table(part_of(folder, "ends"), ends, key))
-    starts = part_of(folder, "starts")
+        yield _ends_table(part_of(folder, "ends"), ends, key)
     if starts is not None:
-        items.append(_starts_table(starts.table, key, title))
-    if not items:
-        return []
-    return [Heading("Every motion"), Text(_METHOD), *items]
+        yield _starts_table(starts.table, key, title)
 
 
 def _ends_table(part: Folder, ends: list[dict], key: str) -> Table:

@@ -8,7 +8,7 @@ import numpy as np
 from tables import EMPTY, PEAK, Column, errors_of, number, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts import Folder, Picture, Row, Table, heads, shown_on, table_of
+from ..parts import Folder, Picture, Row, Table, heads, series, shown_on, table_of
 from ..parts.style import BLUE, BROWN, GREEN, INK, PLUM, SOFT, VERMILION
 
 PER_ROW = 2
@@ -72,11 +72,6 @@ def in_order(rows: Iterable[Row], keys: Sequence[str]) -> list:
         return [row[name] for name in keys] + [row.get("motion") or ""]
 
     return sorted(rows, key=place)
-
-
-def series(rows: Iterable[Row], column: str) -> np.ndarray:
-    """A column of a table over its rows (p,), nan where it is empty."""
-    return np.array([number_of(row, column) for row in rows])
 
 
 def over_key(rows: Sequence[Row], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]) -> Picture:

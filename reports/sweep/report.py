@@ -29,12 +29,13 @@ from ..parts import (
     read_folder,
     report_page,
     scene_items,
+    series,
     shown_on,
     table_of,
     timing_items,
 )
 from .motions import every_motion
-from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key, series
+from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key
 from .snaps import snap_items
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
@@ -70,29 +71,28 @@ def report(directory: Path) -> Report:
     if len(keys) == 1:
         (key,) = keys
         question = f"What does the scene `{folder.scene.name}` do as {key_names} varies?"
-        figures = _panels(key, rows, shown, motions) + every_motion(folder, key.name, key.head)
-        figures += snap_items(folder, key)
+        figures = _panels(key, rows, shown, motions), every_motion(folder, key.name, key.head), snap_items(folder, key)
         if set(NEEDED) <= set(folder.columns):  # of a buoy in regular waves
             sweep = read_sweep(directory, key)
-            first, sheets = [orbit_figure(sweep), *motions_items(sweep), explorer(sweep)], sheet_items(sweep)
+            first, sheets = [orbit_figure(sweep), motions_items(sweep), explorer(sweep)], sheet_items(sweep)
     else:
         question = f"What does the scene `{folder.scene.name}` do as {key_names} vary?"
         figures = _maps_of_each(keys, rows, shown, motions)
     items = [
-        *filter(None, first),
+        first,
         Heading("Question"),
         Text(question),
-        *extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
-        *figures,
+        extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
+        figures,
         Heading("Warnings"),
         _warnings(run_keys, rows),
         Heading("Table of runs"),
-        *_tables(folder.columns, key_cells, rows),
-        *sheets,
+        _tables(folder.columns, key_cells, rows),
+        sheets,
     ]
     if not first:
         items = picture_first(items)
-    made = [*timing_items(folder), *scene_items(folder.scene, shipped, varied, _SCENE)]
+    made = [timing_items(folder), scene_items(folder.scene, shipped, varied, _SCENE)]
     return report_page(folder, f"Sweep of {key_names.replace('`', '')}", items, made)
 
 
@@ -105,47 +105,36 @@ def _columns_of(shown: Sequence[Measured]) -> list[Column]:
 
 
 def _panels(key: Column, rows, shown: Sequence[Measured], motions: Mapping[str, str]) -> Items:
-    items = []
+    yield Heading(f"Over {key.head}")
     for part in batched(shown, _PANELS):
         names = listed(plain(column.head) for column in _columns_of(part))
         caption = f"Columns of `table.csv` over {key.head}: {names}. Bars: one standard error; crosses: ended early."
-        items.append(Figure(over_key(rows, key, part, motions), caption, f"Panels over {plain(key.head)} of {names}."))
-    return [Heading(f"Over {key.head}"), *(items or [_NOTHING])]
+        yield Figure(over_key(rows, key, part, motions), caption, f"Panels over {plain(key.head)} of {names}.")
+    if not shown:
+        yield _NOTHING
 
 
 def _maps_of_each(keys: Sequence[Column], rows, shown: Sequence[Measured], motions) -> Items:
     if not motions:
-        return _maps(keys, rows, shown, "")
-    items = []
+        yield from _maps(keys, rows, shown, "")
     for letter in motions:
-        members = having(rows, motion=letter)
-        items += _maps(keys, members, shown, f", motion {letter}")
-    return items
+        yield from _maps(keys, having(rows, motion=letter), shown, f", motion {letter}")
 
 
 def _maps(keys: Sequence[Column], rows, shown: Sequence[Measured], motion: str) -> Items:
-    x, y = series(rows, keys[0].name), series(rows, keys[1].name)
-    places = np.unique(x), np.unique(y)
-    across, up = np.searchsorted(places[0], x), np.searchsorted(places[1], y)
-
-    def laid(values: np.ndarray, nothing: object) -> np.ndarray:
-        cells = np.full((len(places[1]), len(places[0])), nothing, dtype=values.dtype)
-        cells[up, across] = values
-        return cells
-
-    regimes = np.array([str(row.get("regime") or "") for row in rows], dtype=object)
     drawn = []
+    regimes = [str(row.get("regime") or "") for row in rows]
     if any(regimes):
-        drawn.append(Map("", "regime", laid(regimes, "")))
+        drawn.append(Map("", "regime", regimes))
     for column in _columns_of(shown):
-        drawn.append(Map(column.label, plain(column.head), laid(series(rows, column.name), np.nan)))
-    items = []
+        drawn.append(Map(column.label, plain(column.head), series(rows, column.name)))
+    yield Heading(f"Over {keys[0].head} and {keys[1].head}{motion}")
     for part in batched(drawn, _MAPS):
         names = listed(drawn_map.name for drawn_map in part)
         caption = f"Columns of `table.csv` over {keys[0].head} and {keys[1].head}: {names}{motion}. Crosses: no value."
-        picture = maps(places, (keys[0].label, keys[1].label), part)
-        items.append(Figure(picture, caption, f"Maps over two parameters of {names}{motion}."))
-    return [Heading(f"Over {keys[0].head} and {keys[1].head}{motion}"), *(items or [_NOTHING])]
+        yield Figure(maps(keys, rows, part), caption, f"Maps over two parameters of {names}{motion}.")
+    if not drawn:
+        yield _NOTHING
 
 
 def _warnings(keys: Sequence[Column], rows) -> Notice:

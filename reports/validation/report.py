@@ -62,9 +62,9 @@ def read_study(directory: Path) -> Study:
 def report(directory: Path) -> Report:
     """The content of the report on a validation folder. Raises FolderError for a folder that is not one."""
     study = read_study(directory)
-    items = [overview(study), *section_items("validation"), Heading("All cases"), summary(study)]
+    items = [overview(study), section_items("validation"), Heading("All cases"), summary(study)]
     for case in study.cases:
-        items += case_items(study, case)
+        items.append(case_items(study, case))
     items += [
         Heading("Runs"),
         table_of(study.folder.columns, RUNS, study.folder.table, "Every run, from `table.csv`."),
@@ -83,15 +83,15 @@ def overview(study: Study) -> Figure:
             if scale > 0.0:
                 ours.append(our_values / scale)
                 theirs.append(their_values / scale)
-    names, shares, missing = [], [], []
+    names, shares = [], []
     for case, rows in study.cases.items():
         for row in _judged(rows):
             share = number_of(row, "error") / number_of(row, "bar")
             if np.isfinite(share):
                 names.append(f"{case}, {row['quantity']}")
                 shares.append(share)
-                missing.append(share > 1.0)
-    places, shares, missing = np.arange(len(names)), np.array(shares), np.array(missing, bool)
+    places, shares = np.arange(len(names)), np.array(shares)
+    missing = shares > 1.0
     x, y = (np.concatenate([*curves_of, np.empty(0)]) for curves_of in (theirs, ours))
     ends = np.array([min(x.min(initial=0.0), 0.0), 1.0])
     drawn = [

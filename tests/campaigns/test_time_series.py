@@ -16,8 +16,8 @@ from campaigns.time_series import WRITTEN, answer, main, study
 from campaigns.time_series.record import _numbers, read_record, read_table
 from campaigns.time_series.study import successive_maxima
 from reports import build
-from reports.figures.series_panels import record_and_spectrum
 from reports.parts.folder import FolderError
+from reports.time_series.report import record_and_spectrum
 from tests.analysis.systems import henon, logistic, states
 from tests.campaigns.conftest import built_twice, rows_of
 

@@ -223,6 +223,16 @@ def columns_of(rows, words, symbols=None):
     return tuple(columns)
 
 
+def of_kind(items, kind):
+    """The items of a report that are of this kind."""
+    return [item for item in items if isinstance(item, kind)]
+
+
+def panel_of(figure, label):
+    """The axes whose label of y begins so."""
+    return next(axes for axes in figure.axes if axes.get_ylabel().startswith(label))
+
+
 def points_of(axes):
     """{colour: x of every point of an orbit diagram drawn in it}."""
     return {to_hex(line.get_color()): np.unique(line.get_xdata()) for line in axes.lines if line.get_marker() == "_"}

@@ -12,7 +12,7 @@ import pytest
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.buoy_sweep.runs import read_sweep, spectrum_window
-from reports.figures.motion import envelope
+from reports.figures.curves import envelope
 from reports.figures.run_sheet import NOTHING, run_sheet
 from reports.parts.columns import shown_on, table_of
 from reports.parts.content import Explorer, ExplorerColumn, plain
@@ -20,7 +20,6 @@ from reports.parts.folder import read_columns
 from reports.parts.html import explorer_json
 from reports.parts.provenance import scene_table
 from reports.parts.symbols import OMEGA_I, OMEGA_R
-from tables import number, ranges
 
 TANH = {"tether.tension": {"law": "tanh", "p": [3e4, 5.0, 0.0, 0.0, 1e4]}}
 DICTIONARY = """name,unit,symbol,meaning,digits
@@ -111,13 +110,6 @@ def test_a_history_drawn_from_fewer_points_keeps_every_extreme_and_the_order_of_
     assert len(kept_x) <= 400 and np.all(np.diff(kept_x) > 0)
     assert (kept_y.min(), kept_y.max()) == (y.min(), y.max()) and np.array_equal(y[kept_x.astype(int)], kept_y)
     assert np.array_equal(envelope(x[:300], y[:300], bins=200)[1], y[:300])
-
-
-def test_ranges_name_every_chosen_value_and_no_other():
-    values = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06]
-    assert ranges(values, [True, True, True, False, True, False]) == "0.01 to 0.03 and 0.05"
-    assert ranges(values, [False] * 6) == "none"
-    assert number(-0.053) == "−0.053" and number(math.nan) == "–"
 
 
 def drawing(t, values, section=(), spectrum=NOTHING, marks=(), exponent=NOTHING) -> str:

@@ -23,7 +23,7 @@ from reports.buoy_sweep.report import report
 from reports.parts.content import Bullets, Figure, Heading, Notice, Picture, Report, Sheet, Text, plain
 from reports.parts.pdf import render_pdf
 from tables import read_rows
-from tests.reports.conftest import campaign, folder_at
+from tests.reports.conftest import campaign, folder_at, of_kind
 
 ROOT = Path(__file__).parents[2]
 LINK, PAGE = re.compile(rb"/Subtype ?/Link\b"), re.compile(rb"/Type ?/Page\b")
@@ -69,14 +69,14 @@ def test_four_hundred_runs_with_their_evidence_make_files_of_less_than_ten_megab
 def test_the_pdf_opens_with_the_answer_and_its_figure_and_lists_every_section_after_them(folder, built):
     items, everything = content_of(folder)[0].items, words_of(built[1])
     first, second = (" ".join(page.split()) for page in everything.split("\f")[:2])
-    headings = [plain(item.text) for item in items if isinstance(item, Heading)]
+    headings = [plain(heading.text) for heading in of_kind(items, Heading)]
     answer = (folder / "answer.txt").read_text(encoding="utf-8").splitlines()
     for line in answer:
         assert " ".join(line.split(":")[0].split()) in first
     assert "It took" in first and "Figure 1:" in first
     assert everything.index("Figure 1:") < everything.index("Contents") < everything.index(headings[0])
     assert second.startswith("Tethered buoy") and re.search(r"2 ?/ ?\d", second)
-    figures = sum(isinstance(item, Figure) for item in items)
+    figures = len(of_kind(items, Figure))
     assert all(f"Figure {number}:" in everything for number in range(1, figures + 1)), "each under its figure"
     document = built[1].read_bytes()
     assert len(LINK.findall(document)) >= len(headings) and b"/Outlines" in document
@@ -108,9 +108,9 @@ def test_the_first_picture_shrinks_to_the_page_of_the_answer(height):
 def content(folder):
     """What a report says in its boxes, its bullets and its sheets, and the number of its figures."""
     items = report(folder).items
-    boxes = [line for item in items if isinstance(item, Notice) for line in item.lines]
-    sheets = [line for item in items if isinstance(item, Sheet) for line in item.lines]
-    return boxes, sheets, sum(isinstance(item, Figure) for item in items)
+    boxes = [line for notice in of_kind(items, Notice) for line in notice.lines]
+    sheets = [line for sheet in of_kind(items, Sheet) for line in sheet.lines]
+    return boxes, sheets, len(of_kind(items, Figure))
 
 
 def test_runs_that_failed_are_named_with_their_reason_and_message_which_is_told_once(tmp_path):

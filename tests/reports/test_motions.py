@@ -18,7 +18,7 @@ from reports.sweep.quantities import colours_of, panels_over
 from reports.sweep.report import _maps_of_each
 from tables import Column
 from tests.campaigns.conftest import rows_of
-from tests.reports.conftest import points_of, write
+from tests.reports.conftest import of_kind, panel_of, points_of, write
 from tests.reports.test_words_apart import crowded
 
 WORD, NUMBER = COLUMNS[2], STEEPNESS
@@ -59,10 +59,6 @@ def several(folder, tmp_path):
         STARTS,
     )
     return place
-
-
-def panel_of(figure, label):
-    return next(axes for axes in figure.axes if axes.get_ylabel().startswith(label))
 
 
 def test_each_motion_has_one_colour_and_a_line_joins_no_other(several, drawn):
@@ -113,16 +109,16 @@ def test_an_arrow_leads_from_the_motion_that_ends_to_the_one_that_follows(severa
 
 def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     items = content_of(several)[0].items
-    sheets = {item.title: item for item in items if isinstance(item, Sheet)}
+    sheets = {sheet.title: sheet for sheet in of_kind(items, Sheet)}
     assert len(sheets) == len({sheet.anchor for sheet in sheets.values()}) == 11
     (large,) = (sheet for title, sheet in sheets.items() if "kA = 0.08, motion B" in title)
     assert list(map(plain, large.lines)) == [
         "Next to it: kA = 0.03, motion B and kA = 0.1, motion B.",
         "At the same kA: kA = 0.08, motion A.",
     ]
-    (explorer,) = (item for item in items if isinstance(item, Explorer))
+    (explorer,) = of_kind(items, Explorer)
     assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
-    motions, *_ = tables = [item for item in items if isinstance(item, Table)]
+    motions, *_ = tables = of_kind(items, Table)
     assert [row[0] for row in motions.rows] == ["A", "B"]
     assert motions.rows[1][5:7] == ["2 of 8 to 8 of 8", "kick and rest"]
     (starts,) = (table for table in tables if "Starts at" in table.caption)
@@ -156,8 +152,8 @@ def test_a_sweep_of_any_key_keeps_motions_and_failed_runs_apart(drawn):
     seen = {(curve.colour, curve.mark): curve.y.tolist() for curve in panel.curves if len(curve.y)}
     calm, worst = motions["A"], motions["B"]
     assert seen == {(calm, "o"): [1.0, 2.0], (calm, "x"): [3.0], (worst, "o"): [10.0, 11.0]} and worst == VERMILION
-    maps = _maps_of_each([key, depth], rows, shown, motions)
-    assert [item.text[-8:] for item in maps if isinstance(item, Heading)] == ["motion A", "motion B"]
+    maps = list(_maps_of_each([key, depth], rows, shown, motions))
+    assert [heading.text[-8:] for heading in of_kind(maps, Heading)] == ["motion A", "motion B"]
     first = drawn[0].axes[0]
     assert (first.get_xlabel(), first.get_ylabel()) == ("kA (–)", "H (–)")
     assert first.images[0].get_array().tolist() == [[1.0, 2.0, 3.0]]
@@ -166,7 +162,7 @@ def test_a_sweep_of_any_key_keeps_motions_and_failed_runs_apart(drawn):
 @pytest.mark.slow
 def test_a_click_chooses_the_motion_whose_point_is_nearest(several, browse):
     """At kA = 0.03, with the margins of the canvas: 48 and 10 pixels beside, 20 above, 44 and 92 a curve below."""
-    (data,) = (item for item in content_of(several)[0].items if isinstance(item, Explorer))
+    (data,) = of_kind(content_of(several)[0].items, Explorer)
     everything = [point for column in data.columns for point in column.points]
     low, wide = min(everything), max(everything) - min(everything)
     with browse(build(several)[0]) as page:

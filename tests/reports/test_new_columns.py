@@ -11,14 +11,14 @@ from reports import content_of
 from reports.basins.report import _motions
 from reports.out_of_plane.report import _runs_tables
 from reports.out_of_plane.runs import VARIED, Run, Study
-from reports.parts.content import Sheet, Table
+from reports.parts.content import Sheet, Table, flat
 from reports.parts.folder import Folder, read_folder
 from reports.parts.provenance import _flat, scene_table
 from reports.regime_map.maps import read_atlas
 from reports.regime_map.sheets import cell_sheets
-from tables import PLANE, RUNS, SHEET, Column, read_columns, write_table
+from tables import PLANE, RUNS, SHEET, Column
 from tests.campaigns.conftest import rows_of
-from tests.reports.conftest import columns_of, write
+from tests.reports.conftest import columns_of, of_kind, write
 from tests.reports.test_regime_map import SYMBOLS, WORDS, folder_of
 
 __all__ = ["folder_of"]  # a fixture
@@ -29,7 +29,7 @@ ERROR = Column("snaps_per_period_error", "1/T", "± snaps", "standard error of t
 def shown(items) -> list[str]:
     """The entries below the head of the new column, in the tables of a report."""
     cells = []
-    for table in (item for item in items if isinstance(item, Table)):
+    for table in of_kind(flat(items), Table):
         places = [place for place, head in enumerate(table.columns) if head.title == NEW.symbol]
         cells += [row[place] for place in places for row in table.rows]
     return cells
@@ -72,14 +72,7 @@ def test_a_column_is_printed_where_its_declaration_says(folder, tmp_path):
         write(place, rows, (*COLUMNS, Column(NEW.name, NEW.unit, NEW.symbol, NEW.meaning, 2, page)))
         items = content_of(place)[0].items
         assert len(shown(items)) == runs
-        assert all((NEW.symbol, "0.25 1/T") in item.facts for item in items if isinstance(item, Sheet))
-
-
-def test_a_dictionary_of_before_there_were_pages_is_read(tmp_path):
-    write_table(tmp_path / "table.csv", (NEW,), [{NEW.name: 0.75}])
-    dictionary = tmp_path / "columns.csv"
-    dictionary.write_text("".join(line.rpartition(",")[0] + "\n" for line in dictionary.read_text().splitlines()))
-    assert "page" not in dictionary.read_text() and read_columns(dictionary) == {NEW.name: NEW}
+        assert all((NEW.symbol, "0.25 1/T") in sheet.facts for sheet in of_kind(items, Sheet))
 
 
 @pytest.mark.parametrize("scene", list_scenes())

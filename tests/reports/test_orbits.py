@@ -14,7 +14,7 @@ from reports.orbits.report import report
 from reports.parts.content import Figure, Notice, Table
 from reports.parts.folder import FolderError, read_folder
 from tests.campaigns.conftest import rows_of
-from tests.reports.conftest import columns_of, folder_at, write
+from tests.reports.conftest import columns_of, folder_at, of_kind, write
 from tests.reports.test_words_apart import crowded
 
 WORDS = ("branch", "kind", "motion", "begins", "ends", "leads_to", "found_by", "status", "message")
@@ -91,10 +91,10 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     assert isinstance(first, Figure) and first.narrow is not None and not any(map(crowded, drawn))
     cells = {row[1]: row[2] for row in table.rows}
     assert cells == {"fold": "0.06000\u00a0±\u00a00.0001", "flip": "0.11000\u00a0±\u00a00.0009‡†"}
-    (notice,) = (item for item in items if isinstance(item, Notice))
+    (notice,) = of_kind(items, Notice)
     caveats = " ".join(notice.lines)
     assert "Branch 2 was not followed to its end: at 0.15" in caveats and "flip of branch 1 at 0.1100" in caveats
-    multipliers = next(item for item in items if isinstance(item, Table) and item.columns[2].title == "μ1")
+    multipliers = next(table for table in of_kind(items, Table) if table.columns[2].title == "μ1")
     known = [float(row["multiplier_1_real"]) for row in rows_of(orbits / "orbits")]
     assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]
 
@@ -103,8 +103,8 @@ def test_orbits_without_runs_or_events_are_drawn_too(orbits):
     for part in ("motions", "events", "orbits", "branches"):
         shutil.rmtree(orbits / part)
     items = report(orbits).items
-    assert sum(isinstance(item, Figure) for item in items) == 2
-    (notice,) = (item for item in items if isinstance(item, Notice))
+    assert len(of_kind(items, Figure)) == 2
+    (notice,) = of_kind(items, Notice)
     assert len(notice.lines) == 1 and notice.lines[0].startswith("Branch 1 changes its stability at")
 
 

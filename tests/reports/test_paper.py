@@ -20,7 +20,7 @@ from reports.parts.judged import read_statements, statements_table
 from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS
 from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
-from tests.reports.conftest import folder_at, write
+from tests.reports.conftest import folder_at, of_kind, write
 
 
 @pytest.fixture(scope="module")
@@ -43,24 +43,20 @@ def content(tmp_path_factory):
     return report(folder)
 
 
-def items_of(content, kind):
-    return [item for item in content.items if isinstance(item, kind)]
-
-
 def test_parts_that_are_missing_are_told_and_the_rest_is_there(content):
-    lines = [line for notice in items_of(content, Notice) for line in notice.lines]
+    lines = [line for notice in of_kind(content.items, Notice) for line in notice.lines]
     assert any("`sweep`" in line for line in lines) and not any("`dependence`" in line for line in lines)
-    assert any(row[0] == "eq. (6), C₃₁" for table in items_of(content, Table) for row in table.rows)
-    assert any("took 1.5 minutes" in item.text for item in items_of(content, Text))
+    assert any(row[0] == "eq. (6), C₃₁" for table in of_kind(content.items, Table) for row in table.rows)
+    assert any("took 1.5 minutes" in item.text for item in of_kind(content.items, Text))
 
 
 def test_links_lead_to_the_reports_that_exist(content):
-    assert [path for links in items_of(content, Links) for _, path in links.files] == ["buoy/report.html"]
+    assert [path for links in of_kind(content.items, Links) for _, path in links.files] == ["buoy/report.html"]
     assert b'href="buoy/report.html"' in render_html(content)
 
 
 def test_the_dependence_is_told_by_depth_and_treatment(content):
-    regimes = next(table for table in items_of(content, Table) if "at kA = 0.13" in table.caption)
+    regimes = next(table for table in of_kind(content.items, Table) if "at kA = 0.13" in table.caption)
     assert [row[0] for row in regimes.rows] == ["21", "22.5", "25"]
     assert regimes.rows[0][1].startswith("chaotic, 0.200") and regimes.rows[2][1:] == ("newton-failed", "–")
 

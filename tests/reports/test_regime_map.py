@@ -4,6 +4,7 @@ import base64
 import json
 import re
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,17 +13,17 @@ from scipy.spatial.distance import pdist
 
 from engine import load_scene
 from reports import build, content_of
-from reports.figures.regime_map import Cells, regime_maps
+from reports.figures.regime_map import Map, Page, regime_maps
 from reports.parts.content import CellSheets, Figure, Table
 from reports.parts.folder import FolderError, read_folder
 from reports.parts.html import packed
 from reports.parts.style import MAP_PERIODS, REGIME_COLOURS
 from reports.regime_map import draw
-from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, Map, legend, numbers, read_atlas, regimes
+from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, legend, numbers, read_atlas, regimes
 from reports.regime_map.report import _regimes, _warnings
 from reports.regime_map.sheets import cell_sheets
 from tests.campaigns.fake_engine import sines
-from tests.reports.conftest import columns_of, folder_at, write
+from tests.reports.conftest import columns_of, folder_at, of_kind, write
 from tests.reports.test_browser import violations
 from tests.reports.test_words_apart import crowded
 
@@ -114,7 +115,7 @@ def test_shares_are_areas_of_the_cells_on_top(folder_of):
     covered = page.area == 0.0
     assert np.allclose(page.area[~covered], parts[~covered]) and page.area.sum() == pytest.approx(1.0)
     assert {row["level"] for row, hidden in zip(page.rows, covered, strict=True) if hidden} == {0}
-    assert atlas.share(lambda page: page.cells.kinds == "chaotic") == pytest.approx(2.5 / NX), (
+    assert atlas.share(lambda page: page.kinds == "chaotic") == pytest.approx(2.5 / NX), (
         "half of the bisected column, and two others"
     )
 
@@ -138,10 +139,9 @@ def test_nothing_screened_counts_as_computed(folder_of):
 def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
     """A chess board of 4 x 3 cells: every inner side is a border once; two cells of one kind have none."""
     i, j = (index.ravel() for index in np.meshgrid(np.arange(4.0), np.arange(3.0)))
-    nothing = np.zeros(12, bool)
     for kinds, length in (((i + j) % 2, 3 * 3 + 4 * 2), (i > 1.5, 3), (0 * i, 0)):
-        cells = Cells(np.column_stack([i, i + 1, j, j + 1]), kinds.astype(str), nothing, nothing)
-        (picture, places) = regime_maps([Map(cells, "", np.full(12, "#a0a0a0"))], ("x", "y"), (), ((), ()), 1)
+        page = Page(np.column_stack([i, i + 1, j, j + 1]), kinds.astype(str), np.full(12, COMPUTED))
+        (picture, places) = regime_maps([Map(page, "", np.full(12, "#a0a0a0"))], ("x", "y"), (), ((), ()), 1)
         line = drawn[-1].axes[0].lines[0]
         steps = np.diff(np.column_stack(line.get_data()).reshape(-1, 3, 2)[:, :2], axis=1)
         assert np.abs(steps).sum() == pytest.approx(length)
@@ -189,7 +189,7 @@ def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_ma
         known = {(value, colour) for value, colour in seen if np.isfinite(value)}
         assert len(known) == len(dict(known)) > 1
     first = atlas.pages[0]
-    bare = atlas._replace(pages=[first._replace(rows=[row | {_EXPONENT: None} for row in first.rows])])
+    bare = atlas._replace(pages=[replace(first, rows=[row | {_EXPONENT: None} for row in first.rows])])
     titles, rest = ([shown.title for shown in numbers(pages)[0]] for pages in (atlas, bare))
     assert rest == titles[:3]
 
@@ -216,10 +216,10 @@ def test_a_screen_alone_has_its_report_too(folder_of):
     table = place / "cells" / "table.csv"
     table.write_text(table.read_text().replace(COMPUTED, SCREENED))
     items = content_of(place)[0].items
-    first, sheets = (next(item for item in items if isinstance(item, kind)) for kind in (Figure, CellSheets))
+    (first, *_), (sheets,) = (of_kind(items, kind) for kind in (Figure, CellSheets))
     assert not any(cell["motions"] for cell in sheets.cells)
     assert "only screened" in first.alt and "chaotic" not in first.alt
-    assert not [item for item in items if isinstance(item, Table) and item.columns[0].title == "motion from rest"]
+    assert "motion from rest" not in {table.columns[0].title for table in of_kind(items, Table)}
     table.unlink()
     with pytest.raises(FolderError, match="cells"):
         content_of(place)
@@ -227,7 +227,7 @@ def test_a_screen_alone_has_its_report_too(folder_of):
 
 @pytest.mark.slow
 def test_each_page_has_its_maps_and_no_word_lies_on_another(folder_of, drawn):
-    figures = [item for item in content_of(folder_of(("full", "spherical-cap")))[0].items if isinstance(item, Figure)]
+    figures = of_kind(content_of(folder_of(("full", "spherical-cap")))[0].items, Figure)
     assert [len(figure.places[0]) for figure in figures] == [2, 4, 4] and not any(map(crowded, drawn))
     assert [{place.page for place in figure.places[1]} for figure in figures] == [{0, 1}, {0}, {1}]
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from reports.figures.snaps import SnappingMotion, exceedance, larger_a_wave, tension_histories
+from reports.sweep.snaps import SnappingMotion, exceedance, larger_a_wave, tension_histories
 from tests.reports.test_words_apart import crowded
 
 

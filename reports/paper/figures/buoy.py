@@ -7,6 +7,7 @@ fig. 12 spectra, kA = 0.016; fig. 13 top tension, kA = 0.13; fig. 15 motion alon
 kA = 0.13; fig. 17 spectrum of r, kA = 0.13; fig. 18 spectrum of θ, kA = 0.13.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +15,7 @@ import xarray
 
 from tables import decimals, listed, number, sub
 
-from ...figures.curves import Curve, Panel, curves
-from ...figures.motion import envelope, spectrum_panels
+from ...figures.curves import Curve, Panel, curves, envelope
 from ...parts import L_0, OMEGA_I, T_I, T_S, TAU_0, Figure
 from ...parts.style import BLUE, GREEN, INK, VERMILION
 from .drawing import DASHED, behind, sources_of, spans, value
@@ -133,3 +133,26 @@ def spectra(data: xarray.Dataset, kind: str) -> Figure:
     marks = [(value(data, frequency), name) for frequency, name in MARKED.items()]
     panels = spectrum_panels(lines, SPECTRUM_TO * wave, labels, marks)
     return Figure(curves([panels], 2.9, "below", kind=kind), caption, alt)
+
+
+def spectrum_panels(
+    lines: Sequence[Curve], highest_radps: float, labels: tuple[str, str], marks: Sequence[tuple[float, str]]
+) -> list[Panel]:
+    """Amplitudes over omega up to highest_radps, linear with named marks, and logarithmic; labels: of x and y."""
+    shown = lines[0].x <= highest_radps
+    lines = [line._replace(x=line.x[shown], y=line.y[shown]) for line in lines]
+    everything = np.concatenate([line.y for line in lines])
+    limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * max(float(everything.max()), 1e-12))}
+    decades = limits | {"ylim": log_limits(everything)}
+    nameless = [(at, "") for at, _ in marks]
+    linear = Panel(lines, *labels, settings=limits, marks=marks)
+    return [linear, Panel(lines, labels[0], log="y", settings=decades, marks=nameless)]
+
+
+def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:
+    """Four decades at most below the peak; a spectrum of zeros keeps matplotlib's own limits."""
+    peak = float(amplitude.max())
+    if peak <= 0:
+        return None, None
+    least = float(amplitude[amplitude > 0].min())
+    return max(peak * 1e-4, least * 0.5), peak * 3

@@ -8,12 +8,14 @@ In the paper: fig. 14 Lyapunov exponents over time; fig. 19 sections: buoy (a), 
 plane of the waves.
 """
 
+from collections.abc import Sequence
+
+import numpy as np
 import xarray
 
 from tables import decimals, number
 
 from ...figures.curves import Curve, Panel, curves
-from ...figures.motion import settled
 from ...figures.offplane_history import History, lateral_histories
 from ...parts import L_0, T_I, Figure
 from ...parts.style import BLUE, INK, VERMILION
@@ -93,6 +95,13 @@ def sections(data: xarray.Dataset, kind: str) -> Figure:
         dots = Curve(x, y, line="", mark=".", colour=INK, size=_size_of_dots(len(x)), pixels=True)
         panels.append(Panel([dots], *axes, title, marks=[(0.0, "")]))
     return Figure(curves([panels], 3.6, kind=kind), caption, f"Two scatter plots of strobed motion: {seen}.")
+
+
+def settled(series: Sequence[np.ndarray]) -> tuple[float, float]:
+    """Limits that show 0 and what the curves (m,) do after their first tenth, in which they jump about."""
+    late = np.concatenate([bits[len(bits) // 10 :] for bits in series] + [np.zeros(1)])
+    margin = 0.15 * max(float(np.ptp(late)), 0.02)
+    return float(late.min()) - margin, float(late.max()) + margin
 
 
 def _size_of_dots(points: int) -> float:
