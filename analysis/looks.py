@@ -196,6 +196,8 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
                 if evidence[-1].value < 0.0:
                     pace = "shrink"
                 reason += f"; perturbations {pace}"
+            elif not evidence[-1].passed:
+                reason += "; a slow torus may repeat as closely, so that only an orbit or perturbations decide"
             return look(f"period-{estimate.period}", reason)
         repeats = f"; yet the strobed state {estimate.reason}"
     if not later.found:
@@ -245,9 +247,10 @@ def _confirmation(estimate: PeriodEstimate, full: Exponent, later: Exponent) -> 
         rising = later.value > LATER * later.error
         sentence = "bits per period by which perturbations grow at most, two errors included"
         return Evidence(NO_GROWTH, largest, SEEN, largest < SEEN and not rising, sentence)
-    residual, bound = estimate.residual[estimate.period - 1], CLOSELY * estimate.tolerance
-    sentence = "share of the scale by which the period is missed, where perturbations do not tell"
-    return Evidence(CLOSE, residual, bound, residual <= bound, sentence)
+    bound = CLOSELY * estimate.tolerance
+    missed = max(estimate.residual[estimate.period - 1], estimate.projected[estimate.period - 1])
+    sentence = "share of the scale by which the period is missed, drift to come included, where no perturbations tell"
+    return Evidence(CLOSE, missed, bound, missed <= bound, sentence)
 
 
 def _comes_nearer(estimate: PeriodEstimate):

@@ -102,7 +102,8 @@ def locked(array: ArrayLike) -> np.ndarray:
 
 @dataclass_transform(frozen_default=True, eq_default=False)
 def record(fields: type, eq: bool = False) -> type:
-    """A frozen dataclass of these fields: its arrays are read-only, its numbers are Python's and not NumPy's.
+    """A frozen dataclass of these fields: its arrays are read-only and printed by their shapes, its numbers are
+    Python's and not NumPy's.
 
     eq: whether two of them are equal that have equal entries. Arrays have no such answer.
     """
@@ -114,7 +115,13 @@ def record(fields: type, eq: bool = False) -> type:
             elif isinstance(entry, np.generic):
                 object.__setattr__(self, name, entry.item())
 
-    fields.__post_init__ = finish
+    def __repr__(self) -> str:
+        entries = []
+        for name, entry in vars(self).items():
+            entries.append(f"{name}=array{entry.shape}" if isinstance(entry, np.ndarray) else f"{name}={entry!r}")
+        return f"{fields.__name__}({', '.join(entries)})"
+
+    fields.__post_init__, fields.__repr__ = finish, fields.__dict__.get("__repr__", __repr__)
     return dataclass(frozen=True, eq=eq)(fields)
 
 

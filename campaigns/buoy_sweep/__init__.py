@@ -1,6 +1,6 @@
 """Sweep of wave steepness for the tethered buoy: one run for each value, a table of what each did, a report.
 
-    python -m campaigns.buoy_sweep                          the whole range, in a minute or two on two cores
+    python -m campaigns.buoy_sweep                          the whole range, four to five minutes on two cores
     python -m campaigns.buoy_sweep --steepness 0.016 0.13   the paper's two cases (section 4.2)
 
 Protocol: the same scene from rest for every value of waves.steepness, each as long as its regime needs

@@ -132,10 +132,14 @@ def snap_peaks(rows: Sequence[Row], keys: Mapping[str, str]) -> str:
     parts, hardest = [], greatest(rows, "snap_peak_max_N")
     if hardest is not None:
         middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
-        parts.append(f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}.")
-        speed_mps = number_of(greatest(rows, "snap_speed_max_mps") or {}, "snap_speed_max_mps")
+        words = f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}"
+        if math.isfinite(rise_s := number_of(hardest, "snap_rise_s")):
+            words += f", within {number(rise_s, 2)} s of becoming taut"
+        parts.append(f"{words}.")
+        fastest = greatest(rows, "snap_speed_max_mps") or {}
+        speed_mps = number_of(fastest, "snap_speed_max_mps")
         if speed_mps > 0.0:  # else the ends come together while the line becomes taut
-            parts.append(f"Snap speed up to {number(speed_mps, 2)} m/s.")
+            parts.append(f"Snap speed up to {number(speed_mps, 2)} m/s, at {place_of(fastest, keys)}.")
     slack = [share for share in numbers_of(rows, "slack_fraction") if math.isfinite(share)]
     if slack:
         parts.append(f"Slack {span([100.0 * share for share in slack], places=0)} % of the time.")
@@ -167,7 +171,7 @@ def jump(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> str
 def _end(end: Row, rows: Sequence[Row], key: str, relation: str) -> str:
     """ "A becomes C above 0.118 (4.4 -> 9.4 kN)"."""
     exact, inside, outside = (number_of(end, f"{key}_{name}") for name in ("end", "with", "without"))
-    place, change = f"{0.5 * (inside + outside):.3g}", ""
+    place, change = f"{0.5 * (inside + outside):.3g}", "by bisection"
     if math.isfinite(exact):
         place, change = f"{exact:.3g}", str(end["kind"])
     motions = by_motion(rows)
@@ -175,8 +179,7 @@ def _end(end: Row, rows: Sequence[Row], key: str, relation: str) -> str:
     if before and after:
         nearest = partial(min, key=lambda row: abs(row[key] - outside))
         change = ", ".join(filter(None, (_change(nearest(before), nearest(after)), change)))
-    words = f"{end['motion']} becomes {end['leads_to']} {relation} {place}"
-    return f"{words} ({change})" if change else words
+    return f"{end['motion']} becomes {end['leads_to']} {relation} {place} ({change})"
 
 
 def _from_rest(rows: Sequence[Row], key: str, symbol: str, ended: bool) -> str:

@@ -7,7 +7,7 @@ from analysis import distance
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, write_table
+from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Row, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
@@ -16,6 +16,7 @@ _EXACT = "where the motion ends, by its orbit, which stops being stable there; e
 SHIFTED = 0.01  # of a value: by what the tolerance of a sweep may move an end
 FOLDER = "ends"
 KIND = Column("kind", "", "by", "what ends it: fold, flip or torus point of its orbit; empty: not known")
+NO_ORBIT = Column("no_orbit", "", "no orbit", "why no orbit tells where the motion ends", None, SHEET)
 BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
 END = Column("end", "", "end", "lower or upper end of the range of the motion")
 TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
@@ -58,7 +59,10 @@ def columns(key: Column) -> tuple[Column, ...]:
     """Of the table of ends of a sweep over this key."""
     digits = key.digits and 5
     with_name, without_name = f"{key.name}_with", f"{key.name}_without"
-    error = "of the end: its largest change over three sequences of steps"
+    error = (
+        "of the end: its largest change over three sequences of steps, or, if that is more, how far runs found it on "
+        "the other side; tolerance and grid move it by some 2e-4 more (`campaigns.orbits` computes that)"
+    )
     return (
         MOTION,
         END,
@@ -67,6 +71,7 @@ def columns(key: Column) -> tuple[Column, ...]:
         replace(key, name=f"{key.name}_end", symbol=f"{key.symbol} end", digits=digits, meaning=_EXACT),
         Column("error", key.unit, f"± {key.symbol}", error, 5),
         KIND,
+        NO_ORBIT,
         LEADS_TO,
         RUN_KEY,
         STATUS,
@@ -139,7 +144,7 @@ def nearest(settled, motions: Sequence[Motion]) -> Motion:
 
 
 def by_orbits(motions: Motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable) -> dict[_End, Row]:
-    """The columns of the ends at which an orbit stops being stable, as the bisection says; the others have none.
+    """The columns of the ends at which an orbit stops being stable, as the bisection says; of the others, why not.
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
     """
@@ -157,10 +162,19 @@ def by_orbits(motions: Motions, values: Sequence[float], ends: Sequence[_End], s
     results, _ = work(motions.plan, folder, title, list(tasks.values()))
     exact = {}
     for end, (result, _) in zip(tasks, results, strict=True):
-        # an orbit may double its period before its motion ends
-        near = max(BEYOND * abs(end.outside - end.inside), SHIFTED * abs(end.inside))
-        if not result["reason"] and abs(result["value"] - 0.5 * (end.inside + end.outside)) <= near:
-            exact[end] = {f"{key.name}_end": result["value"], "error": result["error"], "kind": result["kind"]}
+        if result["reason"]:
+            exact[end] = {NO_ORBIT.name: result["reason"]}
+            continue
+        width, value = abs(end.outside - end.inside), result["value"]
+        from_middle = abs(value - 0.5 * (end.inside + end.outside))
+        if from_middle > max(BEYOND * width, SHIFTED * abs(end.inside)):
+            # an orbit may double its period before its motion ends
+            exact[end] = {NO_ORBIT.name: f"its orbit has the next {result['kind']} at {value:.5g}"}
+            continue
+        error = result["error"]
+        if error is not None:
+            error = max(error, from_middle - 0.5 * width)
+        exact[end] = {f"{key.name}_end": value, "error": error, "kind": result["kind"]}
     return exact
 
 

@@ -105,8 +105,8 @@ def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> 
         note = orbit.words()
     except (ArithmeticError, ValueError) as why:
         orbit, note = None, f"no multipliers: {why}"
-    loose = any(test.name == CLOSE and not test.passed for test in verdict.evidence)
-    if loose and orbit is None:
+    alone = any(test.name == CLOSE for test in verdict.evidence)  # the strobed state, without perturbations
+    if alone and orbit is None:
         reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
         verdict = replace(verdict, regime="undecided", reason=reason)
     return replace(judgement, verdict=verdict, orbit=orbit, note=note)

@@ -65,6 +65,7 @@ SNAPS = (
     Column("snap_peak_median_N", "N", "snap_med", "median of the peak tensions of snaps after the transient", 0, SHEET),
     Column("snap_peak_95_N", "N", "snap_95", "peak tension that 5 % of the snaps after the transient exceed", 0, SHEET),
     Column("snap_peak_max_N", "N", "snap_max", "largest peak tension of a snap after the transient", 0, SHEET),
+    Column("snap_rise_s", "s", "t_rise", "median time from becoming taut to the peak, after the transient", 2, SHEET),
     Column(
         "snap_speed_max_mps", "m/s", "v_snap",
         "largest speed at which the ends of the line move apart when a snap begins, after the transient", 2, SHEET,
@@ -307,6 +308,7 @@ def snap_columns(scene, columns, transient_s: float, period: int | None = None) 
         median_N, high_N = np.quantile(peaks_N, [0.5, 0.95], method="inverted_cdf")
         row["snap_peak_median_N"], row["snap_peak_95_N"] = float(median_N), float(high_N)
         row["snap_peak_max_N"] = float(snaps.peak_N.max())
+        row["snap_rise_s"] = float(np.median(snaps.rise_s[snaps.counted_s >= counted_from_s]))
         row["snap_speed_max_mps"] = float(snaps.taut_speed_mps.max())
     return row
 

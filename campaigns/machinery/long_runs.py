@@ -158,14 +158,14 @@ def _check(scene, trajectory, row, check) -> Part | None:
 
 
 def _unclear(row) -> bool:
-    """Whether perturbations have to say what an open run is: no period is found, or it does not repeat closely."""
+    """Whether perturbations have to say what an open run is: it does not repeat, or no orbit lies under it."""
     from analysis.evidence import read_evidence
     from analysis.looks import CLOSE, next_look
 
     if row["regime"] != "undecided" or row["periods"] < next_look():
         return False
-    failed = {name for name, *_, met in read_evidence(row.get("evidence") or "") if met == "no"}
-    return row.get("strobed_period") is None or (CLOSE in failed and row["periods"] > next_look())
+    tests = {name for name, *_ in read_evidence(row.get("evidence") or "")}
+    return row.get("strobed_period") is None or (CLOSE in tests and row["periods"] > next_look())
 
 
 def carrying(scene):

@@ -127,7 +127,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
         if study.answer is not None:
             answer = write_answer(how.out, study.answer(order, summary.rows))
         start_of_report = time.perf_counter()
-        if how.report and not summary.whole:
+        if how.report and summary.rows and not summary.whole:
             try:
                 from reports import build
 
@@ -259,7 +259,9 @@ def print_summary(how: Running, summary: Summary, answer: list[str], timing: dic
         reasons = ", ".join(f"{status} {count}" for status, count in sorted(failed.items()))
         print(f"failed   {failed.total()}: {reasons}; see the columns status and message")
     print(f"table    {out / 'table.csv'}")
-    if how.report and not fault:
+    if how.report and not (summary.rows or summary.whole):
+        print("report   none, because the table has no rows")
+    elif how.report and not fault:
         print(f"report   {out / 'report.html'}\n         {out / 'report.pdf'}")
     print(
         f"time     {timing['total_s']:.1f} s: compile {timing['compile_s']:.1f}, run {timing['run_s']:.1f}, "

@@ -8,6 +8,7 @@ from campaigns.answers import greatest, kilonewton, line
 from campaigns.sea.cells import WELL_ABOVE
 from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
 
+SCATTERED = 0.05  # of the largest tension
 FAILED = "No run ended, so there is nothing to say of this sea."
 
 
@@ -109,7 +110,11 @@ def _load(cell: Row) -> str:
     if not math.isfinite(storm_N):
         return f"no three-hour maximum: {cell.get('storm_reason')}."
     low_N, high_N = number_of(cell, "storm_low_N"), number_of(cell, "storm_high_N")
-    words = f"three-hour maximum {kilonewton(storm_N)} ({low_N / 1e3:.3g} to {high_N / 1e3:.3g})"
+    height_m = number_of(cell, "significant_height_m")
+    words = (
+        f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {low_N / 1e3:.3g} to "
+        f"{high_N / 1e3:.3g}) in a sea of H_s = {height_m:.3g} m"
+    )
     regular_N, high_wave_N = number_of(cell, "regular_N"), number_of(cell, "regular_high_N")
     if math.isfinite(regular_N):
         words += f", {storm_N / regular_N:.1f} times that of the regular design wave of H_s"
@@ -117,7 +122,7 @@ def _load(cell: Row) -> str:
         words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
     used = number_of(cell, "utilisation")
     if math.isfinite(used):
-        return f"{words}; the line is used to {used:.0%} by DNV-OS-E301, consequence class 1."
+        return f"{words}; with the factors of DNV-OS-E301, consequence class 1, the line is used to {used:.0%}."
     return f"{words}; tether.breaking_load_N gives the utilisation."
 
 
@@ -136,6 +141,12 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         if abs(finer - value) > 2.0 * math.hypot(error, finer_error):
             agrees = "does NOT agree"
         yield f"The exponent of a finer run {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
+    scatter = number_of(cell, "load_scatter")
+    if scatter > SCATTERED:
+        yield (
+            f"Runs in the same waves, from other starts or with finer steps, differ by {scatter:.0%} in their largest "
+            "tension; the interval of LOAD has only those from rest."
+        )
     noise = number_of(cell, "noise")
     if noise * WELL_ABOVE > options.distance:
         yield (

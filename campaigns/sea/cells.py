@@ -83,6 +83,10 @@ COLUMNS = (
     Column("storm_maximum_N", "N", "T_3h", "most probable largest tension in three hours", 0),
     Column("storm_low_N", "N", "T_3h low", "lower end of its 90 % interval", 0),
     Column("storm_high_N", "N", "T_3h high", "upper end of its 90 % interval", 0),
+    Column(
+        "load_scatter", "", "scatter",
+        "range of the largest tensions of all runs in the same waves over their mean: median over the seas", 3, SHEET,
+    ),
     Column("storm_reason", "", "by", "how the maximum was found, or why there is none", None, SHEET),
     EQUIVALENT,
     Column("utilisation", "", "u", "design tension over design strength, DNV-OS-E301, consequence class 1", 2),
@@ -203,7 +207,7 @@ def cell_row(rows: Sequence[Row], digests: Sequence[Digest], options, folds: Fol
         cell |= _visits("large", [[run.large for run in sea] for sea in seas])
         cell |= _visits("forecast", [[run.forecast for run in sea] for sea in seas])
     if rest:
-        cell |= _loads(rest, options)
+        cell |= _loads(rest, options) | {"load_scatter": _scatter(digests)}
     return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in cell.items()}
 
 
@@ -265,6 +269,15 @@ def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
     if len(shares) > 1:
         row[f"{name}_share_error"] = standard_error(shares)
     return row
+
+
+def _scatter(digests: Sequence[Digest]) -> float:
+    """Range of the largest tensions of all runs in the same waves, over their mean: median over seas of several."""
+    largest_N: dict[int, list[float]] = {}
+    for run in digests:
+        largest_N.setdefault(run.row["sea"], []).append(run.high_N.max())
+    ranges = [np.ptp(sea) / np.mean(sea) for sea in largest_N.values() if len(sea) > 1]
+    return float(np.median(ranges)) if ranges else math.nan
 
 
 def history(digests: Sequence[Digest], options) -> Iterator[Row]:

@@ -27,7 +27,7 @@ from engine.atomic import write_atomic
 from tables import Column, dictionary, names
 
 WIDTH, NAMES = 100, 24
-MARK = {True: "yes", False: "no", None: "--"}
+MARK = {True: "met", False: "not met", None: "--"}
 SEEN = {
     STROBED: "once per forcing period, at four phases of it",
     SAMPLES: "sample by sample, as a map; a sample is what is called a period below",
@@ -64,12 +64,12 @@ def page(study: Study) -> str:
     head = _rows([("record", answers["record"]), ("seen", answers["section"]["how"])])
     measures = [(name, f"{value} {unit}".strip() + f"; {origin}") for name, value, unit, origin in answers["measures"]]
     verdict = [("VERDICT", f"{answers['regime']}: {answers['meaning']}"), ("because", answers["reason"])]
-    evidence = ["evidence (passed or not, what was found, the value and what it was compared with)"]
+    evidence = ["tests (met or not, what was found, the value and what it was compared with)"]
     for item in study.verdict.evidence:
-        test = f"  {MARK[item.passed]:<4}{item.name}: {item.sentence}"
+        test = f"  {MARK[item.passed]:<9}{item.name}: {item.sentence}"
         if np.isfinite(item.threshold):
             test += f" [{number(item.value)} against {number(item.threshold)}]"
-        evidence += _wrapped(test, 6)
+        evidence += _wrapped(test, 11)
     notes = []
     for note in answers["notes"]:
         notes += _wrapped(f"note: {note}", 6)

@@ -12,7 +12,7 @@ from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import cell_edges
 from ..parts import Items, Table, heads, series
 from ..parts.style import INK, SOFT
-from ..sweep.motions import ends_of
+from ..sweep.motions import ends_of, place_of
 from .runs import Run, Sweep
 
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
@@ -59,7 +59,7 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
     for end in ends_of(sweep.folder, sweep.key.name):
         if end["motion"] not in largest or end["leads_to"] not in largest:
             continue
-        place = 0.5 * (end[f"{sweep.key.name}_with"] + end[f"{sweep.key.name}_without"])
+        place = place_of(end, sweep.key.name)
         start, stop = _nearest(peaks[end["motion"]], place), _nearest(peaks[end["leads_to"]], place)
         colour = sweep.colours[end["motion"]]
         arrows.append((place, start, stop, colour))

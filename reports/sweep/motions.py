@@ -1,11 +1,12 @@
 """The section on every motion of a sweep over one key: its starts, and where the ranges of its motions end."""
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from itertools import groupby
 from operator import itemgetter
 
-from tables import EMPTY, OUTCOMES, UNSETTLED, number, percent
+from tables import EMPTY, OUTCOMES, UNSETTLED, number, number_of, percent
 
 from ..parts import Folder, Heading, Items, Table, Text, heads, part_of, plus_minus, table_of
 from .quantities import in_order
@@ -30,6 +31,12 @@ def ends_of(folder: Folder, key: str) -> list[dict]:
     return sorted(part.completed, key=lambda row: (row["motion"], row[f"{key}_with"]))
 
 
+def place_of(end: dict, key: str) -> float:
+    """Where a motion ends: by its orbit, or else in the middle of the bisected range."""
+    exact = number_of(end, f"{key}_end")
+    return exact if math.isfinite(exact) else 0.5 * (end[f"{key}_with"] + end[f"{key}_without"])
+
+
 def every_motion(folder: Folder, key: str, title: str) -> Items:
     """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
     ends, starts = ends_of(folder, key), part_of(folder, "starts")
@@ -50,7 +57,7 @@ def _ends_table(part: Folder, ends: list[dict], key: str) -> Table:
     if "kind" in part.columns:
         exact = part.columns[f"{key}_end"]
         own_cells[exact.name] = plus_minus(exact, part.columns["error"])
-        names += [exact.name, "kind"]
+        names += [exact.name, "kind"] + ["no_orbit"] * ("no_orbit" in part.columns)
     return table_of(part.columns, [*names, "leads_to"], ends, _ENDS, own_cells)
 
 

@@ -5,6 +5,7 @@ import pytest
 
 from analysis import motion_regime
 from analysis.exponents import Exponent
+from analysis.looks import CLOSE
 from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth
 
 M = np.arange(1001)
@@ -54,6 +55,15 @@ def test_a_decay_is_a_period_once_it_is_over(multiplier, word):
     section = np.array([21.0, 0.0]) + circle(M / (2 * np.pi)) * multiplier ** M[:, None]
     verdict = motion_regime(section, np.full(1000, np.log(multiplier)), scale=2.0, tolerance=1e-3)
     assert verdict.regime == word
+
+
+@pytest.mark.parametrize("offset", [1e-5, 2e-5])
+def test_a_torus_beside_a_resonance_does_not_repeat_closely(offset):
+    """Its six-period steps are small, but they add up: alone they are no evidence of a period."""
+    section = circle((1.0 / 6.0 + offset) * M) + np.outer(0.96**M, [0.1, 0.05])
+    verdict = motion_regime(section[:136], scale=2.0, tolerance=0.01)
+    assert (verdict.evidence[-1].name, verdict.evidence[-1].passed) == (CLOSE, False)
+    assert motion_regime(section, np.zeros(1000), scale=2.0, tolerance=0.01).period is None
 
 
 def going_on(value):

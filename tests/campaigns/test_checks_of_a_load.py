@@ -36,7 +36,10 @@ def test_of_a_bare_row_nothing_was_checked_and_of_the_best_one_the_sea_is_left()
     assert checked(PULLS, scene)[0] == "Checked: none"
     best = PULLS | {name: entry for known in KNOWN.values() for name, entry in known.items()}
     bedded = load_scene("tethered_buoy", IN_SCENE["sea bed"])
-    assert checked(best, bedded, searched=True)[1] == "an irregular sea."
+    assert (
+        checked(best, bedded, searched=True)[1]
+        == "an irregular sea and what the scene is given (stiffness, drag, masses)."
+    )
 
 
 def test_a_load_names_its_share_of_a_known_breaking_load_only():
@@ -56,7 +59,7 @@ def test_what_a_row_knows_or_a_scene_has_was_checked(name, row, changes):
 
 def test_the_error_of_the_largest_tension_is_told_in_kN_and_per_cent():
     line, *_ = sentences([PULLS | KNOWN["grid and steps"]], "steepness", "kA", load_scene("tethered_buoy"))
-    assert "1 kN (± 0.03 kN)" in line and "grid and steps (± 3 %)" in line
+    assert "1 kN (± 0.03 kN by grid and steps)" in line and "grid and steps (± 3 %)" in line
 
 
 @pytest.mark.parametrize(("dimensions", "doubted"), [(2, True), (3, False)])

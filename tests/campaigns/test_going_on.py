@@ -79,8 +79,8 @@ def test_the_undecided_go_on_with_perturbations_and_what_settles_or_repeats_with
 
 def test_a_period_that_nothing_confirms_goes_on_with_perturbations_from_the_second_look_on():
     loose = {"regime": "undecided", "strobed_period": 8, "evidence": "period: 8/0.01/yes; close: 0.004/0.002/no"}
-    close = loose | {"evidence": "period: 8/0.01/yes; close: 0.001/0.002/yes"}
-    for row, periods, carried in ((loose, 90.0, 0), (loose, 135.0, 1), (close, 135.0, 0)):
+    no_orbit = loose | {"evidence": "period: 8/0.01/yes; close: 0.001/0.002/yes"}
+    for row, periods, carried in ((loose, 90.0, 0), (loose, 135.0, 1), (no_orbit, 135.0, 1)):
         assert next_part(**row, periods=periods).scene.output.tangent_vectors == carried
 
 

@@ -149,6 +149,7 @@ def test_waves_of_one_motion_have_no_folds():
 
 def cell(**entries):
     known = {"status": "ok", "seas": 8.0, "apart_seas": 0.0, "snaps_per_hour": 41.0, "equivalent_load_N": 1.0}
+    known |= {"significant_height_m": 2.5}
     return known | entries
 
 
@@ -168,7 +169,8 @@ def test_the_answer_begins_with_the_load_and_says_whether_the_start_is_forgotten
     options = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=True)
     storm = {"storm_maximum_N": 13500.0, "storm_low_N": 12100.0, "storm_high_N": 16800.0, "utilisation": 0.06}
     first, *lines = sentences([cell(**entries, **storm)], options)
-    assert first.startswith("LOAD     three-hour maximum 13.5 kN (12.1 to 16.8); the line is used to 6% by DNV-OS-E301")
+    assert first.startswith("LOAD     most probable three-hour maximum 13.5 kN (90 % interval 12.1 to 16.8)")
+    assert first.endswith("DNV-OS-E301, consequence class 1, the line is used to 6%.")
     (starts,) = (line for line in lines if line.startswith("STARTS"))
     assert words in starts
 

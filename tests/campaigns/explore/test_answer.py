@@ -65,7 +65,7 @@ def test_motions_become_others_as_the_table_of_ends_says():
     lower = {"motion": "B", "end": "lower", "steepness_with": 0.025, "steepness_without": 0.024, "leads_to": "A"}
     ends = [upper | {"kind": "", "steepness_end": None}, lower | {"kind": "fold", "steepness_end": 0.0246}]
     jump = answer(coexisting(2), ends=ends)["JUMP"]
-    assert jump.startswith("Rising kA: A becomes B above 0.041 (3 -> 9 kN).")
+    assert jump.startswith("Rising kA: A becomes B above 0.041 (3 -> 9 kN, by bisection).")
     assert "Falling kA: B becomes A below 0.0246 (8 -> 3 kN, fold)." in jump
 
 
@@ -83,7 +83,7 @@ def test_a_rest_that_leaves_a_motion_which_goes_on_is_told_as_early():
 
 
 def test_snaps_are_told_motion_by_motion_and_left_out_where_none_are_counted():
-    known = {"snap_peak_median_N": 4000.0, "snap_peak_95_N": 4500.0, "snap_speed_max_mps": 1.5}
+    known = {"snap_peak_median_N": 4000.0, "snap_peak_95_N": 4500.0, "snap_speed_max_mps": 1.5, "snap_rise_s": 0.4}
     rows = [
         row(0.01, snaps_per_wave=0.0, motion="A"),
         row(0.02, snaps_per_wave=1.0, motion="A", snap_peak_max_N=5000.0, **known),
@@ -91,7 +91,8 @@ def test_snaps_are_told_motion_by_motion_and_left_out_where_none_are_counted():
     ]
     line = answer(rows)["SNAPS"]
     assert "0.5 to 1 a wave from kA = 0.02 on" in line
-    assert "At kA = 0.03 median 4 kN, 95 % below 4.5 kN, largest 6 kN. Snap speed up to 3 m/s." in line
+    peaks = "At kA = 0.03 median 4 kN, 95 % below 4.5 kN, largest 6 kN, within 0.4 s of becoming taut."
+    assert f"{peaks} Snap speed up to 3 m/s, at kA = 0.03." in line
     assert answer(rows[:1])["SNAPS"].startswith("none")
     assert "SNAPS" not in answer([row(0.01), row(0.02)])
 
