@@ -11,7 +11,7 @@ from collections import namedtuple
 Stage = namedtuple("Stage", "t in_motion cq cv")
 # Arrays of one Newton solve, n rows each. X: places (m); F: velocity and acceleration of the water; Q: nodal
 # quantities; E: eliminated boxes; D: Newton's update of the unknowns; C_tilde: known part of the conserved variables;
-# sea (n + 1, 9): what a sea of several waves was at the nodes (`engine.physics.sea`); in the last row at which time,
+# sea (n + 1, WIDTH): the sums of a sea of several waves (`engine.physics.sea_series`); in the last row of which time,
 # and 1.0 where there is anything
 Work = namedtuple("Work", "X F Q E D C_tilde sea")
 # An accepted state: unknowns Y (n, unknowns), those of the step before, conserved C (n, conserved), their rates K

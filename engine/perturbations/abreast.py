@@ -13,7 +13,7 @@ from ..compiled import kernel
 from ..physics import sea_series
 from ..planar import columns as col
 from ..planar.extras import node_width
-from ..record import BEGIN, STEP
+from ..record import BEGIN, KIND, STEP
 from ..simd.elementary import copy_into
 from ..simd.vector import COUNT, as_lanes, lane_zeros
 from ..time.steps import known_part, plan_stage
@@ -26,7 +26,7 @@ Abreast = namedtuple("Abreast", "C K C_tilde C_new Ks known")
 
 @kernel
 def _carry_abreast(p, tables, count, trail, in_lanes):
-    """Carry what an Abreast holds through the first `count` steps of a Trail, none of them backward Euler."""
+    """Carry what an Abreast holds through the first `count` steps of a Trail."""
     s, n = trail.Y.shape[1], trail.Y.shape[2]
     work = Work(
         np.zeros((n, 2)),
@@ -41,13 +41,13 @@ def _carry_abreast(p, tables, count, trail, in_lanes):
     a, w = np.empty(s), np.empty(3)
     perturbed = as_lanes(in_lanes)
     for step in range(count):
-        t, dt = trail.T[step, BEGIN], trail.T[step, STEP]
+        t, dt, euler = trail.T[step, BEGIN], trail.T[step, STEP], trail.T[step, KIND] > 0.0
         copy_into(perturbed.Ks[0], perturbed.K)
-        for i in range(1, s):
-            rate, delay = plan_stage(p, tables, i, False, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
+        for i in range(s - 1 if euler else 1, s):
+            rate, delay = plan_stage(p, tables, i, euler, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
             base = Base(t + delay, rate, moving_water, trail.Y[step, i], trail.K[step, i])
             linearise(p, tables, base, work, water)
-            known_part(a, i, perturbed.C, perturbed.Ks, perturbed.C_tilde)
+            known_part(a, 0 if euler else i, perturbed.C, perturbed.Ks, perturbed.C_tilde)
             stage = perturbed.C_tilde, perturbed.C_new, perturbed.Ks[i]
             tangent_stage(p, tables, base, *stage, work, water, perturbed.known)
         copy_into(perturbed.C, perturbed.C_new)

@@ -31,7 +31,7 @@ from ..compiled import kernel
 from ..dimensions import eliminate, node_quantities, shape
 from ..physics.submergence import change_of_cap
 from ..physics.water import water as flow
-from ..physics.water import water_slopes
+from ..physics.water import water_and_slopes
 from ..planar import columns as col
 from ..planar.elimination import inertia_of_box
 from ..planar.extras import beside_drag, known_end, known_force, push_by_place
@@ -51,7 +51,10 @@ def linearise(p, tables, base, work, water):
     """The matrix of a stage (Base), eliminated, into work.E (n, 33), with the Q, X, F it belongs to, and Water."""
     Y, K, Q, C_tilde, rate = base.Y, base.K, work.Q, work.C_tilde, base.rate
     shape(p, tables, Y, Q, work.X)
-    flow(p, tables, base.t, 1.0, work.X, work.F, work.sea)
+    if base.moving_water == 0.0:
+        flow(p, tables, base.t, 1.0, work.X, work.F, work.sea)
+    else:
+        water_and_slopes(p, tables, base.t, work.X, work.F, water.J, work.sea)
     over = 1.0 / rate
     for k in range(Y.shape[0]):
         for m in range(2):
@@ -79,7 +82,6 @@ def _add_water(p, tables, base, work, water):
         top[col.TOP_DXX + m] = 0.0
     if base.moving_water == 0.0:
         return
-    water_slopes(p, tables, base.t, work.X, work.F, water.J, work.sea)
     for k in range(Q.shape[0]):
         c, s = Q[k, col.COS], Q[k, col.SIN]
         xx, xz, zx, zz = quaternion(water.drag[k], 0)

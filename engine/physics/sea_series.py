@@ -214,20 +214,21 @@ def due(p, t, X, sea):
 
 
 @kernel
-def sea_in_plane(p, tables, t, X, F, sea):
+def sea_in_plane(p, tables, t, X, F, J, sea):
     """Water velocity and local acceleration at the nodes in a plane, added into F.
 
-    X (n, 2) x, z (m); F (n, 4), velocity (m/s), then its local rate (m/s2); sea (n + 1, WIDTH): of Work.
+    X (n, 2) x, z (m); F (n, 4), velocity (m/s), then its local rate (m/s2); J (n, 8): filled with dF/dx (4) and dF/dz
+    (4), or None; sea (n + 1, WIDTH): of Work.
     """
     put_heights(p, t, X, sea)
     if due(p, t, X, sea):
         take_series(tables, p.sea_at, p.sea_n, p.above == WHEELER, p.depth, p.ramp, t, X, sea)
         put_heights(p, t, X, sea)
-    _add_series(p, t, X, F, sea)
+    _add_series(p, t, X, F, J, sea)
 
 
 @kernel
-def sea_in_lanes(p, tables, t, X, F, sea):
+def sea_in_lanes(p, tables, t, X, F, J, sea):
     """As `sea_in_plane` for several runs: each lane that needs them takes its own sums."""
     put_heights(p, t, X, sea)
     needed, taken = due(p, t, X, sea), False
@@ -239,7 +240,7 @@ def sea_in_lanes(p, tables, t, X, F, sea):
             take_series(own, p.sea_at, p.sea_n, p.above == WHEELER, depth, ramp, lane_of(t, b), places, into)
     if taken:
         put_heights(p, t, X, sea)
-    _add_series(p, t, X, F, sea)
+    _add_series(p, t, X, F, J, sea)
 
 
 @kernel
@@ -250,46 +251,34 @@ def wet_share(p, z):
 
 
 @kernel
-def _add_series(p, t, X, F, sea):
-    """The field of full-grown waves, under their ramp, into F."""
+def _add_series(p, t, X, F, J, sea):
+    """The field of full-grown waves, under their ramp, into F; its slopes into J."""
     n = X.shape[0]
     gain, gain_rate = smooth_start(t, p.ramp)
     dt = t - sea[n, 0]
     for j in range(n):
         dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
-        upper, upper_rate = series(sea[j], UPPER, dt, (dz, dx))[:2]
-        lower, lower_rate = series(sea[j], LOWER, dt, (-dz, dx))[:2]
+        upper, upper_rate, upper_slope, upper_rising = series(sea[j], UPPER, dt, (dz, dx))
+        lower, lower_rate, lower_slope, lower_rising = series(sea[j], LOWER, dt, (-dz, dx))
         wet = wet_share(p, X[j, 1])
         U, W = wet * (upper[0] + lower[0]), wet * (upper[1] - lower[1])
         F[j, 0] += gain * U
         F[j, 1] += gain * W
         F[j, 2] += gain * (wet * (upper_rate[0] + lower_rate[0])) + gain_rate * U
         F[j, 3] += gain * (wet * (upper_rate[1] - lower_rate[1])) + gain_rate * W
-
-
-@kernel
-def sea_slopes(p, t, X, J, sea):
-    """J (n, 8): dF/dx (4) and dF/dz (4) at X (n, 2), for which `sea_in_plane` has been called, by harmonic functions as
-    in `waves.wave_slopes`."""
-    n = X.shape[0]
-    gain, gain_rate = smooth_start(t, p.ramp)
-    dt = t - sea[n, 0]
-    for j in range(n):
-        dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
-        upper, upper_rate = series(sea[j], UPPER, dt, (dz, dx))[2:]
-        lower, lower_rate = series(sea[j], LOWER, dt, (-dz, dx))[2:]
-        wet = wet_share(p, X[j, 1])
-        full_x, full_z = -wet * (upper[1] + lower[1]), wet * (upper[0] - lower[0])
-        U_x, U_z = gain * full_x, gain * full_z
-        A_x = gain * (-wet * (upper_rate[1] + lower_rate[1])) + gain_rate * full_x
-        A_z = gain * (wet * (upper_rate[0] - lower_rate[0])) + gain_rate * full_z
-        by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
-        if p.above == WHEELER:
-            surface, _, slope, _ = series(sea[j], SURFACE, dt, (0.0, dx))
-            stretch = stretching(p.depth, gain * surface[0])
-            by_x = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * (gain * slope[1])
-            by_z = by_z * stretch
-        J[j, 0], J[j, 4] = U_x + by_x * U_z, by_z * U_z
-        J[j, 1], J[j, 5] = U_z - by_x * U_x, -by_z * U_x
-        J[j, 2], J[j, 6] = A_x + by_x * A_z, by_z * A_z
-        J[j, 3], J[j, 7] = A_z - by_x * A_x, -by_z * A_x
+        if J is not None:
+            # by harmonic functions, as in `waves.wave_slopes`
+            full_x, full_z = -wet * (upper_slope[1] + lower_slope[1]), wet * (upper_slope[0] - lower_slope[0])
+            U_x, U_z = gain * full_x, gain * full_z
+            A_x = gain * (-wet * (upper_rising[1] + lower_rising[1])) + gain_rate * full_x
+            A_z = gain * (wet * (upper_rising[0] - lower_rising[0])) + gain_rate * full_z
+            by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
+            if p.above == WHEELER:
+                surface, _, slope, _ = series(sea[j], SURFACE, dt, (0.0, dx))
+                stretch = stretching(p.depth, gain * surface[0])
+                by_x = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * (gain * slope[1])
+                by_z = by_z * stretch
+            J[j, 0], J[j, 4] = U_x + by_x * U_z, by_z * U_z
+            J[j, 1], J[j, 5] = U_z - by_x * U_x, -by_z * U_x
+            J[j, 2], J[j, 6] = A_x + by_x * A_z, by_z * A_z
+            J[j, 3], J[j, 7] = A_z - by_x * A_x, -by_z * A_x

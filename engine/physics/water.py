@@ -5,7 +5,7 @@ import numpy as np
 from ..compiled import by_kind, kernel
 from ..simd.elementary import copy_into
 from .currents import current_field, uniform_current
-from .sea_series import sea_in_lanes, sea_in_plane, sea_slopes
+from .sea_series import sea_in_lanes, sea_in_plane
 from .sea_sum import sea_field
 from .waves import wave_field, wave_field_in_space, wave_slopes
 
@@ -17,7 +17,7 @@ def _in_plane(p, tables, t, X, F, sea):
     if p.sea_n == 0:
         wave_field(p, tables, t, X, F)
     else:
-        sea_in_plane(p, tables, t, X, F, sea)
+        sea_in_plane(p, tables, t, X, F, None, sea)
 
 
 @kernel
@@ -33,7 +33,7 @@ def _in_lanes(p, tables, t, X, F, sea):
     if p.sea_n == 0:
         wave_field(p, tables, t, X, F)
     else:
-        sea_in_lanes(p, tables, t, X, F, sea)
+        sea_in_lanes(p, tables, t, X, F, None, sea)
 
 
 @kernel
@@ -46,6 +46,13 @@ current = by_kind(current_field, current_field, uniform_current)
 
 
 @kernel
+def _at_rest(F):
+    for k in range(F.shape[0]):
+        for i in range(F.shape[1]):
+            F[k, i] = 0.0
+
+
+@kernel
 def water(p, tables, t, in_motion, X, F, sea):
     """Velocity and acceleration of the water at places X (n, 2) or (n, 3), into F (n, 4) or (n, 6).
 
@@ -53,9 +60,7 @@ def water(p, tables, t, in_motion, X, F, sea):
     """
     if p.wet == 0:
         return
-    for k in range(F.shape[0]):
-        for i in range(F.shape[1]):
-            F[k, i] = 0.0
+    _at_rest(F)
     if p.waves and in_motion > 0.0:
         waves(p, tables, t, X, F, sea)
     if p.current:
@@ -67,11 +72,15 @@ def _slopes_in_plane(p, tables, t, X, F, J, sea):
     """By differences: of a current that is not the same everywhere, and of regular waves over one."""
     varied = p.current and p.cur_nx * p.cur_nz > 1
     if p.sea_n > 0:
-        sea_slopes(p, t, X, J, sea)
+        _at_rest(F)
+        sea_in_plane(p, tables, t, X, F, J, sea)
+        if p.current:
+            current_field(p, tables, t, X, F)
+    else:
+        water(p, tables, t, 1.0, X, F, sea)
         if not varied:
-            return
-    elif not varied:
-        wave_slopes(p, tables, t, X, F, J)
+            wave_slopes(p, tables, t, X, F, J)
+    if not varied:
         return
     n = X.shape[0]
     X_moved, there, moved = np.empty((n, 2)), np.zeros((n, 4)), np.empty((n, 4))
@@ -83,8 +92,7 @@ def _slopes_in_plane(p, tables, t, X, F, J, sea):
         copy_into(X_moved, X)
         for k in range(n):
             X_moved[k, axis] += NUDGE
-            for m in range(4):
-                moved[k, m] = 0.0
+        _at_rest(moved)
         if p.sea_n == 0 and p.waves:
             wave_field(p, tables, t, X_moved, moved)
         current_field(p, tables, t, X_moved, moved)
@@ -95,18 +103,22 @@ def _slopes_in_plane(p, tables, t, X, F, J, sea):
 
 
 @kernel
-def _slopes_in_lanes(p, tables, t, X, F, J, sea):
-    if p.sea_n > 0:
-        sea_slopes(p, t, X, J, sea)
-    else:
-        wave_slopes(p, tables, t, X, F, J)
-
-
-@kernel
 def _slopes_of_regular(p, tables, t, X, F, J, sea):
+    water(p, tables, t, 1.0, X, F, sea)
     wave_slopes(p, tables, t, X, F, J)
 
 
-# J (n, 8): how the water F at the nodes of a line in a plane depends on their places X, dF/dx (4) and dF/dz (4);
-# F, and with it what Work.sea holds, are those of these places
-water_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_in_lanes, _slopes_of_regular)
+@kernel
+def _slopes_in_lanes(p, tables, t, X, F, J, sea):
+    if p.sea_n > 0:
+        _at_rest(F)
+        sea_in_lanes(p, tables, t, X, F, J, sea)
+        if p.current:
+            current(p, tables, t, X, F)
+    else:
+        _slopes_of_regular(p, tables, t, X, F, J, sea)
+
+
+# Water F (n, 4) as `water` gives it in motion, at the nodes of a line in a plane, and how it depends on their places X:
+# J (n, 8), dF/dx (4) and dF/dz (4)
+water_and_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_in_lanes, _slopes_of_regular)

@@ -26,8 +26,8 @@ from ..perturbations.abreast import carried_through
 from ..planar.columns import CX, CZ, EPS, PHI, VX, VZ
 from ..scene.models import Scene
 from ..simd.vector import COUNT
-from ..time.given_steps import march_over
-from ..time.status import OK
+from ..time.given_steps import BEFORE_RELEASE, march_over
+from ..time.status import OK, TURN_UNRESOLVED
 from ..time.time_loop import march
 from ..trajectory.columns import columns_of
 from ..trajectory.final_state import FinalState
@@ -40,7 +40,6 @@ GRADE = 2.0  # longest step, in lengths of the next one
 LEAST_SHARE = 0.3  # of the step before: a last step that is shorter shares its way with it
 NEWTON = 1e-10  # the map must be smooth to below the gaps of an orbit
 SPLITS = 8  # steps of a mesh that may be halved because Newton's method refuses them
-RELEASED = 0.9 * math.pi  # turn of an element: its stiffness grows without bound from there to the release of a loop
 ROOM = 256  # steps of a pass between two looks
 
 
@@ -56,16 +55,20 @@ def why_no_map(scene: Scene) -> str:
 
 
 def _graded(steps: np.ndarray) -> np.ndarray:
-    """Steps (l, 2) that grow shorter slowly. A pass that meets a snap goes from its longest step to its shortest at
+    """Steps (l, 3) that grow shorter slowly. A pass that meets a snap goes from its longest step to its shortest at
     once; an orbit nearby meets it a little earlier, within that longest step, and its multipliers scatter ten times
-    as much."""
+    as much. The steps of a release stay as they are, and so does the one before them, at whose end it begins."""
     graded, step = [], np.inf  # from the last step back
-    for begin, length in steps[::-1]:
+    for begin, length, kind in steps[::-1]:
+        if kind == col.RESTART:
+            graded.append((begin, length, kind))
+            step = np.inf
+            continue
         rest = length
         while rest > 0.0:
             step = rest if rest <= 1.3 * GRADE * step else GRADE * step
             rest = rest - step if rest > step else 0.0
-            graded.append((begin + rest, step))
+            graded.append((begin + rest, step, kind))
     return np.array(graded[::-1])
 
 
@@ -210,7 +213,7 @@ class PeriodMap:
         return image
 
     def _pass(self, z: np.ndarray, value: float, begin_s: float, mesh: int) -> np.ndarray:
-        """Begin and length (l, 2), in wave periods, of the steps that an adaptive pass takes to the strobe."""
+        """Begin and length, in wave periods, and kind (l, 3) of the steps that an adaptive pass takes to the strobe."""
         run, motion = self._begin(z, value)
         state, period_s, taken = run.state, run.scene.waves.period_s, []
         state["t"], state["dt"] = begin_s, FIRST_STEPS[mesh] * float(run.record["max_step"])
@@ -222,36 +225,39 @@ class PeriodMap:
             taken.append(self.trail.T[: int(state["trail"])].copy())
             if state["status"] != OK:
                 raise ArithmeticError(advice(state).partition(": ")[0])
-            if state["releases"]:
-                raise ArithmeticError("a loop is released")
-        T = np.concatenate(taken)[:, [col.BEGIN, col.STEP]] / period_s
+        T = np.concatenate(taken) / np.array([period_s, period_s, 1.0])
         T = T[T[:, 0] < 1.0 - 1e-9]
+        if T[-1, 2] == col.RESTART:
+            raise ArithmeticError("a loop is released at the strobe")
         T[-1, 1] = 1.0 - T[-1, 0]
-        if len(T) > 1 and T[-1, 1] < LEAST_SHARE * T[-2, 1]:
+        if len(T) > 1 and T[-1, 1] < LEAST_SHARE * T[-2, 1] and T[-2, 2] != col.RESTART:
             half = 0.5 * (1.0 - T[-2, 0])
-            T[-2:] = (T[-2, 0], half), (T[-2, 0] + half, half)
+            T[-2:, :2] = (T[-2, 0], half), (T[-2, 0] + half, half)
         return _graded(T)
 
     def _map(self, steps: np.ndarray) -> Callable:
-        """The map over steps (l, 2) in wave periods; one that Newton's method refuses is halved, for good."""
+        """The map over steps (l, 3) as `_pass` gives them; one that Newton's method refuses is halved, for good."""
 
         def image(z: np.ndarray, value: float) -> tuple[np.ndarray, Callable]:
             nonlocal steps
-            for _ in range(SPLITS):
+            for split in range(SPLITS):
                 run, motion = self._begin(z, value)
-                taken = steps * run.scene.waves.period_s
+                period_s = run.scene.waves.period_s
+                taken = steps * np.array([period_s, period_s, 1.0])
                 trail = self._trail(len(steps), value)
                 code, at = march_over(run.record, run.tables, run.state, taken, motion, run.output, trail)
-                if run.state["max_turn"] > RELEASED:
+                if code == TURN_UNRESOLVED:
+                    raise ArithmeticError("the release of a loop begins or ends")
+                if run.state["max_turn"] > BEFORE_RELEASE:
                     raise ArithmeticError("a loop is about to be released")
                 if code == OK:
                     break
-                begin, half = steps[at, 0], 0.5 * steps[at, 1]
-                halves = (begin, half), (begin + half, half)
+                if taken[at, 2] == col.RESTART or split == SPLITS - 1:
+                    run.state["status"], run.state["t"], run.state["dt"] = code, *taken[at, :2]
+                    raise ArithmeticError(advice(run.state).partition(": ")[0])
+                begin, half, kind = steps[at, 0], 0.5 * steps[at, 1], steps[at, 2]
+                halves = (begin, half, kind), (begin + half, half, kind)
                 steps = np.concatenate([steps[:at], halves, steps[at + 1 :]])
-            else:
-                run.state["status"], (run.state["t"], run.state["dt"]) = code, taken[at]
-                raise ArithmeticError(advice(run.state).partition(": ")[0])
 
             def derivative(V: np.ndarray) -> np.ndarray:
                 changes = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()

@@ -1,7 +1,7 @@
 """March over steps that are given: the map of a state over a span of time, smooth in the state and in the parameters.
 
 Steps that adapt themselves to a state make its image jump where their number changes. Taken over from one pass and kept
-they do not, and the map repeats to the last bit.
+they do not, and the map repeats to the last bit. A loop that the pass has released is released after the same step.
 """
 
 import math
@@ -10,21 +10,24 @@ import numpy as np
 
 from ..arrays import Step, Trial
 from ..compiled import kernel
-from ..dimensions import largest_turn, size_of, work_arrays
-from ..record import BEGIN, CONTROLLED, KIND, STEP
+from ..dimensions import largest_turn, release_loop, size_of, work_arrays
+from ..record import BEGIN, KIND, RELEASE_STEPS, RESTART, STEP
 from ..simd.elementary import copy_into
 from .status import OK, TURN_UNRESOLVED
 from .steps import runge_kutta_step
-from .time_loop import sample
+from .time_loop import hold_turn, sample
+
+BEFORE_RELEASE = 0.9 * math.pi  # turn of an element: from here on its stiffness grows without bound until its release
 
 
 @kernel
 def march_over(p, tables, state, steps, motion, output, trail):
-    """Take the steps (l, 2), begin and length (s), of a Runge-Kutta method from `motion` on, which is changed in place.
+    """Take the steps (l, 3), begin (s), length (s) and kind, from `motion` on, which is changed in place.
 
-    There is no error control and no release of loops. The first l rows of the trail are filled, and the samples of the
-    Output with what lies within. Returns (code, steps taken): a code of Newton's method, or TURN_UNRESOLVED where the
-    turn in one element passes pi.
+    There is no error control. Steps of the kind RESTART, RELEASE_STEPS of them, release the loop of the largest turn.
+    The first l rows of the trail are filled, and the samples of the Output with what lies within. state.max_turn is the
+    largest turn that no release has ended. Returns (code, steps taken): a code of Newton's method, or TURN_UNRESOLVED
+    where a turn passes pi without a release, or is released below BEFORE_RELEASE.
     """
     Y, Y_before, C, K = motion
     unknowns, size = size_of(p)
@@ -32,14 +35,25 @@ def march_over(p, tables, state, steps, motion, output, trail):
     trial = Trial(np.empty((p.stages, p.nodes, unknowns)), np.empty((p.stages, p.nodes, size)), np.empty_like(C))
     dt_before = 0.0
     for at in range(steps.shape[0]):
-        step = Step(steps[at, 0], steps[at, 1], dt_before, False)
+        small = steps[at, KIND] == RESTART
+        if small and state.small_steps == 0:
+            turn, element = largest_turn(p, Y)
+            if turn < BEFORE_RELEASE:
+                return TURN_UNRESOLVED, at
+            state.turned, state.small_steps = release_loop(p, tables, Y, int(element)), RELEASE_STEPS
+            state.releases += 1
+            state.max_turn = dt_before = 0.0
+        if state.max_turn > math.pi:
+            return TURN_UNRESOLVED, at
+        hold_turn(state, work.Q)
+        step = Step(steps[at, BEGIN], steps[at, STEP], dt_before, small)
         code = runge_kutta_step(p, tables, step, motion, trial, work)[0]
         if code != OK:
             return code, at
         state.t = step.t
         begin, end = (C, K), (trial.C, trial.K[p.stages - 1])
-        sample(p, tables, state, step.dt, True, begin, end, trial.Y, output.samples, output.profiles)
-        trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, CONTROLLED
+        sample(p, tables, state, step.dt, not small, begin, end, trial.Y, output.samples, output.profiles)
+        trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, steps[at, KIND]
         for i in range(p.stages):
             copy_into(trail.Y[at, i], trial.Y[i])
             copy_into(trail.K[at, i], trial.K[i])
@@ -48,7 +62,9 @@ def march_over(p, tables, state, steps, motion, output, trail):
         copy_into(K, trial.K[p.stages - 1])
         copy_into(C, trial.C)
         dt_before = step.dt
-        state.max_turn = max(state.max_turn, largest_turn(p, Y)[0])
-        if state.max_turn > math.pi:
-            return TURN_UNRESOLVED, at
-    return OK, steps.shape[0]
+        if small:
+            state.small_steps -= 1
+        if state.small_steps == 0:
+            state.turned = 0
+            state.max_turn = max(state.max_turn, largest_turn(p, Y)[0])
+    return TURN_UNRESOLVED if state.max_turn > math.pi else OK, steps.shape[0]

@@ -99,7 +99,7 @@ def waves_at(scene, t, X, background=0.0):
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), background)
     if p["sea_n"] and X.shape[1] == 2:
-        sea_series.sea_in_plane(p, tables, t, X, F, np.zeros((len(X) + 1, sea_series.WIDTH)))
+        sea_series.sea_in_plane(p, tables, t, X, F, None, np.zeros((len(X) + 1, sea_series.WIDTH)))
     elif p["sea_n"]:
         sea_sum.sea_field(p, tables, t, X, F, np.zeros((len(X) + 1, sea_sum.WIDTH)))
     else:

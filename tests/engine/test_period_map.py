@@ -17,6 +17,12 @@ def scene_at(value, **changes):
     return load_scene("tethered_buoy", {**SMALL, "waves.steepness": value, **changes})
 
 
+def of_run(cable, z, periods):
+    """Where a run from z is after so many periods."""
+    scene = cable.scene_of(0.136)
+    return cable.packed(simulate(scene, periods=periods, start=cable.state_of(z, 0.136)).final_state)
+
+
 @pytest.fixture(scope="module")
 def settled():
     return simulate(scene_at(AT), periods=30.3)
@@ -102,13 +108,25 @@ def test_a_state_without_image_is_refused_in_words(cable):
         cable.step(wild, AT)
 
 
-def test_a_loop_that_is_released_and_another_grid_are_refused_in_words(cable):
+def test_a_map_goes_through_the_release_of_a_loop_and_ends_where_it_comes_and_goes(cable):
     violent = {"water.depth_m": 21.0, "tether.nodes": 21}
     begin = simulate(scene_at(0.136, **violent), periods=3).final_state
     there = PeriodMap(lambda value: scene_at(value, **violent), begin, 0.136)
-    z = there.first
-    with pytest.raises(ArithmeticError, match="a loop is released"):
-        for _ in range(60):
-            z = there.step(z, 0.136)[0]
+    z, released = there.first, 0
+    with pytest.raises(ArithmeticError, match="a loop is about to be released"):
+        for _ in range(100):
+            (image,) = there.frozen([z], 0.136)
+            after, derivative = image(z, 0.136)
+            if there.history([z], 0.136)["loop_releases"][-1] > 0:
+                released += 1
+                assert there.step(after, 0.136)[0] == pytest.approx(of_run(there, z, 2), abs=2e-2)
+                v = derivative(np.random.default_rng(released).normal(size=(len(z), 1)))
+                v = derivative(v / np.linalg.norm(v))
+                v /= np.linalg.norm(v)
+                ahead, behind = (image(z + h * v[:, 0], 0.136)[0] for h in (1e-6, -1e-6))
+                computed = derivative(v)[:, 0]
+                assert computed == pytest.approx((ahead - behind) / 2e-6, abs=1e-3 * np.abs(computed).max())
+            z = after
+    assert released > 5
     with pytest.raises(ValueError, match="one grid"):
         PeriodMap(lambda v: scene_at(v, **{"tether.nodes": 9 if v < 0.14 else 11}), cable.start, AT).step(z, 0.15)

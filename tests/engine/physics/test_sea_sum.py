@@ -9,7 +9,7 @@ import pytest
 
 from engine import load_scene, simulate
 from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, rows_of
-from engine.physics.sea_series import LEFT_OUT, ORDER, WIDTH, sea_in_plane, sea_slopes
+from engine.physics.sea_series import LEFT_OUT, ORDER, WIDTH, sea_in_plane
 from engine.run.simulation import simulate_batch
 from tests.engine.kernels import parameters_of, waves_at
 
@@ -85,9 +85,9 @@ def errors_of_series(seed, by_time, by_place):
     scene = sea(seed, **{"waves.above_still_water": "extrapolate", "waves.jonswap": jonswap(seed)})
     p, tables = parameters_of(scene)
     places, series = np.array([[0.0, 0.0], [1.0, DEPTH]]), np.zeros((3, WIDTH))
-    sea_in_plane(p, tables, 50.0, places, np.zeros((2, 4)), series)
+    sea_in_plane(p, tables, 50.0, places, np.zeros((2, 4)), None, series)
     t, moved, F = 50.0 + by_time * p["sea_span"], places - [0.0, by_place * p["sea_reach"]], np.zeros((2, 4))
-    sea_in_plane(p, tables, t, moved, F, series)
+    sea_in_plane(p, tables, t, moved, F, None, series)
     assert series[2, 0] == 50.0  # the sums were not taken anew
     stated = LEFT_OUT * p["newton_tolerance"] / p["per_speed"]
     return F[1] - plain_sum(scene, t, moved)[1].astype(float), stated, p["sea_span"]
@@ -106,14 +106,14 @@ def test_a_series_is_left_where_it_does_not_hold():
     scene = sea(0, **{"waves.jonswap": jonswap(0), "waves.above_still_water": "wheeler"})
     p, tables = parameters_of(scene)
     X, series = np.column_stack([np.zeros(5), np.linspace(0.0, DEPTH, 5)]), np.zeros((6, WIDTH))
-    sea_in_plane(p, tables, 3.0, X, np.zeros((5, 4)), series)
-    sea_in_plane(p, tables, 3.0 + 0.9 * p["sea_span"], X, np.zeros((5, 4)), series)
+    sea_in_plane(p, tables, 3.0, X, np.zeros((5, 4)), None, series)
+    sea_in_plane(p, tables, 3.0 + 0.9 * p["sea_span"], X, np.zeros((5, 4)), None, series)
     assert series[5, 0] == 3.0
-    sea_in_plane(p, tables, 3.0, X + np.array([0.99 * p["sea_reach"], 0.0]), np.zeros((5, 4)), series)
+    sea_in_plane(p, tables, 3.0, X + np.array([0.99 * p["sea_reach"], 0.0]), np.zeros((5, 4)), None, series)
     assert series[5, 0] == 3.0
     moved, far, F = X.copy(), 3.0 + 0.5 * p["sea_span"], np.zeros((5, 4))
     moved[2, 0] += 0.6 * p["sea_reach"]
-    sea_in_plane(p, tables, far, moved, F, series)
+    sea_in_plane(p, tables, far, moved, F, None, series)
     assert series[5, 0] == far and np.array_equal(F, waves_at(scene, far, moved))
 
 
@@ -125,8 +125,7 @@ def test_the_slopes_are_those_of_the_field(above):
     X = np.column_stack([np.linspace(-2.0, 2.0, 9), np.linspace(1.0, DEPTH + 0.6, 9)])
     J, d = np.zeros((9, 8)), 1e-4
     series = np.zeros((10, WIDTH))
-    sea_in_plane(p, tables, 7.0, X, np.zeros((9, 4)), series)
-    sea_slopes(p, 7.0, X, J, series)
+    sea_in_plane(p, tables, 7.0, X, np.zeros((9, 4)), J, series)
     for axis in range(2):
         step = d * np.eye(2)[axis]
         slope = (waves_at(scene, 7.0, X + step) - waves_at(scene, 7.0, X - step)) / (2 * d)
