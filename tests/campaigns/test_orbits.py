@@ -148,3 +148,16 @@ def test_a_sweep_has_a_row_for_each_motion_with_multipliers_and_the_fold_at_whic
     assert "leading multiplier -0.7" in three["regime_reason"]
     (end,) = (row for row in rows_of(tmp_path, "ends/table.csv") if row["motion"] == three["motion"])
     assert end["kind"] == "fold" and float(end["steepness_end"]) == pytest.approx(0.12087, abs=2e-4)
+
+
+@pytest.mark.slow
+def test_a_large_motion_has_an_orbit_through_the_releases_of_its_loops(tmp_path):
+    """H = 21 m, kA = 0.142: one release in six periods. Steps over six periods shrink from 0.0226 of the motion to
+    0.0004 in 90 periods of a run from rest, so that |mu| = 0.764."""
+    from campaigns.buoy_sweep import main as sweep
+
+    words = ["--set", "water.depth_m=21", "--steepness", "0.142", "--no-accuracy", "--no-report"]
+    assert sweep([*words, "--starts", "rest", "--out", str(tmp_path)]) == 0
+    (row,) = rows_of(tmp_path)
+    assert row["regime"] == "period-6" and float(row["loop_releases"]) > 20
+    assert float(row["multiplier_modulus"]) == pytest.approx(0.764, abs=float(row["multiplier_error"]) + 0.02)
