@@ -4,7 +4,9 @@ A simulation can be carried on until its motion is told. So it is looked at afte
 periods (`next_look`), each time without its first third, the transient:
 
     period-N          the strobed orbit repeats (`detect_period`), and its perturbations grow by less than 0.1 bits per
-                      period, two errors included; where none are carried, the steps towards the orbit shrink
+                      period, two errors included; if they shrink by less than 4 bits in all, it has to repeat to a
+                      fifth of the tolerance, because a slow torus may repeat too; where none are carried, the steps
+                      towards the orbit shrink
     chaotic           lambda > 3.5 errors; in the later half > 2 of its errors; and in all a growth of 10 bits, because
                       on a torus, too, perturbations grow, as the logarithm of time
     quasi-periodic    |lambda| + 2 errors < 0.06 bits per period; a lambda above 0 by 2 errors leaves 4 bits in all;
@@ -188,7 +190,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
         evidence.append(Evidence("later half", later.value, LATER * later.error, rising, sentence, later.error))
     if estimate.period is not None:
         shrinks, without_growth = evidence[1].passed is not False, not np.isfinite(growth[:end]).any()
-        evidence.append(_confirmation(estimate, full, later))
+        evidence.append(_confirmation(estimate, full, later, len(known)))
         if (evidence[-1].passed or without_growth) and (later.found or shrinks):
             reason = estimate.reason
             if later.found:
@@ -215,7 +217,7 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     if rising and positive and grown:
         return look("chaotic", f"perturbations grow by {rate}, and so they do in the later half")
     if repeats:
-        return look("undecided", f"perturbations grow by {rate}, which does not exclude that they grow")
+        return look("undecided", f"perturbations grow by {rate}: they may grow, or this may be a slow torus")
     bound = abs(exponent) + 2.0 * full.error
     about_zero = bound < ABOUT_ZERO and (bits < SHEAR or exponent < LATER * full.error)
     sentence = f"|exponent| and two errors, bits per period; if it is positive, less than {SHEAR:g} bits in all"
@@ -236,19 +238,21 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     return look("undecided", f"no period; {rate}; not met: {', '.join(lacking)}")
 
 
-def _confirmation(estimate: PeriodEstimate, full: Exponent, later: Exponent) -> Evidence:
+def _confirmation(estimate: PeriodEstimate, full: Exponent, later: Exponent, periods: int) -> Evidence:
     """The test that a state which repeats should pass, because the rest of the system need not repeat with it.
 
-    full, later: exponents of the part and of its later half. Without them the state has to repeat more closely than
-    within the tolerance: a buoy misses its period by more than a fifth of it where its rope is chaotic.
+    full, later: exponents of the part, of so many periods, and of its later half. Without them, and where perturbations
+    hardly shrink, the state has to repeat more closely than within the tolerance: a buoy misses its period by more than
+    a fifth of it where its rope is chaotic, and on a torus beside a resonance its small steps add up to more.
     """
+    bound = CLOSELY * estimate.tolerance
+    missed = max(estimate.residual[estimate.period - 1], estimate.projected[estimate.period - 1])
     if later.found:
         largest = min(full.value + LATER * full.error, later.value + LATER * later.error)
         rising = later.value > LATER * later.error
         sentence = "bits per period by which perturbations grow at most, two errors included"
-        return Evidence(NO_GROWTH, largest, SEEN, largest < SEEN and not rising, sentence)
-    bound = CLOSELY * estimate.tolerance
-    missed = max(estimate.residual[estimate.period - 1], estimate.projected[estimate.period - 1])
+        settled = missed <= bound or full.value * periods < -SHEAR
+        return Evidence(NO_GROWTH, largest, SEEN, largest < SEEN and not rising and settled, sentence)
     sentence = "share of the scale by which the period is missed, drift to come included, where no perturbations tell"
     return Evidence(CLOSE, missed, bound, missed <= bound, sentence)
 

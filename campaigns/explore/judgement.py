@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from analysis import Exponent, Verdict, next_look
 from analysis.approaches import NEARER
-from analysis.looks import CLOSE
+from analysis.looks import NO_GROWTH, SHEAR
 from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_under
 from campaigns.explore.rows import sound_part
 from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, tangent_of
@@ -105,11 +105,16 @@ def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> 
         note = orbit.words()
     except (ArithmeticError, ValueError) as why:
         orbit, note = None, f"no multipliers: {why}"
-    alone = any(test.name == CLOSE for test in verdict.evidence)  # the strobed state, without perturbations
-    if alone and orbit is None:
+    if orbit is None and not _confirmed(verdict):
         reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
         verdict = replace(verdict, regime="undecided", reason=reason)
     return replace(judgement, verdict=verdict, orbit=orbit, note=note)
+
+
+def _confirmed(verdict: Verdict) -> bool:
+    """Whether perturbations confirm a period that no orbit does: those of a slow torus do not grow either."""
+    bits = [verdict.points * test.value for test in verdict.evidence if test.name == NO_GROWTH]
+    return any(value < -SHEAR for value in bits)
 
 
 def judged_by_orbit(trajectory: Trajectory, verdict: Verdict, orbits: Store) -> tuple[Verdict, OrbitUnder | None]:

@@ -64,6 +64,9 @@ def test_a_torus_beside_a_resonance_does_not_repeat_closely(offset):
     verdict = motion_regime(section[:136], scale=2.0, tolerance=0.01)
     assert (verdict.evidence[-1].name, verdict.evidence[-1].passed) == (CLOSE, False)
     assert motion_regime(section, np.zeros(1000), scale=2.0, tolerance=0.01).period is None
+    turns = np.arange(586)
+    slowing = circle(turns / 6.0 + 0.01 * np.sin(2.0 * np.pi * turns / 2000.0))  # its steps shrink for 500 turns
+    assert motion_regime(slowing, np.full(585, -1e-3), scale=2.0, tolerance=0.01).period is None
 
 
 def going_on(value):
