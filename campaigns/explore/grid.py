@@ -103,6 +103,9 @@ def varied(
         faults.append(f"{option} {key}: holds a {kind}; allowed: a key that holds a number")
         return None
     if kind == "whole number":
+        broken = [value for value in values if value != round(value)]
+        if broken and count is None:
+            faults.append(f"{option} {key}: given {broken[0]:g}; allowed: whole numbers")
         values, digits = map(round, values), 0
     values = tuple(dict.fromkeys(values))
     if not values:

@@ -77,9 +77,21 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
         return _stopped(f"python -m {module}: {write_failure(out, error)}", EXIT_FAILED)
 
 
+def condensed(faults: list[str]) -> list[str]:
+    """The faults; of those of one key that differ by their numbers only, the first, and how many more there are."""
+    alike: dict[tuple[str, str], list[str]] = {}
+    for fault in dict.fromkeys(faults):
+        key, _, reason = fault.partition(": ")
+        alike.setdefault((key, re.sub(r"\d[\d.e+-]*", "#", reason)), []).append(fault)
+    lines = []
+    for first, *others in alike.values():
+        lines.append(f"{first} (and {len(others)} more with other numbers)" if others else first)
+    return lines
+
+
 def listed(faults: list[str]) -> str:
     """One fault behind the name of the command, or several below it, each once."""
-    faults = list(dict.fromkeys(faults))
+    faults = condensed(faults)
     if len(faults) == 1:
         return f" {faults[0]}"
     return "\n  ".join([f" {len(faults)} faults", *faults])

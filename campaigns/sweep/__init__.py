@@ -1,6 +1,6 @@
 """Sweep of any number in a scene: one run a value, or one a pair of values of two keys; a table, a report.
 
-    python -m campaigns.sweep --vary buoy.mass_kg 200 1600 8
+    python -m campaigns.sweep --vary buoy.drag 0.1 0.8 8
     python -m campaigns.sweep --vary water.depth_m 21 23 5 --vary waves.steepness 0.02 0.14 7 --periods 80
     python -m campaigns.sweep --scene hanging_line --duration 20 --vary tether.nodes 21 81 4
 
@@ -53,7 +53,7 @@ class Options(motions.Starts):
     def read(self, out: Path, faults: list[str]) -> None:
         """The keys with their values in the words of --vary."""
         words = self.vary or []
-        allowed = "once or twice KEY LO HI COUNT, for instance buoy.mass_kg 200 1600 8"
+        allowed = "once or twice KEY LO HI COUNT, for instance buoy.drag 0.1 0.8 8"
         if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
             faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
             words = []

@@ -148,13 +148,12 @@ def _duration(scene: Scene, periods: float | None, duration_s: float | None) -> 
     if (periods is None) == (duration_s is None):
         raise ValueError("give exactly one of periods and duration_s")
     for name, length in (("periods", periods), ("duration_s", duration_s)):
-        if length is not None and (isinstance(length, bool) or not isinstance(length, Real)):
+        number = isinstance(length, Real) and not isinstance(length, bool)
+        if length is not None and not (number and 0 < length < math.inf):
             raise ValueError(f"{name}: given {length!r}; allowed: a number above 0")
     if periods is not None:
         if scene.waves is None:
             raise ValueError("periods needs a scene with waves; give duration_s")
         duration_s = periods * scene.waves.period_s
-    if not (math.isfinite(duration_s) and duration_s > 0):
-        raise ValueError(f"the run length must be positive and finite, given {duration_s!r} s")
     check_room(scene, duration_s)
     return float(duration_s)
