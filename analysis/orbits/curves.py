@@ -78,8 +78,8 @@ class Curve:
 
     points    tuple of CurvePoint, in order
     closed    whether its last point is the first again
-    ends      why it ends where it begins, and where it ends: "ends at" where the event does, as at a released loop,
-              "numerical failure" where only the computation does
+    ends      why it ends where it begins, and where it ends: "ends at" where the event does, as where a release of
+              loops begins, "numerical failure" where only the computation does
     special   tuple of CurvePoint, in order: points with a `kind`, those that were not found included
     """
 

@@ -10,8 +10,8 @@ massless tether, carried to their neighbours); --start-from takes the motion of 
 periodic motion, up to period 16, Newton's method finds the orbit on the map over one wave period, at a tolerance of
 0.001 or that of the scene where it is smaller. Each orbit is followed both ways, round folds, through the range of the
 key; the orbits that begin at its flips are followed too. A multiplier's error is its change over three sequences of
-steps; that of an event also its change on a finer grid of the line. Where the line releases a loop there is no such
-map, and a branch ends. Nothing is random.
+steps; that of an event also its change on a finer grid of the line. An orbit may release loops; where a release begins
+or ends, its branch ends. Nothing is random.
 """
 
 import re

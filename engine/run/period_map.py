@@ -79,7 +79,7 @@ class PeriodMap:
     start : state of a run; `first` (8 n,) is it at the next whole number of periods, in the scene of `value`.
     seen : (8 n, 4); seen.T @ z is the place of the buoy (m) and its velocity over the frequency of the waves (m).
     Raises ValueError for a scene that has no such map, and ArithmeticError, with the end of a sentence, where a state
-    has no image: a loop is released, a turn passes pi, or Newton's method fails.
+    has no image: the release of a loop begins or ends near it, or lasts over the strobe, or Newton's method fails.
     """
 
     meshes, abreast = len(FIRST_STEPS), COUNT  # `abreast`: perturbations that the derivative carries side by side

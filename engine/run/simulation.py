@@ -80,6 +80,8 @@ def simulate_each(
     """
     from . import batch
 
+    if not (progress is None or callable(progress)):
+        raise ValueError(f"progress: given {progress!r}; allowed: a function of one number")
     scenes = [_scene_of(scene) for scene in scenes]
     one_length = periods is None or isinstance(periods, Real | str)
     lengths = [periods] * len(scenes) if one_length else list(periods)

@@ -193,6 +193,8 @@ def test_mistakes_get_one_line(tmp_path):
         (lambda: run.spectrum(transient_periods=310), ValueError, "less than the 310 periods"),
         (lambda: run.snaps(static_N="much"), ValueError, "much"),
         (lambda: simulate("tethered_buoy", periods="3"), ValueError, "periods: given '3'"),
+        (lambda: simulate("tethered_buoy", periods=-3), ValueError, "periods: given -3; allowed: a number above 0"),
+        (lambda: simulate("tethered_buoy", periods=3, progress="yes"), ValueError, "progress: given 'yes'"),
         (lambda: simulate(None, periods=3), TypeError, "scene: given None"),
         (lambda: simulate("tethered_bouy", periods=3), ValueError, "did you mean 'tethered_buoy'"),
     ):
