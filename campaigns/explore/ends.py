@@ -203,7 +203,7 @@ def confirm(motions: Motions) -> None:
         words.setdefault(motion, []).append(_confirmation(motion, change, ending.motion))
     for motion, sentences in words.items():
         (value,) = motions.name_of(motion.place).values()
-        motion.branch.confirmed = f"{' and '.join(sentences)}, at {value:.4g}"
+        motion.branch.confirmed = f"{' and '.join(sentences)}, checked at {value:.4g}"
 
 
 def _confirmation(motion: Motion, change: str, result: Motion | None) -> str:

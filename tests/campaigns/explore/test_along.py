@@ -101,8 +101,8 @@ def test_a_branch_is_confirmed_where_its_tension_is_largest(swept, monkeypatch, 
     monkeypatch.setattr(ends, "finer", lambda scene, **change: Scene(scene.p + shift))
     ends.confirm(swept)
     confirmed = {branch[0].branch.letter: branch[0].branch.confirmed for branch in swept.branches()}
-    assert confirmed["A"].startswith(words) and confirmed["A"].endswith(", at 0.3")
-    assert confirmed["B"] == "at a tenth of the tolerance and on 81 nodes, at 0.6"
+    assert confirmed["A"].startswith(words) and confirmed["A"].endswith(", checked at 0.3")
+    assert confirmed["B"] == "at a tenth of the tolerance and on 81 nodes, checked at 0.6"
 
 
 def test_what_is_found_again_is_one_motion(swept):
