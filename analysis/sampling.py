@@ -118,7 +118,10 @@ def record(fields: type, eq: bool = False) -> type:
     def __repr__(self) -> str:
         entries = []
         for name, entry in vars(self).items():
-            entries.append(f"{name}=array{entry.shape}" if isinstance(entry, np.ndarray) else f"{name}={entry!r}")
+            text = repr(entry)
+            if isinstance(entry, np.ndarray):
+                text = f"array{entry.shape}"
+            entries.append(f"{name}={text}")
         return f"{fields.__name__}({', '.join(entries)})"
 
     fields.__post_init__, fields.__repr__ = finish, fields.__dict__.get("__repr__", __repr__)

@@ -133,7 +133,8 @@ def snap_peaks(rows: Sequence[Row], keys: Mapping[str, str]) -> str:
     if hardest is not None:
         middle, high, most = (kilonewton(number_of(hardest, f"snap_peak_{name}_N")) for name in ("median", "95", "max"))
         words = f"At {place_of(hardest, keys)} median {middle}, 95 % below {high}, largest {most}"
-        if math.isfinite(rise_s := number_of(hardest, "snap_rise_s")):
+        rise_s = number_of(hardest, "snap_rise_s")
+        if math.isfinite(rise_s):
             words += f", within {number(rise_s, 2)} s of becoming taut"
         parts.append(f"{words}.")
         fastest = greatest(rows, "snap_speed_max_mps") or {}

@@ -60,8 +60,9 @@ def columns(key: Column) -> tuple[Column, ...]:
     digits = key.digits and 5
     with_name, without_name = f"{key.name}_with", f"{key.name}_without"
     error = (
-        "of the end: its largest change over three sequences of steps, or, if that is more, how far runs found it on "
-        "the other side; tolerance and grid move it by some 2e-4 more (`campaigns.orbits` computes that)"
+        "of the end: its largest change over three sequences of steps; where the end lies outside the two values "
+        "between which runs found it, at least the distance to them; without tolerance and grid, which "
+        "`campaigns.orbits` has"
     )
     return (
         MOTION,

@@ -85,7 +85,9 @@ def condensed(faults: list[str]) -> list[str]:
         alike.setdefault((key, re.sub(r"\d[\d.e+-]*", "#", reason)), []).append(fault)
     lines = []
     for first, *others in alike.values():
-        lines.append(f"{first} (and {len(others)} more with other numbers)" if others else first)
+        if others:
+            first += f" (and {len(others)} more with other numbers)"
+        lines.append(first)
     return lines
 
 
