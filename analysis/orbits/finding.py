@@ -13,6 +13,7 @@ from analysis.sampling import checked_count, checked_series
 
 TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
 ROUGH, KEPT = 1e-4, 0.05  # tolerance before steps are chosen again; share of a gap that a derivative nearby may leave
+SHARE_LEFT = 0.03  # of the gaps that another mesh makes of an orbit, where it is found again for its error only
 MOVED = 1e-3  # from a guess, beyond which its steps do not suit an orbit
 REPEATS = 1e-6  # points this close, relative, are one: the period is a divisor of the one asked for
 SETTLED = 1e-3  # error of a multiplier, relative
@@ -109,13 +110,15 @@ def find_orbit(
     count: int = 6,
     tolerance: float = TOLERANCE,
     iterations: int = 20,
+    halvings: int = 6,
 ) -> Orbit:
     """The periodic orbit near a start: Newton's method on all its points at once, with its multipliers.
 
     start        (n,) a state, whose images are the first guess, or (period, n): a guess of every point
     count        multipliers wanted, the largest
     tolerance    of the gaps, relative to the largest coordinate of the start or 1
-    iterations   of Newton's method; a step that does not shorten the gaps is halved up to six times
+    iterations   of Newton's method
+    halvings     of a step that does not shorten the gaps
     Returns an Orbit: `period` is the least one, a divisor of the one asked for. Where none was found, `reason` says
     why, and the points are those of the start. Stable and unstable orbits are found alike; no search is complete.
     Raises ValueError for a start that is not finite or of another shape.
@@ -125,10 +128,10 @@ def find_orbit(
         points = _images(system, guess, parameter, period) if guess.ndim == 1 else guess
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
-        solved = solved_near(system, points, parameter, Newton(tolerance, iterations))
+        solved = solved_near(system, points, parameter, Newton(tolerance, iterations, halvings))
         if (least := _least_period(system, solved.points)) == period:
             return described(solved, count)[0]
-        settings = {"count": count, "tolerance": tolerance, "iterations": iterations}
+        settings = {"count": count, "tolerance": tolerance, "iterations": iterations, "halvings": halvings}
         return find_orbit(system, solved.points[:least], parameter, least, **settings)
     except ArithmeticError as why:
         return not_found(np.atleast_2d(guess), parameter, why)
@@ -136,11 +139,14 @@ def find_orbit(
 
 def scatter_of(system: OrbitMap, orbit: Orbit) -> Scatter:
     """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
-    points, rivals = np.zeros_like(orbit.points), []
+    points, rivals, directions = np.zeros_like(orbit.points), [], real_span(orbit.vectors)
+    size = max(1.0, np.abs(orbit.points).max())
     try:
         for mesh in range(1, system.meshes):
-            place = orbit.points, orbit.parameter
-            solved = solved_near(system, *place, Newton(), None, real_span(orbit.vectors), mesh=mesh)
+            maps = system.near(orbit.points, orbit.parameter, mesh)
+            shots = shoot(maps, orbit.points, orbit.parameter)
+            newton = Newton(SHARE_LEFT * shots.residual / size)
+            solved = corrected(maps, orbit.points, orbit.parameter, newton, None, directions, shots=shots)
             rivals.append(described(solved, len(orbit.multipliers))[0])
             points = np.maximum(points, np.abs(rivals[-1].points - orbit.points))
     except ArithmeticError:
@@ -189,7 +195,7 @@ def corrected(
     if directions is None:
         directions = np.empty((n, 0))
     # of the guess: far away any gap is small beside the points
-    enough = newton.tolerance * max(1.0, np.abs(points).max())
+    enough = max(newton.tolerance, maps[0].tolerance) * max(1.0, np.abs(points).max())
     if shots is None:
         shots = shoot(maps, points, parameter)
     taken = 0

@@ -49,6 +49,7 @@ class Space:
         if not new.shape[1]:
             return False
         new = np.hstack([new, self._images_beside(new)])
+        new = np.hstack([new, self._random(self._room_beside(new))])
         for _ in range(2):
             new = np.linalg.qr(new - basis @ (basis.T @ new))[0]
         for i, linear in enumerate([*self.linearised, None]):
@@ -58,11 +59,19 @@ class Space:
 
     def _images_beside(self, new: np.ndarray) -> np.ndarray:
         """Directions (n, k) of the images of Q beside Q and `new`, the longest: as many as are carried at no cost."""
-        room = min(-new.shape[1] % self.abreast, len(new) - new.shape[1] - self.ways[0].shape[1])
         known = np.hstack([self.ways[0], new])
         beside = self.ways[-1] - known @ (known.T @ self.ways[-1])
         axes, sizes, _ = np.linalg.svd(beside, full_matrices=False)
-        return axes[:, sizes > NEW_DIRECTION][:, :room]
+        return axes[:, sizes > NEW_DIRECTION][:, : self._room_beside(new)]
+
+    def _random(self, count: int) -> np.ndarray:
+        """Directions (n, count) of no preference, about of length 1; others where Q has grown."""
+        n, known = self.ways[0].shape
+        return np.random.default_rng([SEED, known]).normal(size=(n, count)) / np.sqrt(n)
+
+    def _room_beside(self, new: np.ndarray) -> int:
+        """How many directions are carried at no cost beside new ones."""
+        return min(-new.shape[1] % self.abreast, len(new) - new.shape[1] - self.ways[0].shape[1])
 
     def solve(
         self,
@@ -113,7 +122,7 @@ class Space:
         M y - mu y, with rounding, times the condition of mu; no more than |mu|, for those that may as well be 0.
         """
         n = len(self.ways[0])
-        self.grow(np.random.default_rng(SEED).normal(size=(n, FRESH + max(0, count - self.ways[0].shape[1]))))
+        self.grow(self._random(FRESH + max(0, count - self.ways[0].shape[1])))
         for _ in range(MOST_PASSES):
             basis, image = self.ways[0], self.ways[-1]
             small = basis.T @ image

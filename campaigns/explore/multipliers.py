@@ -2,7 +2,7 @@
 multipliers, with their errors.
 
 A run near a stable orbit shows the orbit, not how fast perturbations die out along each direction, and not that the
-orbit is one. Newton's method on the map over a wave period (`engine.run.period_map`) finds it to 1e-9 from the last
+orbit is one. Newton's method on the map over a wave period (`engine.run.period_map`) finds it to 1e-6 from the last
 state.
 """
 
@@ -33,7 +33,8 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipli
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
-ITERATIONS = 6  # of Newton's method: from a run that comes nearer to an orbit three are enough
+GAPS = 1e-6  # of orbits: other steps move their points by 1000 times as much
+ITERATIONS, HALVINGS = 6, 2  # of Newton's method: from a run that comes nearer to an orbit three are enough
 LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
     Column(
@@ -59,7 +60,7 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
 
     cable = PeriodMap(scene_of, state, value)
     settings = {"parameter_size": size, "meshes": cable.meshes, "abreast": cable.abreast, "seen": cable.seen}
-    return cable, OrbitMap(cable.step, frozen=cable.frozen, **settings)
+    return cable, OrbitMap(cable.step, frozen=cable.frozen, tolerance=GAPS, **settings)
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,7 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
         cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
-        orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations)
+        orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations, halvings=HALVINGS)
         if not orbit.found:
             return {"reason": orbit.reason}
         history = cable.history(orbit.points, 0.0)

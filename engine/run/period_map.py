@@ -93,14 +93,14 @@ class PeriodMap:
         self.nodes = scene_of(value).tether.nodes
         self.scale = self._scale(value)
         self.seen = self._seen(value)
-        self.trail = self._trail(ROOM, value)
+        self.trail = self.trail_of(ROOM, value)
         self.first = self.at_strobe(start, value)
 
     def at_strobe(self, state: FinalState, value: float) -> np.ndarray:
         """z (8 n,) of the state of a run at the next whole number of periods, in the scene of `value`."""
         z = self.packed(state)
         period_s = self.scene_of(value).waves.period_s
-        return self._map(self._pass(z, value, float(state.state()["t"]) % period_s, 0))(z, value)[0]
+        return OverSteps(self, self._pass(z, value, float(state.state()["t"]) % period_s, 0))(z, value)[0]
 
     def packed(self, state: FinalState) -> np.ndarray:
         """z (8 n,) of a state where it is, at a strobe or not."""
@@ -116,9 +116,10 @@ class PeriodMap:
 
     def state_of(self, z: np.ndarray, value: float) -> FinalState:
         """The state, at t = 0, for a run to go on from; its curvatures and shear forces are those of `start`."""
-        self.step(z, value)
+        (image,) = self.frozen([z], value)
+        image(z, value)
         run, (C, K) = self._run(value), self._unpacked(z)
-        Y, row = self._unknowns(C), run.output.samples[:1].copy()
+        Y, row = self._unknowns(C), image.samples[:1].copy()
         state = replace(self.start, scene=self.scene_of(value), Y=Y, Y_before=Y.copy(), C=C, K=K, samples=row)
         first_step = FIRST_STEPS[0] * float(run.record["max_step"])
         begin = {"t": 0.0, "window_end": 0.0, "corner": 0.0, "dt": first_step, "dt_before": 0.0, "small_steps": 0}
@@ -134,10 +135,10 @@ class PeriodMap:
             image(z, value)
             run = self._run(value)
             count = self.samples_of(run.scene)
-            part = run.output.samples[:count].copy()
+            part = image.samples[:count].copy()
             part[:, col.TIME] += number * run.scene.waves.period_s
             parts.append(part)
-            at_ends.append(run.output.samples[count, [col.TOP_LOW, col.TOP_HIGH]].copy())
+            at_ends.append(image.samples[count, [col.TOP_LOW, col.TOP_HIGH]])
         for part, (low, high) in zip(parts, [at_ends[-1], *at_ends[:-1]], strict=True):
             part[0, col.TOP_LOW] = min(part[0, col.TOP_LOW], low)
             part[0, col.TOP_HIGH] = max(part[0, col.TOP_HIGH], high)
@@ -177,7 +178,8 @@ class PeriodMap:
             shares[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
         return shares.reshape(8 * n, 4) * self.scale[:, None]
 
-    def _trail(self, rows: int, value: float) -> Trail:
+    def trail_of(self, rows: int, value: float) -> Trail:
+        """Room for the stages of so many steps."""
         s, n = int(self._run(value).record["stages"]), self.nodes
         return Trail(np.zeros((rows, 3)), np.zeros((rows, s, n, 6)), np.zeros((rows, s, n, 4)))
 
@@ -194,7 +196,7 @@ class PeriodMap:
         Y[:, VX : VZ + 1] = C[:, VX : VZ + 1]
         return Y
 
-    def _begin(self, z: np.ndarray, value: float) -> tuple[Idle, Motion]:
+    def begin(self, z: np.ndarray, value: float) -> tuple[Idle, Motion]:
         """The run of a value at a state, not the first of a run, for which C would be computed."""
         run = self._run(value)
         C, K = self._unpacked(z)
@@ -208,13 +210,13 @@ class PeriodMap:
         maps = [(np.linalg.norm(z - point), image) for key, point, image in self._maps if key == (value, mesh)]
         distance, image = min(maps, key=lambda pair: pair[0], default=(np.inf, None))
         if distance >= NEARBY:
-            image = self._map(self._pass(z, value, 0.0, mesh))
+            image = OverSteps(self, self._pass(z, value, 0.0, mesh))
             self._maps.append(((value, mesh), z, image))
         return image
 
     def _pass(self, z: np.ndarray, value: float, begin_s: float, mesh: int) -> np.ndarray:
         """Begin and length, in wave periods, and kind (l, 3) of the steps that an adaptive pass takes to the strobe."""
-        run, motion = self._begin(z, value)
+        run, motion = self.begin(z, value)
         state, period_s, taken = run.state, run.scene.waves.period_s, []
         state["t"], state["dt"] = begin_s, FIRST_STEPS[mesh] * float(run.record["max_step"])
         state["first"] = math.ceil(begin_s / float(run.record["output_step"]))
@@ -235,36 +237,50 @@ class PeriodMap:
             T[-2:, :2] = (T[-2, 0], half), (T[-2, 0] + half, half)
         return _graded(T)
 
-    def _map(self, steps: np.ndarray) -> Callable:
-        """The map over steps (l, 3) as `_pass` gives them; one that Newton's method refuses is halved, for good."""
 
-        def image(z: np.ndarray, value: float) -> tuple[np.ndarray, Callable]:
-            nonlocal steps
-            for split in range(SPLITS):
-                run, motion = self._begin(z, value)
-                period_s = run.scene.waves.period_s
-                taken = steps * np.array([period_s, period_s, 1.0])
-                trail = self._trail(len(steps), value)
-                code, at = march_over(run.record, run.tables, run.state, taken, motion, run.output, trail)
-                if code == TURN_UNRESOLVED:
-                    raise ArithmeticError("the release of a loop begins or ends")
-                if run.state["max_turn"] > BEFORE_RELEASE:
-                    raise ArithmeticError("a loop is about to be released")
-                if code == OK:
-                    break
-                if taken[at, 2] == col.RESTART or split == SPLITS - 1:
-                    run.state["status"], run.state["t"], run.state["dt"] = code, *taken[at, :2]
-                    raise ArithmeticError(advice(run.state).partition(": ")[0])
-                begin, half, kind = steps[at, 0], 0.5 * steps[at, 1], steps[at, 2]
-                halves = (begin, half, kind), (begin + half, half, kind)
-                steps = np.concatenate([steps[:at], halves, steps[at + 1 :]])
+class OverSteps:
+    """The map of a PeriodMap over steps (l, 3) as `_pass` gives them: (z, value) -> (image, derivative).
 
-            def derivative(V: np.ndarray) -> np.ndarray:
-                changes = (np.asarray(V).T * self.scale).reshape(-1, 2, self.nodes, 4).transpose(1, 0, 2, 3).copy()
-                changes[:, :, 0, 2:] = 0.0  # the anchor does not move
-                images = np.stack(carried_through(run.record, run.tables, trail, len(taken), *changes), axis=1)
-                return (images.reshape(len(images), -1) / self.scale).T
+    A step that Newton's method refuses is halved, for good. The last image is kept, with its samples (m, 13).
+    """
 
-            return np.concatenate([motion.C.ravel(), motion.K.ravel()]) / self.scale, derivative
+    def __init__(self, cable: PeriodMap, steps: np.ndarray) -> None:
+        self.cable, self.steps = cable, steps
+        self.last, self.result, self.samples = None, None, None
 
-        return image
+    def __call__(self, z: np.ndarray, value: float) -> tuple[np.ndarray, Callable]:
+        place = z.tobytes(), value
+        if place != self.last:
+            self.result = self._image(z, value)
+            self.last = place
+        return self.result
+
+    def _image(self, z: np.ndarray, value: float) -> tuple[np.ndarray, Callable]:
+        cable = self.cable
+        for split in range(SPLITS):
+            run, motion = cable.begin(z, value)
+            period_s = run.scene.waves.period_s
+            taken = self.steps * np.array([period_s, period_s, 1.0])
+            trail = cable.trail_of(len(taken), value)
+            code, at = march_over(run.record, run.tables, run.state, taken, motion, run.output, trail)
+            if code == TURN_UNRESOLVED:
+                raise ArithmeticError("the release of a loop begins or ends")
+            if run.state["max_turn"] > BEFORE_RELEASE:
+                raise ArithmeticError("a loop is about to be released")
+            if code == OK:
+                break
+            if taken[at, 2] == col.RESTART or split == SPLITS - 1:
+                run.state["status"], run.state["t"], run.state["dt"] = code, *taken[at, :2]
+                raise ArithmeticError(advice(run.state).partition(": ")[0])
+            begin, half, kind = self.steps[at, 0], 0.5 * self.steps[at, 1], self.steps[at, 2]
+            halves = (begin, half, kind), (begin + half, half, kind)
+            self.steps = np.concatenate([self.steps[:at], halves, self.steps[at + 1 :]])
+        self.samples = run.output.samples[: cable.samples_of(run.scene) + 1].copy()
+
+        def derivative(V: np.ndarray) -> np.ndarray:
+            changes = (np.asarray(V).T * cable.scale).reshape(-1, 2, cable.nodes, 4).transpose(1, 0, 2, 3).copy()
+            changes[:, :, 0, 2:] = 0.0  # the anchor does not move
+            images = np.stack(carried_through(run.record, run.tables, trail, len(taken), *changes), axis=1)
+            return (images.reshape(len(images), -1) / cable.scale).T
+
+        return np.concatenate([motion.C.ravel(), motion.K.ravel()]) / cable.scale, derivative
