@@ -23,7 +23,7 @@ from ..simd.elementary import keep
 from ..simd.select import some, where
 from ..simd.vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
 from ..time.steps import known_part, plan_stage, stage_rate
-from .ticks import row_of_stage
+from .ticks import PARTS, row_of_stage
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4), known (n, 3): of a perturbation, as in `tangent_stage`
@@ -38,18 +38,31 @@ TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; len
 
 
 @kernel
+def _vector_of(rows, at, k, number):
+    """Of the vectors that all lanes store of node k: those of the first part of its numbers come first."""
+    return rows[at[number % COUNT], PARTS * k + number // COUNT]
+
+
+@kernel
 def side_by_side(rows, at, Y, K):
     """The rows `at` (COUNT,) of the Trails (as_lanes), one of each lane, into Y (n, 6) and K (n, 4)."""
-    a, b, c, d = rows[at[0]], rows[at[1]], rows[at[2]], rows[at[3]]
-    e, f, g, h = rows[at[4]], rows[at[5]], rows[at[6]], rows[at[7]]
     for k in range(Y.shape[0]):
         y = Y[k]
         y[0], y[1], y[2], y[3], y[4], y[5], K[k, planar_col.VX], K[k, planar_col.VZ] = transposed(
-            (a[k], b[k], c[k], d[k], e[k], f[k], g[k], h[k])
+            (
+                _vector_of(rows, at, k, 0),
+                _vector_of(rows, at, k, 1),
+                _vector_of(rows, at, k, 2),
+                _vector_of(rows, at, k, 3),
+                _vector_of(rows, at, k, 4),
+                _vector_of(rows, at, k, 5),
+                _vector_of(rows, at, k, 6),
+                _vector_of(rows, at, k, 7),
+            )
         )
     for lane in range(COUNT):
         for k in range(Y.shape[0]):
-            expect(rows[at[lane]], k + Y.shape[0])  # of the next stage
+            expect(rows[at[lane]], PARTS * (k + Y.shape[0]))  # of the next stage
 
 
 @kernel

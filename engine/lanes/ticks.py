@@ -45,10 +45,11 @@ ROWS = 19
 # Ks (s, n, 4): conserved variables, rates of the state and the stages; history (3, n, 6): states for the first guess;
 # C_new, K_new (n, 4): of the stage that was solved
 Arrays = namedtuple("Arrays", "values tables numbers a w Y now before C Ks history C_new K_new")
-# Accepted steps of all lanes. T (COUNT, l, 3): as in `engine.arrays.Trail`; rows (COUNT l (s - 1), n, 8): Y and rates
-# of velocity of each node at a stage (`row_of_stage`), which fill one vector: perturbations ask neither for rates of q
-# nor for stage 0, the last one of the step before; block (n, 8, COUNT): work
+# Accepted steps of all lanes. T (COUNT, l, 3): as in `engine.arrays.Trail`; rows (COUNT l (s - 1), n PARTS, COUNT): Y
+# and rates of velocity of each node at a stage (`row_of_stage`), eight numbers: perturbations ask neither for rates of
+# q nor for stage 0, the last one of the step before; block (n, 8, COUNT): work
 Trails = namedtuple("Trails", "T rows block")
+PARTS = 8 // COUNT  # vectors that hold the eight numbers of a node
 
 
 @kernel
@@ -143,8 +144,9 @@ def record_stages(states, lanes, numbers, Y, K, T, rows, block):
         if numbers[SOLVED, b] != 0.0:
             into = rows[row_of_stage(T, rows, b, states[b].trail, lanes[b].stage)]
             for k in range(Y.shape[0]):
-                into[k] = block[k, b]
-                expect(into, k + Y.shape[0])  # of the next stage
+                for part in range(PARTS):
+                    into[PARTS * k + part] = block[k, COUNT * part + b]
+                expect(into, PARTS * (k + Y.shape[0]))  # of the next stage
 
 
 @kernel

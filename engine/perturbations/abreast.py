@@ -1,7 +1,7 @@
-"""Eight perturbations of one run, carried through its steps side by side, one in each lane of a vector.
+"""COUNT perturbations of one run, carried through its steps side by side, one in each lane of a vector.
 
 They share the run, and so the matrix of every stage, which is eliminated once in plain numbers. What is carried is of
-any length and stays so: the derivative of a map over these steps times eight vectors.
+any length and stays so: the derivative of a map over these steps times COUNT vectors.
 """
 
 from collections import namedtuple

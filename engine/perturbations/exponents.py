@@ -20,7 +20,7 @@ from ..trajectory.parts import TangentGrowth
 from .lateral import COEFFICIENTS, WIDTH, energy_weights, lateral_stage, normalise
 from .tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
 
-STEPS = 200  # of the trail before it is followed: 4 MB at 41 nodes, 21 MB of eight runs that share a batch
+STEPS = 200  # of the trail before it is followed: 4 MB at 41 nodes, 21 MB of eight runs in lanes
 SEED = 20  # of the first perturbations: any will do, they turn to the fastest growth by themselves
 
 

@@ -29,7 +29,7 @@ import numpy as np
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
 from ..scene.models import Scene
-from ..simd.access import eight_of, in_lane, lane_of, read_eight, total, write_eight
+from ..simd.access import in_lane, lane_of, read_vector, total, vector_at, write_vector
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, where
 from ..simd.vector import COUNT
@@ -104,7 +104,7 @@ def weights_of(k, omega, weights, at):
     for m in range(ORDER + 1):
         weight = by_k
         for n in range(ORDER + 1 - m):
-            write_eight(weights, at, weight)
+            write_vector(weights, at, weight)
             at += COUNT
             weight = weight * omega * (1.0 / (n + 1))
         by_k = by_k * k * (1.0 / (m + 1))
@@ -117,12 +117,12 @@ def put_sums(weights, parts, of_part, groups, row, first):
     parts: four vectors a group; of_part: the first of the two that are summed.
     """
     for term in range(TERMS):
-        re = im = 0.0 * read_eight(parts, 0)
+        re = im = 0.0 * read_vector(parts, 0)
         for group in range(groups):
-            weight = read_eight(weights, (group * TERMS + term) * COUNT)
+            weight = read_vector(weights, (group * TERMS + term) * COUNT)
             at = (4 * group + of_part) * COUNT
-            re += weight * read_eight(parts, at)
-            im += weight * read_eight(parts, at + COUNT)
+            re += weight * read_vector(parts, at)
+            im += weight * read_vector(parts, at + COUNT)
         row[first + 2 * term], row[first + 2 * term + 1] = total(re), total(im)
 
 
@@ -136,30 +136,30 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
     waves, running, parts = np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
     for group in range(groups):
         row, place = at + ROW * COUNT * group, 4 * COUNT * group
-        k, omega = eight_of(tables, row + COUNT * K), eight_of(tables, row + COUNT * OMEGA)
+        k, omega = vector_at(tables, row + COUNT * K), vector_at(tables, row + COUNT * OMEGA)
         weights_of(k, omega, weights, group * TERMS * COUNT)
-        write_eight(waves, place, k)
-        write_eight(waves, place + COUNT, eight_of(tables, row + COUNT * AMPLITUDE))
-        write_eight(waves, place + 2 * COUNT, eight_of(tables, row + COUNT * SPEED))
-        write_eight(waves, place + 3 * COUNT, phase_at(omega, eight_of(tables, row + COUNT * PHASE), t))
+        write_vector(waves, place, k)
+        write_vector(waves, place + COUNT, vector_at(tables, row + COUNT * AMPLITUDE))
+        write_vector(waves, place + 2 * COUNT, vector_at(tables, row + COUNT * SPEED))
+        write_vector(waves, place + 3 * COUNT, phase_at(omega, vector_at(tables, row + COUNT * PHASE), t))
     for j in range(n - 1, -1, -1):
         x, top = X[j, 0], j == n - 1
         dx = 0.0 if top else x - X[j + 1, 0]
         for group in range(groups):
             place = 4 * COUNT * group
-            k = read_eight(waves, place)
+            k = read_vector(waves, place)
             anew, squarings, share = division_of(waves[place + COUNT - 1], abs(dx), depth)
             if top or anew:
-                s, c = sincos(k * x + read_eight(waves, place + 3 * COUNT))
+                s, c = sincos(k * x + read_vector(waves, place + 3 * COUNT))
             else:
-                s, c = read_eight(running, place), read_eight(running, place + COUNT)
+                s, c = read_vector(running, place), read_vector(running, place + COUNT)
                 s, c = turned(s, c, (share * k) * dx, squarings)
-            write_eight(running, place, s)
-            write_eight(running, place + COUNT, c)
+            write_vector(running, place, s)
+            write_vector(running, place + COUNT, c)
             if wheeler:
-                amplitude = read_eight(waves, place + COUNT)
-                write_eight(parts, place, amplitude * c)
-                write_eight(parts, place + COUNT, amplitude * s)
+                amplitude = read_vector(waves, place + COUNT)
+                write_vector(parts, place, amplitude * c)
+                write_vector(parts, place + COUNT, amplitude * s)
         z = max(X[j, 1], 0.0)
         if wheeler:
             put_sums(weights, parts, 0, groups, sea[j], SURFACE)
@@ -167,21 +167,21 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
         dz = 0.0 if top else z - sea[j + 1, PLACE_Z]
         for group in range(groups):
             place = 4 * COUNT * group
-            k = read_eight(waves, place)
+            k = read_vector(waves, place)
             anew, squarings, share = division_of(waves[place + COUNT - 1], abs(dz), depth)
             if top or anew:
-                speed = read_eight(waves, place + 2 * COUNT)
+                speed = read_vector(waves, place + 2 * COUNT)
                 up, down = speed * exponential(k * (z - depth)), speed * exponential(-(k * (z + depth)))
             else:
-                up, down = read_eight(running, place + 2 * COUNT), read_eight(running, place + 3 * COUNT)
+                up, down = read_vector(running, place + 2 * COUNT), read_vector(running, place + 3 * COUNT)
                 up, down = raised(up, down, (share * k) * dz, squarings)
-            s, c = read_eight(running, place), read_eight(running, place + COUNT)
-            write_eight(running, place + 2 * COUNT, up)
-            write_eight(running, place + 3 * COUNT, down)
-            write_eight(parts, place, up * c)
-            write_eight(parts, place + COUNT, up * s)
-            write_eight(parts, place + 2 * COUNT, down * c)
-            write_eight(parts, place + 3 * COUNT, down * s)
+            s, c = read_vector(running, place), read_vector(running, place + COUNT)
+            write_vector(running, place + 2 * COUNT, up)
+            write_vector(running, place + 3 * COUNT, down)
+            write_vector(parts, place, up * c)
+            write_vector(parts, place + COUNT, up * s)
+            write_vector(parts, place + 2 * COUNT, down * c)
+            write_vector(parts, place + 3 * COUNT, down * s)
         put_sums(weights, parts, 0, groups, sea[j], UPPER)
         put_sums(weights, parts, 2, groups, sea[j], LOWER)
         sea[j, PLACE_X], sea[j, PLACE_Z] = x, z

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
-from ..simd.access import eight_of, power_of_two, read_eight, total, write_eight
+from ..simd.access import power_of_two, read_vector, total, vector_at, write_vector
 from ..simd.elementary import PIO2_A, PIO2_B, PIO2_C, TWO_OVER_PI, sincos, smooth_start
 from ..simd.select import larger, smaller
 from ..simd.vector import COUNT
@@ -69,13 +69,13 @@ def phase_at(omega, phase, t):
 def surface_sums(tables, at, groups, t, x, y):
     """The full-grown surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t,
     and the slopes of it by x, y."""
-    eta = eta_x = eta_y = eta_xx = eta_xy = eta_yy = rate = rate_x = rate_y = 0.0 * eight_of(tables, at)
+    eta = eta_x = eta_y = eta_xx = eta_xy = eta_yy = rate = rate_x = rate_y = 0.0 * vector_at(tables, at)
     for group in range(groups):
         row = at + ROW * COUNT * group
-        k, omega = eight_of(tables, row + COUNT * K), eight_of(tables, row + COUNT * OMEGA)
-        kx, ky = k * eight_of(tables, row + COUNT * COSINE), k * eight_of(tables, row + COUNT * SINE)
-        high = eight_of(tables, row + COUNT * AMPLITUDE)
-        s, c = sincos(kx * x + (ky * y + phase_at(omega, eight_of(tables, row + COUNT * PHASE), t)))
+        k, omega = vector_at(tables, row + COUNT * K), vector_at(tables, row + COUNT * OMEGA)
+        kx, ky = k * vector_at(tables, row + COUNT * COSINE), k * vector_at(tables, row + COUNT * SINE)
+        high = vector_at(tables, row + COUNT * AMPLITUDE)
+        s, c = sincos(kx * x + (ky * y + phase_at(omega, vector_at(tables, row + COUNT * PHASE), t)))
         up, along = high * c, high * s
         eta += up
         eta_x -= kx * along
@@ -132,10 +132,10 @@ def field_sums(tables, at, groups, depth, t, X, Z, sums):
     room = np.zeros(n * width * COUNT)
     for group in range(groups):
         row = at + ROW * COUNT * group
-        k, omega = eight_of(tables, row + COUNT * K), eight_of(tables, row + COUNT * OMEGA)
-        cosine, sine = eight_of(tables, row + COUNT * COSINE), eight_of(tables, row + COUNT * SINE)
-        speed = eight_of(tables, row + COUNT * SPEED)
-        begun = phase_at(omega, eight_of(tables, row + COUNT * PHASE), t)
+        k, omega = vector_at(tables, row + COUNT * K), vector_at(tables, row + COUNT * OMEGA)
+        cosine, sine = vector_at(tables, row + COUNT * COSINE), vector_at(tables, row + COUNT * SINE)
+        speed = vector_at(tables, row + COUNT * SPEED)
+        begun = phase_at(omega, vector_at(tables, row + COUNT * PHASE), t)
         shortest = tables[row + COUNT * K + COUNT - 1]
         anew, squarings, share = division_of(shortest, step, depth)
         k_step = share * k
@@ -160,7 +160,7 @@ def field_sums(tables, at, groups, depth, t, X, Z, sums):
             _add(room, place + 5 * COUNT, -omega, wc)
     for j in range(n):
         for m in range(width):
-            sums[j, m] = total(read_eight(room, (j * width + m) * COUNT))
+            sums[j, m] = total(read_vector(room, (j * width + m) * COUNT))
 
 
 @kernel
@@ -194,7 +194,7 @@ def raised(up, down, rise, squarings):
 
 @kernel
 def _add(room, place, weight, term):
-    write_eight(room, place, read_eight(room, place) + weight * term)
+    write_vector(room, place, read_vector(room, place) + weight * term)
 
 
 @kernel

@@ -7,7 +7,21 @@ from collections import namedtuple
 import numpy as np
 
 from ..lanes.follow import Followers, lane_work
-from ..lanes.ticks import ENDED, GOING, LANE, MOVED, RATE, RESTARTED, ROWS, STEP, WAITING, Arrays, Trails, advance
+from ..lanes.ticks import (
+    ENDED,
+    GOING,
+    LANE,
+    MOVED,
+    PARTS,
+    RATE,
+    RESTARTED,
+    ROWS,
+    STEP,
+    WAITING,
+    Arrays,
+    Trails,
+    advance,
+)
 from ..parameters import record_of
 from ..parameters.cover import goes_in_lanes
 from ..perturbations.exponents import STEPS
@@ -17,7 +31,7 @@ from ..record import SAMPLE_WIDTH, STATE
 from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
 from . import Run
 
-LEAST = 3  # runs of a kind for which a batch pays: it costs as much as two to four runs alone, whatever is in it
+LEAST = COUNT // 4 + 1  # runs of a kind for which a batch pays, because it costs the same however few are in it
 TICKS = 20_000  # between two looks at the clock and at Ctrl-C: a tenth of a second
 # of the whole numbers these decide nothing within the vectors
 OWN = ("at_rest", "max_newton", "max_releases", "loop_release", "end_at")
@@ -55,7 +69,8 @@ class Machine:
         self.work = lane_work(n, col.BOX_WIDTH)
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run) if run.trail.followed else None
-        self.trail = Trails(np.zeros((COUNT, room, 3)), lane_zeros(COUNT * room * (s - 1), n), lane_zeros(n, 8))
+        rows = lane_zeros(COUNT * room * (s - 1), n * PARTS)
+        self.trail = Trails(np.zeros((COUNT, room, 3)), rows, lane_zeros(n, 8))
         for b in range(COUNT):
             self._fill(b, run)
 

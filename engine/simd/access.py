@@ -65,7 +65,7 @@ def in_lane(context, array, lane):
 
 
 @intrinsic
-def eight_of(context, array, at):
+def vector_at(context, array, at):
     """The COUNT numbers array[at : at + COUNT] of an array of one axis, as a vector."""
 
     def generate(context, builder, signature, values):
@@ -88,8 +88,8 @@ def _address(context, builder, kind, array, at):
 
 
 @intrinsic
-def read_eight(context, array, at):
-    """As `eight_of` for a contiguous array, in one instruction."""
+def read_vector(context, array, at):
+    """As `vector_at` for a contiguous array, in one instruction."""
 
     def generate(context, builder, signature, values):
         return builder.load(_address(context, builder, array, *values), align=8)
@@ -98,7 +98,7 @@ def read_eight(context, array, at):
 
 
 @intrinsic
-def write_eight(context, array, at, value):
+def write_vector(context, array, at, value):
     """The vector into array[at : at + COUNT] of a contiguous array."""
 
     def generate(context, builder, signature, values):

@@ -1,5 +1,7 @@
 """A vector of numbers as one Numba value: `Lanes(8)` is eight floats, one of each of eight runs, in one register.
 
+A register holds eight floats where the processor has AVX-512, four elsewhere: COUNT.
+
 A kernel written for floats is compiled for such vectors where it is given them: +, -, *, /, comparisons, abs, sqrt,
 exp, tanh, sin, cos, acos, rint, floor and array elements are defined here, and no branch may depend on them
 (`engine.simd.select` has what takes the place of branches). Every lane goes through the same IEEE operations as a float
@@ -19,6 +21,7 @@ from typing import ClassVar
 
 import numpy as np
 from llvmlite import ir
+from llvmlite.binding import get_host_cpu_features
 from numba.core import cgutils, types
 from numba.core.typeconv import Conversion
 from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_getattr, infer_global, signature
@@ -27,7 +30,7 @@ from numba.np import arrayobj
 
 from ..record import RECORD
 
-COUNT = 8  # lanes of a batch: one AVX-512 register; two or four registers elsewhere
+COUNT = 8 if get_host_cpu_features().get("avx512f") else 4  # lanes of a batch
 DOUBLE, BIT = ir.DoubleType(), ir.IntType(1)
 
 
@@ -210,14 +213,14 @@ def expect(context, array, at):
 
 @intrinsic
 def transposed(context, rows):
-    """Columns of the matrix of which these COUNT vectors (a tuple) are the rows."""
+    """Columns of the matrices of which each COUNT of these vectors (a tuple) are the rows."""
 
     def generate(context, builder, signature, values):
-        vectors, width = cgutils.unpack_tuple(builder, values[0], COUNT), 1
+        vectors, width = cgutils.unpack_tuple(builder, values[0], len(rows)), 1
         while width < COUNT:  # blocks of this width change places across the diagonal, then wider ones
             low = [COUNT + j - width if j & width else j for j in range(COUNT)]
             masks = [ir.Constant(ir.VectorType(ir.IntType(32), COUNT), [j + d for j in low]) for d in (0, width)]
-            for i in (i for i in range(COUNT) if not i & width):
+            for i in (i for i in range(len(rows)) if not i & width):
                 pair = vectors[i], vectors[i + width]
                 vectors[i], vectors[i + width] = (builder.shuffle_vector(*pair, mask) for mask in masks)
             width *= 2
