@@ -265,15 +265,16 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
 
     `mistyped` of the values: whether a word of the line is no option of the parser and belongs to none.
     """
-    try:
-        values, unknown = parser.parse_known_args(argv)
-    except ValueError as error:
-        explicit = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", str(error))
-        fault = str(error)
-        if explicit:
-            fault = f"{explicit[1]}: given {explicit[2]}; allowed: the option alone"
-        faults.append(fault)
-        values, unknown = parser.parse_args([]), []
+    values = None
+    while values is None:
+        try:
+            values, unknown = parser.parse_known_args(argv)
+        except ValueError as error:
+            option, fault = _option_of(str(error))
+            faults.append(fault)
+            # without the option, to find the faults of the others
+            others = [word for word in argv if word.partition("=")[0] not in (option or "").split("/")]
+            argv = others if len(others) < len(argv) else []
     values.mistyped = bool(unknown)
     known = [name for action in parser._actions for name in action.option_strings]
     for word in unknown:
@@ -293,6 +294,17 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             words = getattr(values, action.dest)
             setattr(values, action.dest, action.option.value(action.option_strings[0], words, faults))
     return values
+
+
+def _option_of(error: str) -> tuple[str | None, str]:
+    """The option that argparse stops at, None where it names none, and the fault in our words."""
+    alone = re.fullmatch(r"argument (\S+): ignored explicit argument (.*)", error)
+    if alone:
+        return alone[1], f"{alone[1]}: given {alone[2]}; allowed: the option alone"
+    empty = re.fullmatch(r"argument (-\S+): expected (.*)", error)
+    if empty:
+        return empty[1], f"{empty[1]}: given without a value; allowed: {empty[2].replace('argument', 'value')}"
+    return None, error
 
 
 def _with_option(word: str, parser: argparse.ArgumentParser) -> str:

@@ -55,6 +55,8 @@ def simulate_batch(
     Arguments as for `simulate`; periods are wave periods of each scene. Returns the Trajectories in the order of the
     scenes.
     """
+    if isinstance(scenes, str | Path | Scene):
+        raise TypeError(f"scenes: given {scenes!r}; allowed: several scenes, as in a list")
     runs = dict(simulate_each(scenes, periods, duration_s, progress))
     return [runs[i] for i in range(len(runs))]
 
@@ -69,8 +71,8 @@ def simulate_each(
 ) -> Iterator[tuple[int, Trajectory]]:
     """As `simulate_batch`, but yields (number of the scene, its Trajectory) whenever a run ends, in no fixed order.
 
-    Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), eight at a time; the other
-    scenes run one after another. The results are the same in both ways, bit for bit.
+    Scenes that may share a batch run side by side in the lanes of vectors (`engine.simd`), as many as there are lanes;
+    the other scenes run one after another. The results are the same in both ways, bit for bit.
 
     periods      one number, or one for each scene
     starts       one for each scene, as `start` of `simulate`
