@@ -182,11 +182,33 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> Solved:
     return _nearest(events, value, "the orbit stays stable"), []
 
 
-def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
-    """Where an event is at the tolerance of the line, on the branch of the orbit near these points, at `value`.
+def sharper(line: Line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
+    """Where an event that was found at `at` is at the tolerance of the line.
 
-    It was found at `at`.
+    orbits: value, points, value, points ... of orbits on its branch, tried in turn.
     """
+    return _first_found(_event_near, line, kind, at, orbits)
+
+
+def finer(line: Line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
+    """The same on 2n - 1 nodes."""
+    return _first_found(_finer_event_near, line, kind, at, orbits)
+
+
+def _first_found(find: Callable, line: Line, kind: str, at: float, orbits: Sequence) -> Solved:
+    """What the first of the orbits leads to. Raises ArithmeticError, with the reason of the last, where none does:
+    beside a fold an orbit may be gone at another tolerance or on another grid."""
+    why = None
+    for value, points in zip(orbits[::2], orbits[1::2], strict=True):
+        try:
+            return find(line, kind, at, value, points)
+        except ArithmeticError as reason:
+            why = reason
+    raise ArithmeticError(str(why))
+
+
+def _event_near(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
+    """The event on the branch of the orbit near these points, at `value`."""
     system = line.maps[1]
     orbit = _found(system, points, value, len(points))
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
@@ -196,7 +218,7 @@ def sharper(line: Line, kind: str, at: float, value: float, points: np.ndarray) 
     return _nearest(events, at, f"no {kind} from {low:.5g} to {high:.5g}"), []
 
 
-def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
+def _finer_event_near(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
     """The same on 2n - 1 nodes."""
     cable, _ = line.maps
     fine_line = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)
@@ -210,7 +232,7 @@ def finer(line: Line, kind: str, at: float, value: float, points: np.ndarray) ->
     fine_line = replace(fine_line, state=states[-1], value=value)
     fine, _ = fine_line.maps
     fine_points = [fine.at_strobe(state, value) for state in states]
-    return sharper(fine_line, kind, at, value, np.roll(fine_points, 2, axis=0))
+    return _event_near(fine_line, kind, at, value, np.roll(fine_points, 2, axis=0))
 
 
 def _found(system, start, value: float, period: int):

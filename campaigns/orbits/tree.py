@@ -14,6 +14,7 @@ from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
 SHARP = 1e-3  # of the range of the key: an event that is known worse is found again at a tenth of the tolerance
+BESIDE = 0.02  # of the range of the key: an orbit so far from a fold is there on another grid, too
 NEAR_M, ON_CHORD = 0.01, 0.1  # of an orbit to a known branch: m of what is seen, and shares of a chord
 
 
@@ -195,12 +196,9 @@ class Tree:
     def refine(self) -> None:
         """Find every event again: at a tenth of the tolerance where it is not known well, and on a finer grid."""
         sharp_line, rough = replace(self.line, rtol=0.1 * self.line.rtol), SHARP * self.line.size
-        near = []  # events, each with the value and the points of the nearest orbit
+        near = []  # events, each with the value and the points of orbits near it
         for branch in self.branches:
-            for event in branch.events:
-                distances = [_apart(orbit, event, self.line.size) for orbit in branch.orbits]
-                place = int(np.argmin(distances))
-                near.append((event, branch.orbits[place]["value"], branch.points[place]))
+            near += [(event, *self._near(branch, event)) for event in branch.events]
         unsure, tasks = [], []
         for event, *orbit in near:
             if event["error"] is None or event["error"] > rough:
@@ -219,6 +217,20 @@ class Tree:
             event |= {"finer": result.get("value"), "doubt": result["reason"]}
             if event["finer"] is not None and event["error"] is not None:
                 event["error"] = max(event["error"], abs(event["finer"] - event["value"]))
+
+    def _near(self, branch: Branch, event: dict) -> list:
+        """Value, points, value, points: of the orbit nearest to an event, and of the nearest with another value."""
+        size, near, beside = self.line.size, [], []
+        for orbit, points in zip(branch.orbits, branch.points, strict=False):
+            candidate = _apart(orbit, event, size), orbit["value"], points
+            near.append(candidate)
+            if abs(orbit["value"] - event["value"]) > BESIDE * size:
+                beside.append(candidate)
+        chosen = []
+        for candidates in filter(None, (near, beside)):
+            _, *orbit = min(candidates, key=lambda candidate: candidate[0])
+            chosen += orbit
+        return chosen
 
 
 def _crossings(branch: Branch, value: float) -> list[int]:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap
+from campaigns.explore.tracing import sharper
 from campaigns.orbits.tables import tables
 from campaigns.orbits.tree import SHARP, Tree
 from tables import Column
@@ -115,3 +116,12 @@ def test_what_is_not_followed_or_not_found_is_a_row_with_its_reason(tmp_path):
     assert (sound["status"], lost["status"], left["status"]) == ("ok", "no-orbit", "no-orbit")
     assert lost["motion"] == "C" and "a loop is released" in lost["message"]
     assert left["period"] == "2" and "--branches" in left["message"]
+
+
+def test_a_fold_is_found_again_from_another_orbit_where_the_nearest_one_is_gone():
+    gone, there = FOLD - 0.01, FOLD + 0.1
+    orbits = gone, fixed(FOLD, 1.0), there, fixed(there, 1.0)
+    result, _ = sharper(HenonLine(low=-0.2), "fold", FOLD, *orbits)
+    assert result["kind"] == "fold" and abs(result["value"] - FOLD) <= max(result["error"], 1e-6)
+    with pytest.raises(ArithmeticError):
+        sharper(HenonLine(low=-0.2), "fold", FOLD, *orbits[:2])
