@@ -156,16 +156,20 @@ def _lies_on(event: dict, first: dict, result: dict, plane: Plane) -> bool:
 
 
 def _rows(label: Row, result: dict, event: dict, plane: Plane) -> Iterator[Row]:
-    """The points of a curve. Errors of the first key are no smaller than that of its event, which has what a finer grid
-    changes, and those of the second key grow in proportion."""
+    """The points of a curve. To errors of the first key is added what a finer grid changes of its event, and they are
+    no smaller than the error of that; those of the second key grow in proportion."""
     first, second = plane.line.scenes.key.column, plane.key.column
     floor = event["error"] or 0.0
-    of_grid = "" if event.get("finer") else "errors are those of this grid alone"
+    of_grid, grid = "errors are those of this grid alone", 0.0
+    if event.get("finer"):
+        of_grid, grid = "", abs(event["finer"] - event["value"])
     label = label | {"begins": result["begins"], "ends": result["ends"]}
     for part in ("points", "special"):
         for place, point in enumerate(result[part]):
             error = point["errors"][0]
-            scale = max(1.0, floor / error) if error and point["status"] == "ok" else 1.0
+            scale = 1.0
+            if error and point["status"] == "ok":
+                scale = max(error + grid, floor) / error
             row = label | point
             errors = [known and scale * known for known in point["errors"]]
             yield row | {
@@ -184,7 +188,7 @@ def write_curves(tree: Tree, plane: Plane) -> None:
     first, second = (replace(key.column, digits=5) for key in (plane.line.scenes.key, plane.key))
     meaning = (
         "change over three sequences of steps and change at a tenth of the tolerance, together, where the other key "
-        "is held; empty for the reason in message"
+        "is held, and the change of its first event on a finer grid; empty for the reason in message"
     )
     errors = [
         Column("error_1", first.unit, f"± {first.symbol}", f"{meaning}; at least that of its event", 6),
