@@ -145,7 +145,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         base = Base(rows[TIME], rows[RATE], moving_water, Y, turn.K)
         begun, ended = rows[BEGUN] != 0.0, rows[ENDED] != 0.0
         anchor = work.sea[Y.shape[0]]
-        anchor[1] = where(begun, 0.0, anchor[1])  # as `forget` in a run alone
+        anchor[sea_series.TAKEN] = where(begun, 0.0, anchor[sea_series.TAKEN])  # as `forget` in a run alone
         if count > 0:
             linearise(p, grid, base, work, water)
         else:

@@ -34,7 +34,7 @@ from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, where
 from ..simd.vector import COUNT
 from .sea import AMPLITUDE, OMEGA, PHASE, ROW, SPEED, K, rows_of
-from .sea_sum import division_of, exponential, phase_at, raised, stretching, turned
+from .sea_sum import TAKEN, TIME, division_of, exponential, phase_at, raised, stretching, turned
 
 ORDER = 3
 TERMS = (ORDER + 1) * (ORDER + 2) // 2  # S_mn of one function, ordered by m, then n
@@ -65,7 +65,7 @@ def reach_of(scene: Scene, speed_mps: float) -> tuple[float, float]:
 @kernel
 def forget(sea):
     """Let the next sums be taken anew: a trial step begins. sea: of Work."""
-    sea[sea.shape[0] - 1, 1] = 0.0
+    sea[sea.shape[0] - 1, TAKEN] = 0.0
 
 
 @kernel
@@ -185,7 +185,7 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
         put_sums(weights, parts, 0, groups, sea[j], UPPER)
         put_sums(weights, parts, 2, groups, sea[j], LOWER)
         sea[j, PLACE_X], sea[j, PLACE_Z] = x, z
-    sea[n, 0], sea[n, 1] = t, 1.0
+    sea[n, TIME], sea[n, TAKEN] = t, 1.0
 
 
 @kernel
@@ -196,7 +196,7 @@ def put_heights(p, t, X, sea):
     for j in range(n):
         height = larger(X[j, 1], 0.0)
         if p.above == WHEELER:
-            eta = series(sea[j], SURFACE, t - sea[n, 0], (0.0, X[j, 0] - sea[j, PLACE_X]))[0][0]
+            eta = series(sea[j], SURFACE, t - sea[n, TIME], (0.0, X[j, 0] - sea[j, PLACE_X]))[0][0]
             height = height * stretching(p.depth, gain * eta)
         sea[j, HEIGHT] = height
 
@@ -209,8 +209,8 @@ def due(p, t, X, sea):
     for j in range(n):
         dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
         moved = larger(moved, dx * dx + dz * dz)
-    near = 1.0 - abs(t - sea[n, 0]) / p.sea_span
-    return (sea[n, 1] == 0.0) | (near < 0.0) | (moved > near * near * (p.sea_reach * p.sea_reach))
+    near = 1.0 - abs(t - sea[n, TIME]) / p.sea_span
+    return (sea[n, TAKEN] == 0.0) | (near < 0.0) | (moved > near * near * (p.sea_reach * p.sea_reach))
 
 
 @kernel
@@ -255,7 +255,7 @@ def _add_series(p, t, X, F, J, sea):
     """The field of full-grown waves, under their ramp, into F; its slopes into J."""
     n = X.shape[0]
     gain, gain_rate = smooth_start(t, p.ramp)
-    dt = t - sea[n, 0]
+    dt = t - sea[n, TIME]
     for j in range(n):
         dx, dz = X[j, 0] - sea[j, PLACE_X], sea[j, HEIGHT] - sea[j, PLACE_Z]
         upper, upper_rate, upper_slope, upper_rising = series(sea[j], UPPER, dt, (dz, dx))

@@ -22,6 +22,7 @@ from .sea import AMPLITUDE, COSINE, OMEGA, PHASE, ROW, SINE, SPEED, K
 from .waves import SMALL
 
 SUMS, PLACES = 0, 6  # columns of Work.sea in space: sums of the waves at the nodes, and the places they were taken at
+TIME, TAKEN = 0, 1  # of the last row of sums: for which time, and 1.0 where they are taken
 WIDTH = 9
 STEEP, DEEP = 2.0, 600.0  # k times an element, k times the depth: beyond, waves are computed anew at every node
 STILL = 3.0  # change of the water's velocity, over the tolerance of Newton's method, that is left out
@@ -211,7 +212,7 @@ def sea_field(p, tables, t, X, F, sea):
         for j in range(n):
             for axis in range(3):
                 sea[j, PLACES + axis] = X[j, axis]
-        sea[n, 0], sea[n, 1] = t, 1.0
+        sea[n, TIME], sea[n, TAKEN] = t, 1.0
     gain, gain_rate = smooth_start(t, p.ramp)
     for j in range(n):
         wet = 0.0 if p.above == ZERO and X[j, 2] > p.depth else 1.0
@@ -232,4 +233,4 @@ def due(p, t, X, sea):
             way = X[j, axis] - sea[j, PLACES + axis]
             square += way * way
         moved = larger(moved, square)
-    return (sea[n, 0] != t) | (sea[n, 1] == 0.0) | (moved > p.sea_reach * p.sea_reach)
+    return (sea[n, TIME] != t) | (sea[n, TAKEN] == 0.0) | (moved > p.sea_reach * p.sea_reach)
