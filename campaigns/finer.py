@@ -1,4 +1,4 @@
-"""The same run, finer: by how much its numbers change, they are not known."""
+"""The same run, finer: what it changes of a number is the error of that number."""
 
 import engine.scene
 
