@@ -33,7 +33,7 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipli
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
-GAPS = 1e-6  # of orbits: other steps move their points by 1000 times as much
+GAPS = 1e-6  # of orbits under rows: other steps move their points by 1000 times as much
 ITERATIONS, HALVINGS = 6, 2  # of Newton's method: from a run that comes nearer to an orbit three are enough
 LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
@@ -50,9 +50,10 @@ MULTIPLIERS = (
 )  # fmt: skip
 
 
-def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
-    """The PeriodMap of a state, and the OrbitMap of it. size: the change of the parameter that counts as 1.
+def cable_map(scene_of: Callable, state, value: float, size: float = 1.0, gaps: float = 0.0):
+    """The PeriodMap of a state, and the OrbitMap of it.
 
+    size: the change of the parameter that counts as 1. gaps: tolerance of orbits at least, as of `OrbitMap`.
     Raises ValueError and ArithmeticError as `engine.run.period_map.PeriodMap`.
     """
     from analysis.orbits import OrbitMap
@@ -60,7 +61,7 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
 
     cable = PeriodMap(scene_of, state, value)
     settings = {"parameter_size": size, "meshes": cable.meshes, "abreast": cable.abreast, "seen": cable.seen}
-    return cable, OrbitMap(cable.step, frozen=cable.frozen, tolerance=GAPS, **settings)
+    return cable, OrbitMap(cable.step, frozen=cable.frozen, tolerance=gaps, **settings)
 
 
 @dataclass(frozen=True)
@@ -137,7 +138,7 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     scene = trajectory.scene
     scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
-        cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
+        cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0, gaps=GAPS)
         orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations, halvings=HALVINGS)
         if not orbit.found:
             return {"reason": orbit.reason}
