@@ -195,7 +195,7 @@ def corrected(
     if directions is None:
         directions = np.empty((n, 0))
     # of the guess: far away any gap is small beside the points
-    enough = max(newton.tolerance, maps[0].tolerance) * max(1.0, np.abs(points).max())
+    enough = newton.tolerance * max(1.0, np.abs(points).max())
     if shots is None:
         shots = shoot(maps, points, parameter)
     taken = 0

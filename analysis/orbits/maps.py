@@ -39,8 +39,6 @@ class OrbitMap:
                      and `along` then gives (n, m)
     meshes           how many there are: the differences between them are the errors of an orbit
     abreast          directions that `linearised` carries at the cost of one
-    tolerance        of the gaps of its orbits at least, relative to the largest coordinate or 1: a map that is not
-                     smooth to the last digits has none smaller
     seen             (n, m): seen.T @ z is what distances along a branch are measured in; None: all of z
     """
 
@@ -50,7 +48,6 @@ class OrbitMap:
     parameter_size: float = 1.0
     meshes: int = 1
     abreast: int = 1
-    tolerance: float = 0.0
     seen: np.ndarray | None = None
 
     def near(self, points: np.ndarray, parameter: float, mesh: int = 0) -> Sequence["OrbitMap"]:

@@ -50,10 +50,9 @@ MULTIPLIERS = (
 )  # fmt: skip
 
 
-def cable_map(scene_of: Callable, state, value: float, size: float = 1.0, gaps: float = 0.0):
-    """The PeriodMap of a state, and the OrbitMap of it.
+def cable_map(scene_of: Callable, state, value: float, size: float = 1.0):
+    """The PeriodMap of a state, and the OrbitMap of it. size: the change of the parameter that counts as 1.
 
-    size: the change of the parameter that counts as 1. gaps: tolerance of orbits at least, as of `OrbitMap`.
     Raises ValueError and ArithmeticError as `engine.run.period_map.PeriodMap`.
     """
     from analysis.orbits import OrbitMap
@@ -61,7 +60,7 @@ def cable_map(scene_of: Callable, state, value: float, size: float = 1.0, gaps: 
 
     cable = PeriodMap(scene_of, state, value)
     settings = {"parameter_size": size, "meshes": cable.meshes, "abreast": cable.abreast, "seen": cable.seen}
-    return cable, OrbitMap(cable.step, frozen=cable.frozen, tolerance=gaps, **settings)
+    return cable, OrbitMap(cable.step, frozen=cable.frozen, **settings)
 
 
 @dataclass(frozen=True)
@@ -138,8 +137,9 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     scene = trajectory.scene
     scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
-        cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0, gaps=GAPS)
-        orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations, halvings=HALVINGS)
+        cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
+        newton = {"tolerance": GAPS, "iterations": iterations, "halvings": HALVINGS}
+        orbit = find_orbit(system, cable.first, 0.0, period, count=2, **newton)
         if not orbit.found:
             return {"reason": orbit.reason}
         history = cable.history(orbit.points, 0.0)
