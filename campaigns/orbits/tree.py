@@ -219,7 +219,7 @@ class Tree:
                 event["error"] = max(event["error"], abs(event["finer"] - event["value"]))
 
     def _near(self, branch: Branch, event: dict) -> list:
-        """Value, points, value, points: of the orbit nearest to an event, and of the nearest with another value."""
+        """Value, points, value, points: of the orbit nearest to an event, and of the nearest BESIDE away in value."""
         size, near, beside = self.line.size, [], []
         for orbit, points in zip(branch.orbits, branch.points, strict=False):
             candidate = _apart(orbit, event, size), orbit["value"], points

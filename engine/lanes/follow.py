@@ -39,7 +39,7 @@ TIME, RATE, STAGE, BEGUN, BUSY, ENDED, LENGTH = range(7)  # rows of numbers; len
 
 @kernel
 def _vector_of(rows, at, k, number):
-    """Of the vectors that all lanes store of node k: those of the first part of its numbers come first."""
+    """One of the eight vectors that the lanes store of node k: the first part of each lane, then the second."""
     return rows[at[number % COUNT], PARTS * k + number // COUNT]
 
 

@@ -1,6 +1,6 @@
-"""A vector of numbers as one Numba value: `Lanes(8)` is eight floats, one of each of eight runs, in one register.
+"""A vector of numbers as one Numba value: `Lanes(COUNT)` is a float of each of COUNT runs, in one register.
 
-A register holds eight floats where the processor has AVX-512, four elsewhere: COUNT.
+COUNT is eight on a processor with AVX-512, and four on others.
 
 A kernel written for floats is compiled for such vectors where it is given them: +, -, *, /, comparisons, abs, sqrt,
 exp, tanh, sin, cos, acos, rint, floor and array elements are defined here, and no branch may depend on them
