@@ -137,15 +137,18 @@ def find_orbit(
         return not_found(np.atleast_2d(guess), parameter, why)
 
 
-def scatter_of(system: OrbitMap, orbit: Orbit) -> Scatter:
-    """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter."""
+def scatter_of(system: OrbitMap, orbit: Orbit, share_left: float = SHARE_LEFT) -> Scatter:
+    """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter.
+
+    share_left: of the gaps that the other mesh makes of the orbit; 0: they are closed to TOLERANCE.
+    """
     points, rivals, directions = np.zeros_like(orbit.points), [], real_span(orbit.vectors)
     size = max(1.0, np.abs(orbit.points).max())
     try:
         for mesh in range(1, system.meshes):
             maps = system.near(orbit.points, orbit.parameter, mesh)
             shots = shoot(maps, orbit.points, orbit.parameter)
-            newton = Newton(SHARE_LEFT * shots.residual / size)
+            newton = Newton(max(TOLERANCE, share_left * shots.residual / size), kept=KEPT)
             solved = corrected(maps, orbit.points, orbit.parameter, newton, None, directions, shots=shots)
             rivals.append(described(solved, len(orbit.multipliers))[0])
             points = np.maximum(points, np.abs(rivals[-1].points - orbit.points))
@@ -159,7 +162,7 @@ def middle_of(system: OrbitMap, orbit: Orbit) -> tuple[Orbit, np.ndarray]:
 
     One mesh in three may give a false value; its distance is then the error.
     """
-    scatter = scatter_of(system, orbit)
+    scatter = scatter_of(system, orbit, share_left=0.0)
     candidates = sorted((orbit, *scatter.orbits), key=lambda one: abs(one.multipliers[0]))
     middle = candidates[len(candidates) // 2]
     lost = len(candidates) < system.meshes
