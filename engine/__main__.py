@@ -10,14 +10,13 @@ is the exponent that tells chaos from other motions.
 """
 
 import argparse
-import difflib
 import sys
 from pathlib import Path
 
 import engine.scene
 from engine import views
 from engine.atomic import can_be_written, is_netcdf
-from engine.streams import open_streams, printed
+from engine.streams import Parser, open_streams, printed, refused
 
 MOST_PERIODS, PERIODS = 1575, 205  # until a verdict; without perturbations
 KINDS = (".png", ".svg", ".pdf")
@@ -25,15 +24,10 @@ TANGENTS = "output.tangent_vectors"
 EXITS = "exit codes: 0 done, 1 the run ended early, 2 bad input, 130 Ctrl-C"
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise ValueError(message)
-
-
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """The options of the command."""
     words = {"description": __doc__, "epilog": EXITS, "formatter_class": argparse.RawDescriptionHelpFormatter}
-    options = _Parser(prog="python -m engine", allow_abbrev=False, **words)
+    options = Parser(prog="python -m engine", allow_abbrev=False, **words)
     options.add_argument("scene", metavar="SCENE", help="a scene file or the name of a scene")
     several = {"metavar": "KEY=VALUE", "nargs": "+", "action": "extend", "default": []}
     options.add_argument("--set", **several, help="change values of the scene, as water.depth_m=22.5 tether.nodes=81")
@@ -117,10 +111,8 @@ def _hint(message: str) -> str:
     if not unknown:
         return ""
     word = words.split()[0]
-    options = ["--new", *(name for action in parser()._actions for name in action.option_strings)]
-    close = difflib.get_close_matches(word.partition("=")[0], options, n=1, cutoff=0.75)
-    if close:
-        return f"; did you mean {close[0]}?"
+    if close := parser().close_to(word, "--new"):
+        return close
     if "=" in word and not word.startswith("-"):
         return f"; did you mean --set {word}?"
     return "; keys of the scene are given as --set KEY=VALUE"
@@ -164,7 +156,7 @@ def main(argv: list[str] | None = None) -> int:
     faults: list[str] = []
     order = read_order(argv, faults)
     if faults:
-        return _refused(faults)
+        return refused("python -m engine", faults, "nothing was run or written")
     print(f"{order.scene.name}: a first run compiles for up to a minute", file=sys.stderr)
     try:
         if order.periods is None and order.duration is None:
@@ -194,12 +186,6 @@ def _until_verdict(scene, start):
         if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
             break
     return run
-
-
-def _refused(faults: list[str]) -> int:
-    several = f" {len(faults)} faults\n  " if len(faults) > 1 else " "
-    print(f"python -m engine:{several}" + "\n  ".join(faults) + "\nnothing was run or written", file=sys.stderr)
-    return 2
 
 
 def _show_progress(text: str) -> None:

@@ -1,8 +1,38 @@
-"""Standard output and error of a command: whatever a title holds can be printed, and a reader may stop reading."""
+"""A command at its terminal: faulty options, and standard output and error.
 
+Whatever a title holds can be printed, and a reader may stop reading.
+"""
+
+import argparse
+import difflib
 import os
 import sys
 from collections.abc import Callable
+
+
+class Parser(argparse.ArgumentParser):
+    """The options of a command. A faulty option raises ValueError, so that it is told together with other faults."""
+
+    def error(self, message):
+        raise ValueError(message)
+
+    def close_to(self, word: str, *further: str) -> str:
+        """ "; did you mean --set?" for a word that is close to an option, or to a further one; else ""."""
+        names = list(further)
+        for action in self._actions:
+            names += action.option_strings
+        for name in difflib.get_close_matches(word.partition("=")[0], names, n=1, cutoff=0.75):
+            return f"; did you mean {name}?"
+        return ""
+
+
+def refused(command: str, faults: list[str], consequence: str) -> int:
+    """Tell the faults of a command, a line each, and what follows from them. Returns the exit code, 2."""
+    head = f"{command}: "
+    if len(faults) > 1:
+        head += f"{len(faults)} faults\n  "
+    print(head + "\n  ".join(faults) + f"\n{consequence}", file=sys.stderr)
+    return 2
 
 
 def open_streams() -> None:

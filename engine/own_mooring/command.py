@@ -1,7 +1,6 @@
 """`python -m engine --new FILE`: the questions that a first scene needs, by options or on a terminal."""
 
 import argparse
-import difflib
 import re
 import sys
 import tomllib
@@ -11,6 +10,7 @@ from pathlib import Path
 from engine.atomic import can_be_written, write_atomic
 from engine.own_mooring.ropes import materials, rope_of
 from engine.own_mooring.scene import SUBMERGED, SURFACE, Mooring, scene_text
+from engine.streams import Parser, refused
 
 DESCRIPTION = """Write a commented scene of a sphere on one rope; what is not given is asked for on a terminal.
 
@@ -56,15 +56,10 @@ def questions() -> list[Question]:
     return [Question(option, **row) for option, row in table.items()]
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise ValueError(message)
-
-
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """The options of the command."""
     words = {"description": DESCRIPTION, "formatter_class": argparse.RawDescriptionHelpFormatter}
-    options = _Parser(prog="python -m engine --new", allow_abbrev=False, **words)
+    options = Parser(prog="python -m engine --new", allow_abbrev=False, **words)
     options.add_argument("file", metavar="FILE", help="the scene file to write, NAME.toml")
     for question in questions():
         usual = f" (default: {question.usual})" if question.usual else ""
@@ -85,7 +80,7 @@ def main(argv: list[str]) -> int:
     faults = _faults_of(path)
     for word in unknown:
         if word.startswith("-") or not unknown[0].startswith("-"):  # not the value of an unknown option
-            faults.append(_unknown(word))
+            faults.append(f"{word}: no such option{parser().close_to(word)}")
     if kind not in (None, SURFACE, SUBMERGED):
         faults.append(f"--kind: given {kind}; allowed: {SURFACE} or {SUBMERGED}")
     answers: dict[str, object] = {"wave_period": None}
@@ -145,13 +140,6 @@ def _answer(question: Question, word: str | None, faults: list[str]) -> float | 
         print(fault)
 
 
-def _unknown(word: str) -> str:
-    """The fault of a word that belongs to no option."""
-    names = [name for action in parser()._actions for name in action.option_strings]
-    close = difflib.get_close_matches(word.partition("=")[0], names, n=1, cutoff=0.75)
-    return f"{word}: no such option" + (f"; did you mean {close[0]}?" if close else "")
-
-
 def _faults_of(path: Path) -> list[str]:
     allowed = ""
     if path.suffix != ".toml" or not re.fullmatch(r"[A-Za-z0-9_.-]+", path.stem):
@@ -164,6 +152,4 @@ def _faults_of(path: Path) -> list[str]:
 
 
 def _refused(faults: list[str]) -> int:
-    several = f" {len(faults)} faults\n  " if len(faults) > 1 else " "
-    print(f"python -m engine --new:{several}" + "\n  ".join(faults) + "\nnothing was written", file=sys.stderr)
-    return 2
+    return refused("python -m engine --new", faults, "nothing was written")

@@ -84,9 +84,14 @@ class Mooring:
         return (self.displaced_kg - self.buoy_kg) * GRAVITY_MPS2
 
     @property
+    def stretch(self) -> float:
+        """Length of the rope under the whole lift, over its length without load."""
+        return 1.0 + self.lift_N / self.rope.stiffness_N
+
+    @property
     def reach_m(self) -> float:
         """Height of the top of the buoy above the bed on the upright rope, stretched by the whole lift."""
-        return self.length_m * (1.0 + self.lift_N / self.rope.stiffness_N) + 0.5 * self.buoy_diameter_m
+        return self.length_m * self.stretch + 0.5 * self.buoy_diameter_m
 
     @property
     def kind(self) -> str:
@@ -101,13 +106,12 @@ class Mooring:
     @property
     def trough_m(self) -> float:
         """Height of a trough above the bed."""
-        return self.depth_m - 0.5 * self.wave_height_m
+        return self.depth_m - self.amplitude_m
 
     @property
     def longest_submerged_m(self) -> float:
         """Length of rope below which the buoy is SUBMERGED."""
-        stretch = 1.0 + self.lift_N / self.rope.stiffness_N
-        return (self.trough_m - 0.5 * self.buoy_diameter_m) / stretch
+        return (self.trough_m - 0.5 * self.buoy_diameter_m) / self.stretch
 
     def faults(self, kind: str | None = None) -> list[str]:
         """What cannot be, a line each with its option: a buoy that sinks or is not of this kind, a wave that breaks."""
