@@ -41,10 +41,9 @@ class SceneError(ValueError):
         super().__init__(self.faults)  # the arguments that pickle hands back when an error crosses processes
 
     def __str__(self) -> str:
-        count = len(self.faults)
-        if count == 1:
+        if len(self.faults) == 1:
             return f"faulty scene: {self.faults[0]}"
-        return "\n".join([f"faulty scene, {count} faults:", *(f"  {fault}" for fault in self.faults)])
+        return "\n  ".join([f"faulty scene, {len(self.faults)} faults:", *self.faults])
 
 
 @dataclass(frozen=True)
@@ -190,8 +189,7 @@ def allowed_text(annotation: object, metadata: list[object] | tuple[object, ...]
     if get_origin(annotation) is Annotated:
         inner, *metadata = get_args(annotation)
         return allowed_text(inner, metadata)
-    texts = map(allowed_text, get_args(annotation))
-    return next((text for text in texts if text is not None), None)
+    return next(filter(None, map(allowed_text, get_args(annotation))), None)
 
 
 def _one_of(names: list[str] | tuple[str, ...]) -> str:

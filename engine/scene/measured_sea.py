@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from engine.scene.faults import fault, shown
+from engine.scene.faults import SceneError, fault, shown
 from engine.scene.values import MOST_COMPONENTS
 
 if TYPE_CHECKING:
@@ -44,16 +44,17 @@ def with_measured_sea(raw: dict[str, object]) -> tuple[dict[str, object], list[s
     period_s = waves.get("period_s")
     if not isinstance(period_s, (int, float)) or not 0 < period_s < math.inf:
         return raw, []  # this fault is told by itself
-    faults, values = _read(waves["record"])
-    if not faults:
-        faults = list(_unfit(waves["record"], *values, period_s))
-    if faults:
+    try:
+        values = _read(waves["record"])
+    except SceneError as error:
+        return raw, list(error.faults)
+    if faults := list(_unfit(waves["record"], *values, period_s)):
         return raw, faults
     return raw | {"waves": waves | {"components": _components(*values, period_s)}}, []
 
 
-def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
-    """Faults, or times (s) and elevations (m)."""
+def _read(path: str) -> list[np.ndarray]:
+    """Times (s) and elevations (m). Raises SceneError."""
     import numpy as np  # 0.1 s, which a scene without a record does not need
 
     allowed = "a CSV file with the columns time_s and elevation_m"
@@ -62,11 +63,12 @@ def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
             reader = csv.DictReader(file)
             rows, heads = list(reader), reader.fieldnames or ()
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        return [fault(KEY, path, f"{allowed} ({getattr(error, 'strerror', None) or 'not readable as text'})")], None
+        reason = getattr(error, "strerror", None) or "not readable as text"
+        raise SceneError(fault(KEY, path, f"{allowed} ({reason})")) from None
     if any(name not in heads for name in COLUMNS):
-        return [fault(KEY, path, f"{allowed}: the first line is {shown(','.join(heads))}")], None
+        raise SceneError(fault(KEY, path, f"{allowed}: the first line is {shown(','.join(heads))}"))
     if not rows:
-        return [fault(KEY, path, f"{allowed}, and at least one row of numbers")], None
+        raise SceneError(fault(KEY, path, f"{allowed}, and at least one row of numbers"))
     columns = []
     for name in COLUMNS:
         numbers = []
@@ -76,10 +78,10 @@ def _read(path: str) -> tuple[list[str], tuple[np.ndarray, np.ndarray] | None]:
             except (TypeError, ValueError):
                 number = math.nan
             if not math.isfinite(number):
-                return [fault(KEY, path, f"finite numbers: {name} in line {line} is {row[name]!r}")], None
+                raise SceneError(fault(KEY, path, f"finite numbers: {name} in line {line} is {row[name]!r}"))
             numbers.append(number)
         columns.append(np.array(numbers))
-    return [], tuple(columns)
+    return columns
 
 
 def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: float) -> Iterator[str]:
@@ -97,10 +99,11 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
         yield fault(KEY, path, f"even steps of {step:.6g} s: {between}")
         return
     length_s = step * len(time_s)
-    if length_s < SHORTEST * period_s:
+    short, coarse = length_s < SHORTEST * period_s, step > period_s / COARSEST
+    if short:
         rule = f"at least {SHORTEST} periods of waves.period_s = {period_s:g} s: it has {length_s:.4g} s"
         yield fault(KEY, path, rule)
-    if step > period_s / COARSEST:
+    if coarse:
         longest_s = period_s / COARSEST
         yield fault(KEY, path, f"steps of at most {longest_s:.4g} s, an eighth of waves.period_s (ms, not s?)")
     spread = float(elevation_m.std())
@@ -113,7 +116,7 @@ def _unfit(path: str, time_s: np.ndarray, elevation_m: np.ndarray, period_s: flo
     if abs(slope) * length_s > max(TREND, 10.0 / math.sqrt(length_s / period_s)) * spread:
         yield fault(KEY, path, f"no trend: it changes by {slope * length_s:.3g} m from end to end (tide? remove it)")
         return
-    if length_s < SHORTEST * period_s or step > period_s / COARSEST:
+    if short or coarse:
         return
     frequencies, amplitudes, _ = _lines(time_s, elevation_m)
     kept = _kept(frequencies, period_s)

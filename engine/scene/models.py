@@ -148,6 +148,12 @@ class Scene(Section):
             return self.output.step_s
         return self.waves.period_s / 100.0 if self.waves is not None else 0.05
 
+    def profile_step_s(self) -> float:
+        """The step in seconds of the profiles: output.profiles_step_s, or that of the samples; 0 without profiles."""
+        if not self.output.profiles:
+            return 0.0
+        return self.output.profiles_step_s or self.sample_step_s()
+
     def with_values(self, section: str, **values: object) -> "Scene":
         """The scene with other values in one of its sections, which are not checked."""
         return self.model_copy(update={section: getattr(self, section).model_copy(update=values)})
@@ -180,8 +186,7 @@ def _floating(raw: dict[str, object]) -> dict[str, object]:
     """The raw scene with the wetted cap for a buoy in an irregular sea, where buoy.submergence is not given."""
     sections = [raw.get(name) for name in ("waves", "buoy", "solver")]
     waves, buoy, solver = (section if isinstance(section, dict) else {} for section in sections)
-    sea = irregular(*(waves.get(key) for key in ("components", "jonswap", "significant_steepness")))
-    if not sea or not buoy or buoy.get("submergence") is not None or solver.get("scheme") == "paper-box":
+    if not irregular(waves) or not buoy or buoy.get("submergence") is not None or solver.get("scheme") == "paper-box":
         return raw
     return raw | {"buoy": buoy | {"submergence": "spherical-cap"}}
 

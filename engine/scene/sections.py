@@ -136,13 +136,16 @@ class HarmonicMotion(Section):
 
 
 class CircularMotion(Section):
-    """A held end goes round a circle in x and z about its place: r(t) (R cos, -R sin)(2 pi t/period_s + phase_rad)."""
+    """A held end goes round a circle in x and z about its place: r(t) (R cos, -R sin)(2 pi t/period_s + phase_rad).
+
+    From +x down; the ramp r begins at the centre. The other keys are described with those of HarmonicMotion.
+    """
 
     law: Literal["circular"]
     radius_m: Positive = described("circular: radius of r(t) (cos, -sin)(2 pi t/period + phase) in x and z", symbol="R")
-    period_s: Positive = described("circular: period, from +x down")
-    phase_rad: Number = described("circular: phase", 0.0)
-    ramp_s: Positive = described("circular: duration of the ramp r = sin^2(pi t/(2 ramp)), which begins at the centre")
+    period_s: Positive
+    phase_rad: Number = 0.0
+    ramp_s: Positive
 
 
 class TableMotion(Section):
@@ -249,9 +252,9 @@ class Jonswap(Section):
     seed: CountOrZero = described("seed of the random frequencies and phases; the same seed gives the same sea", 0)
 
 
-def irregular(*given: object) -> bool:
-    """Whether one of the descriptions of a sea of several waves is given."""
-    return any(description is not None for description in given)
+def irregular(waves: dict[str, object]) -> bool:
+    """Whether the keys of `waves` describe a sea of several waves rather than one regular wave."""
+    return any(waves.get(key) is not None for key in ("components", "jonswap", "significant_steepness"))
 
 
 def above_by_default(waves: dict[str, object]) -> str:
@@ -259,8 +262,7 @@ def above_by_default(waves: dict[str, object]) -> str:
 
     Extrapolated or stretched, the short waves of an irregular sea can throw a sphere so far that its run fails.
     """
-    several = (waves.get(key) for key in ("components", "jonswap", "significant_steepness"))
-    return "zero" if irregular(*several) else "extrapolate"
+    return "zero" if irregular(waves) else "extrapolate"
 
 
 class Waves(Section):
@@ -312,7 +314,7 @@ class Waves(Section):
     @property
     def irregular(self) -> bool:
         """Whether this is a sea of several waves rather than one regular wave."""
-        return irregular(self.components, self.jonswap, self.significant_steepness)
+        return irregular(vars(self))
 
 
 class UniformCurrent(Section):

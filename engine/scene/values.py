@@ -27,20 +27,28 @@ Positive = Annotated[_Float, Field(gt=0, ge=SMALLEST), Allowed(f"a finite number
 NonNegative = Annotated[
     _Float, Field(ge=0), AfterValidator(_zero_or_not_tiny), Allowed(f"a finite number, 0 or above: 0, or {_UP_TO}")
 ]
-UnitInterval = Annotated[_Float, Field(ge=0, le=1), Allowed("a number from 0 to 1")]
+
+
+def _number_from(low: float, high: float) -> Any:
+    return Annotated[_Float, Field(ge=low, le=high), Allowed(f"a number from {low:g} to {high:g}")]
+
+
+def _whole_from(low: int, high: int) -> Any:
+    return Annotated[int, Field(strict=True, ge=low, le=high), Allowed(f"a whole number from {low} to {high}")]
+
+
+UnitInterval = _number_from(0, 1)
 Tolerance = Annotated[
     _Float, Field(gt=0, ge=SMALLEST, lt=1), Allowed(f"a number above 0 and below 1, {SMALLEST:g} or more")
 ]
-Stretching = Annotated[_Float, Field(ge=0, le=5), Allowed("a number from 0 to 5")]
-Nodes = Annotated[int, Field(strict=True, ge=3, le=20000), Allowed("a whole number from 3 to 20000")]
-Count = Annotated[int, Field(strict=True, ge=1, le=10**9), Allowed("a whole number from 1 to 1000000000")]
-CountOrZero = Annotated[int, Field(strict=True, ge=0, le=10**9), Allowed("a whole number from 0 to 1000000000")]
+Stretching = _number_from(0, 5)
+Nodes = _whole_from(3, 20000)
+Count = _whole_from(1, 10**9)
+CountOrZero = _whole_from(0, 10**9)
 MOST_COMPONENTS = 2000
-Components = Annotated[
-    int, Field(strict=True, ge=1, le=MOST_COMPONENTS), Allowed(f"a whole number from 1 to {MOST_COMPONENTS}")
-]
-PeakEnhancement = Annotated[_Float, Field(ge=1, le=10), Allowed("a number from 1 to 10")]
-RelativeWidth = Annotated[_Float, Field(ge=0, le=0.2), Allowed("a number from 0 to 0.2")]
+Components = _whole_from(1, MOST_COMPONENTS)
+PeakEnhancement = _number_from(1, 10)
+RelativeWidth = _number_from(0, 0.2)
 Flag = Annotated[bool, Field(strict=True), Allowed("true or false")]
 Text = Annotated[str, Field(strict=True), Allowed("text")]
 Name = Annotated[str, Field(strict=True, pattern=r"^[A-Za-z0-9_.-]+$"), Allowed("letters, digits, and any of _ . -")]

@@ -37,8 +37,10 @@ def _aslant(angle: float) -> bool:
 
 def sea(sound: Sound) -> Facts:
     """What an irregular sea takes the place of."""
-    listed, *spectra = (sound[f"waves.{key}"] is not None for key in ("components", "jonswap", "significant_steepness"))
-    drawn, gaussian = any(spectra), spectra[1]
+    listed, drawn, gaussian = (
+        sound[f"waves.{key}"] is not None for key in ("components", "jonswap", "significant_steepness")
+    )
+    irregular = listed or drawn or gaussian
     source = "waves.significant_steepness" if gaussian else "waves.jonswap"
     because = "each component has its own" if listed else f"{source} draws those of its components"
     key, width = "waves.relative_width", sound["waves.relative_width"]
@@ -56,13 +58,13 @@ def sea(sound: Sound) -> Facts:
         rule = f"less than {most:.4g}, k H_s/2 = {STEEPEST:g} at waves.period_s: waves break at 0.44"
         yield height >= most, "waves.jonswap.significant_height_m", rule
     shortest_s = math.sqrt(2 * math.pi * (sound["buoy.diameter_m"] or 0) / (sound["gravity_mps2"] or math.inf))
-    short = (listed or drawn) and (sound["waves.period_s"] or math.inf) < shortest_s
+    short = irregular and (sound["waves.period_s"] or math.inf) < shortest_s
     yield short, "waves.period_s", f"at least {shortest_s:.3g} s, whose waves are as long as the buoy is wide"
-    yield (listed or drawn) and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
+    yield irregular and sound["waves.phase_rad"], "waves.phase_rad", f"0: {because}"
     yield listed and sound["waves.direction_rad"], "waves.direction_rad", f"0: {because}"
     key = "tether.submergence"
     rule = "'full' in irregular waves: only the buoy is cut by the surface of a sea (buoy.submergence)"
-    yield (listed or drawn) and sound[key] == "free-surface", key, rule
+    yield irregular and sound[key] == "free-surface", key, rule
 
 
 def _deep_water_number(sound: Sound) -> float | None:
