@@ -28,6 +28,7 @@ BEGIN, STEP, KIND = range(3)  # columns of the times of a trail: t (s), dt (s), 
 SMALL_STEPS = 3  # of backward Euler after a sudden start, or where an end is let go
 RELEASE_STEPS = 8  # of backward Euler after a loop release
 CONTROLLED, EULER, RESTART = 0.0, 1.0, 2.0  # of Runge-Kutta, one-stage, backward Euler after a sudden start or release
+WIDTHS = {2: (6, 4), 3: (13, 6)}  # dimensions -> unknowns and conserved variables of a node
 STRETCH = 5  # column of the nodal array Q at which q = (1 + eps) t begins, in a plane and in space
 
 
@@ -108,6 +109,11 @@ STATE = np.dtype(
 def lengths_of(record: np.void, tables: np.ndarray) -> np.ndarray:
     """The element lengths (nodes - 1,), m, of a record."""
     return tables[record["grid_at"] :][: record["nodes"] - 1]
+
+
+def arc_lengths(record: np.void, tables: np.ndarray) -> np.ndarray:
+    """The unstretched arc length (nodes,), m, of every node of a record."""
+    return np.append(0.0, np.cumsum(lengths_of(record, tables)))
 
 
 def has_extras(record: np.void | np.dtype) -> bool:

@@ -90,7 +90,7 @@ def planar_guess(scene: Scene, line: Line) -> tuple[int, np.ndarray | None]:
     if azimuth:
         planar = planar.model_copy(update={"current": None})
     record, tables = parameters.numbers_of(planar)
-    code, Y = statics.static_equilibrium(record, planar, tables, np.array([flat[0], flat[2]]))
+    code, Y = statics.static_equilibrium(record, planar, tables)
     return code, lifted(Y, azimuth) if code == OK else None
 
 

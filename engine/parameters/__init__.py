@@ -62,9 +62,9 @@ def record_of(scene: Scene, tables: list[np.ndarray]) -> np.ndarray:
         tables.append(np.asarray(values, float).ravel())
         return at
 
-    h = grid(scene.tether.length_m, scene.tether.nodes, scene.tether.grid_stretching, scene.tether.grid_refined)
-    record["nodes"] = scene.tether.nodes
-    record["grid_at"] = place(h)
+    tether = scene.tether
+    h = grid(tether.length_m, tether.nodes, tether.grid_stretching, tether.grid_refined)
+    _fill(record, nodes=tether.nodes, grid_at=place(h))
     _tether(record, scene, place)
     _water(record, scene, place)
     _end(record, scene, place)
@@ -92,10 +92,10 @@ def _extras(record, scene):
         element = tether.length_m / (tether.nodes - 1)
         record["damping"] = tether.damping_critical * element * record["m"] * scales.fastest_wave(record, scene)
     if tether.froude_krylov == "whole":  # of R, what acts along the line too
-        record["pushed"], record["Rw"] = record["Rw"] - record["ma"], record["ma"]
-    record["surfaced"] = tether.submergence == "free-surface"
-    if record["surfaced"]:
-        record["buoyed"] = scene.water.density_kgpm3 * tether.area_m2 * scene.gravity_mps2
+        _fill(record, pushed=record["Rw"] - record["ma"], Rw=record["ma"])
+    if tether.submergence == "free-surface":
+        buoyed = scene.water.density_kgpm3 * tether.area_m2 * scene.gravity_mps2
+        _fill(record, surfaced=True, buoyed=buoyed)
     if floor is not None:
         stiffness, weight = floor.stiffness_Npm3 * tether.diameter_m, abs(record["w0"]) or record["m"]
         _fill(
@@ -154,9 +154,17 @@ def _water(record, scene, place):
         several = len(periods) > 1
         # of several waves the peak period, for what is measured in wave lengths; a sea of one wave is a regular wave
         period_s = wave.period_s if several else float(periods[0])
-        record["k"] = waves.wave_number(period_s, scene.water.depth_m, scene.gravity_mps2)
-        record["omega"], record["phase"], record["ramp"] = 2 * math.pi / period_s, phases[0], wave.ramp_s
-        record["waves"], record["amplitude"] = amplitudes.any(), 0.0 if several else amplitudes[0]
+        above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
+        _fill(
+            record,
+            k=waves.wave_number(period_s, scene.water.depth_m, scene.gravity_mps2),
+            omega=2 * math.pi / period_s,
+            phase=phases[0],
+            ramp=wave.ramp_s,
+            waves=amplitudes.any(),
+            amplitude=amplitudes[0],
+            above=above[wave.above_still_water],
+        )
         direction = float(directions[0])
         if codes.is_spatial(record):
             record["dir_x"], record["dir_y"] = sea.direction_of(direction)
@@ -164,9 +172,7 @@ def _water(record, scene, place):
             record["direction"] = math.cos(direction)  # 1 or -1: `scene.rules` allow no other in a plane
         if several:
             groups = sea.groups_of(scene)
-            record["sea_n"], record["sea_at"] = len(groups), place(groups)
-        above = {"extrapolate": codes.EXTRAPOLATE, "zero": codes.ZERO, "wheeler": codes.WHEELER}
-        record["above"] = above[wave.above_still_water]
+            _fill(record, amplitude=0.0, sea_n=len(groups), sea_at=place(groups))
     if current is not None:
         _current(record, current, place)
 
@@ -180,9 +186,15 @@ def _current(record, current, place):
         x, y, t = (0.0,), (0.0,), (0.0,)
         z = current.height_m if current.law == "profile" else (0.0,)
         u, v, w = np.reshape(np.transpose(current.velocity_mps), (3, 1, -1, 1))
-    record["current"] = any(component.any() for component in (u, v, w))
-    record["cur_nx"], record["cur_ny"], record["cur_nz"], record["cur_nt"] = len(x), len(y), len(z), len(t)
-    record["cur_at"] = place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)]))  # `physics.water`
+    _fill(
+        record,
+        current=u.any() or v.any() or w.any(),
+        cur_nx=len(x),
+        cur_ny=len(y),
+        cur_nz=len(z),
+        cur_nt=len(t),
+        cur_at=place(np.concatenate([np.ravel(part) for part in (x, y, z, t, u, v, w)])),  # `physics.water`
+    )
 
 
 def _put(record, name, vector):
@@ -194,8 +206,8 @@ def _put(record, name, vector):
 
 def _end(record, scene, place):
     end, buoy = scene.end, scene.buoy
-    record["end"] = {"buoy": codes.BUOY, "held": codes.HELD, "free": codes.FREE}[end.kind]
-    record["end_release"] = math.inf
+    kinds = {"buoy": codes.BUOY, "held": codes.HELD, "free": codes.FREE}
+    _fill(record, end=kinds[end.kind], end_release=math.inf)
     if end.kind == "free":
         _put(record, "end_", end.force_N)
         record["end_decay"] = end.force_decay_s or 0.0
@@ -230,13 +242,13 @@ def _held(record, end, place):
     if motion is None:
         return
     if motion.law == "table":
-        record["end_motion"], record["end_n"] = codes.TABLE, len(motion.time_s)
-        record["end_at"] = place(ends.table_of(motion.time_s, motion.displacement_m))
+        table = ends.table_of(motion.time_s, motion.displacement_m)
+        _fill(record, end_motion=codes.TABLE, end_n=len(motion.time_s), end_at=place(table))
         return
     shaken, R = motion.law == "harmonic", getattr(motion, "radius_m", 0.0)
     sine, cosine = (motion.amplitude_m, (0.0, 0.0, 0.0)) if shaken else ((0.0, 0.0, -R), (R, 0.0, 0.0))
-    record["end_motion"], omega = codes.HARMONIC, 2 * math.pi / motion.period_s
-    record["end_at"] = place([*sine, omega, motion.phase_rad, motion.ramp_s, *cosine])  # `physics.ends`
+    rows = [*sine, 2 * math.pi / motion.period_s, motion.phase_rad, motion.ramp_s, *cosine]  # `physics.ends`
+    _fill(record, end_motion=codes.HARMONIC, end_at=place(rows))
 
 
 def _turning(record, scene):
@@ -257,7 +269,7 @@ def _turning(record, scene):
     carried = lift.product(lift.shortest_rotation(way, above), lift.shortest_rotation(below, way))
     for i, part in enumerate(carried):
         record[f"carry{i}"] = part
-    record["twist"], record["twist_ramp"] = end.twist_rad or 0.0, end.twist_ramp_s or 0.0
+    _fill(record, twist=end.twist_rad or 0.0, twist_ramp=end.twist_ramp_s or 0.0)
 
 
 def _solver(record, scene, place, h):
@@ -274,23 +286,21 @@ def _solver(record, scene, place, h):
             order=min(method.ORDER, method.EMBEDDED_ORDER) + 1,
         )
     else:
-        record["method"] = codes.ONE_STAGE
-        record["alpha_m"], record["alpha_f"], record["gamma"] = method.alphas(solver.spectral_radius)
-    period = scene.waves.period_s if scene.waves is not None else None
+        alpha_m, alpha_f, gamma = method.alphas(solver.spectral_radius)
+        _fill(record, method=codes.ONE_STAGE, alpha_m=alpha_m, alpha_f=alpha_f, gamma=gamma)
     driven = [part.period_s for part in (scene.waves, scene.end.motion) if hasattr(part, "period_s")]
-    if solver.shock_viscosity is not None:
-        record["viscous"] = True
-        record["c_quadratic"], record["c_linear"] = solver.shock_viscosity.quadratic, solver.shock_viscosity.linear
+    shock = solver.shock_viscosity
+    if shock is not None:
+        _fill(record, viscous=True, c_quadratic=shock.quadratic, c_linear=shock.linear)
     begun = (*scene.start.buoy_velocity_mps, *scene.start.buoy_displacement_m)
     moving = scene.end.kind == "buoy" and any(begun)
     impulsive = record["waves"] and scene.waves.ramp_s == 0
     moved = record["end_motion"] != codes.STILL or bool(scene.end.twist_ramp_s)
-    output_step_s = scene.sample_step_s()
     _fill(
         record,
         phase_per_step=method.PHASE,
-        output_step=output_step_s,
-        profile_step=(scene.output.profiles_step_s or output_step_s) if scene.output.profiles else 0.0,
+        output_step=scene.sample_step_s(),
+        profile_step=scene.profile_step_s(),
         fixed_step=solver.step_s or (min(driven) / 400 if driven else 0.0125),
         max_step=min(scales.longest_steps(scene).values()),
         min_step=solver.min_step_s,
@@ -315,5 +325,5 @@ def _solver(record, scene, place, h):
     if solver.courant is not None:
         record["pace"] = solver.courant / scales.fastest_wave(record, scene)
         record["fixed_step"] = record["pace"] * float(h.min())
-    usual = period / 50 if period else 0.1
+    usual = 0.1 if scene.waves is None else scene.waves.period_s / 50
     record["window"] = min(solver.max_step_s, usual) if record["adaptive"] else record["fixed_step"]

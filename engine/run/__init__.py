@@ -24,7 +24,7 @@ from ..time.folds import FOLD
 from ..time.status import ADVICE, OK, WORDS
 from ..time.time_loop import march
 from ..trajectory import EnergyBudget, Profiles, Trajectory
-from ..trajectory.columns import columns_of, sample_count, statistics_of
+from ..trajectory.columns import EXTREMES, Columns, columns_of, sample_count, statistics_of
 from ..trajectory.excursions import named_end, with_excursions
 from ..trajectory.final_state import FinalState
 from .rest import Rest, largest_turn, rest_of
@@ -32,7 +32,6 @@ from .start import taken_over
 from .trust import doubts_of
 
 CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
-COUNTED = ("steps", "rejected_steps", "newton_iterations", "newton_failures", "loop_releases")  # since the first run
 
 
 class Run:
@@ -54,9 +53,9 @@ class Run:
         self.scene, self.duration_s = scene, duration_s
         self.started, self.began = taken_over(start, scene)
         self.record, self.tables = numbers_of(scene)
-        self.s = np.append(0.0, np.cumsum(col.lengths_of(self.record, self.tables)))
+        self.s = col.arc_lengths(self.record, self.tables)
         self.kind = spatial if scene.motion.dimensions == 3 else planar
-        n, (unknowns, conserved) = len(self.s), self.kind.size_of.py_func(None)
+        n, (unknowns, conserved) = len(self.s), col.WIDTHS[scene.motion.dimensions]
         self.goal = sample_count(duration_s, self.record["output_step"])
         self.profiled = sample_count(duration_s, self.record["profile_step"])
         self.output = Output(
@@ -74,9 +73,8 @@ class Run:
             self._begin_at_rest()
         else:
             self._go_on(self.started)
-        alphas = tuple(float(self.record[name]) for name in ("alpha_m", "alpha_f", "gamma"))
         self.parts = (
-            alphas if self.record["method"] == col.ONE_STAGE else None,
+            True if self.record["method"] == col.ONE_STAGE else None,
             np.empty(n) if self.record["viscous"] else None,
             (self.output.energies, self.output.sums) if scene.output.energy else None,
         )
@@ -120,11 +118,10 @@ class Run:
 
     def _go_on(self, start: FinalState) -> None:
         """Begin where another run ended."""
-        state, record = self.state, self.record
+        self.state, record = start.state(), self.record
+        state = self.state
         for part, values in zip(self.motion, (start.Y, start.Y_before, start.C, start.K), strict=True):
             part[:] = values
-        for name, number in zip(col.STATE.names, start.numbers, strict=True):
-            state[name] = number
         self._watch()
         for name, stored, first in (("samples", start.samples, "first"), ("profiles", start.profiles, "first_profile")):
             rows = getattr(self.output, name)
@@ -149,7 +146,7 @@ class Run:
             return None  # a step longer than any that was foreseen: what it passed is not known
         samples = self.output.samples[self.goal - 1 : int(state["samples"])]
         profiles = self.output.profiles[max(self.profiled - 1, 0) : int(state["profiles"])]
-        numbers = np.array([state[name] for name in col.STATE.names], dtype=float)
+        numbers = np.array(state.item(), dtype=float)
         arrays = [part.copy() for part in (*self.motion, samples, profiles)]
         return FinalState(self.scene, numbers, *arrays, *self.trail.state(state))
 
@@ -216,15 +213,15 @@ class Run:
         message = advice(self.state)
         return message if self.rest is None else message + self.rest.fault
 
-    def _statistics(self, columns: dict[str, np.ndarray]) -> dict[str, int | float]:
+    def _statistics(self, columns: Columns) -> dict[str, int | float]:
         """What this run has done, without the runs that it went on from."""
         statistics = statistics_of(self.state, self.wall_s)
         if self.state["ringing"] >= 0.0:  # listened to: not by undamped methods
             statistics["unresolved_ringing_N"] = float(columns["unresolved_N"].max(initial=self.state["ringing"]))
         if self.started is not None:
-            earlier = statistics_of(self.started.state(), 0.0)
-            for name in COUNTED:
-                statistics[name] -= earlier[name]
+            for name, earlier in statistics_of(self.started.state(), 0.0).items():
+                if name not in EXTREMES:
+                    statistics[name] -= earlier
         return statistics
 
     def _budget(self) -> EnergyBudget | None:

@@ -115,8 +115,7 @@ class Machine:
     def unload(self, b):
         """Take the run of a lane out, wherever it is."""
         run, self.runs[b] = self.runs[b], None
-        for name in STATE.names:
-            run.state[name] = self.states[b][name]
+        run.state = self.states[b].copy()
         lane = self.arrays
         for part, values in zip(run.motion, (lane.now, lane.before, lane.C, lane.Ks[0]), strict=True):
             part[:] = values[..., b]
@@ -180,36 +179,30 @@ def run_through(waiting, progress):
     Runs that are left in the lanes when the others have ended go on alone, with the same bits.
     progress: callable(seconds simulated of the runs that have not ended), called now and then.
     """
-    machine, requests = None, [None] * COUNT
+    machine, requests = None, {}  # lane -> Request of the run in it
     while True:
-        going = 0 if machine is None else sum(run is not None for run in machine.runs)
-        for b in range(COUNT):
-            while waiting and (machine is None or machine.runs[b] is None) and going + len(waiting) >= LEAST:
-                request = waiting.popleft()
-                run = Run(request.scene, request.duration_s, request.start)
-                if run.done():  # no equilibrium to start from
-                    yield request, run.trajectory()
-                    continue
-                if machine is None:
-                    machine = Machine(run)
-                    machine.compile()
-                machine.load(b, run)
-                requests[b] = request
-                going += 1
-        if going < LEAST:
-            for b in range(COUNT):
-                if machine is not None and machine.runs[b] is not None:
-                    run = machine.release(b)
-                    run.finish(progress)
-                    yield requests[b], run.trajectory()
+        while waiting and len(requests) < COUNT and len(requests) + len(waiting) >= LEAST:
+            request = waiting.popleft()
+            run = Run(request.scene, request.duration_s, request.start)
+            if run.done():  # no equilibrium to start from
+                yield request, run.trajectory()
+                continue
+            if machine is None:
+                machine = Machine(run)
+                machine.compile()
+            b = machine.runs.index(None)
+            machine.load(b, run)
+            requests[b] = request
+        if len(requests) < LEAST:
+            for b, request in requests.items():
+                run = machine.release(b)
+                run.finish(progress)
+                yield request, run.trajectory()
             return
         for b in machine.advance():
             run = machine.unload(b)
-            yield requests[b], run.trajectory()
-        progress(
-            sum(
-                float(state["samples"]) / run.goal * request.duration_s
-                for state, run, request in zip(machine.states, machine.runs, requests, strict=True)
-                if run is not None
-            )
-        )
+            yield requests.pop(b), run.trajectory()
+        simulated_s = 0.0
+        for b, request in requests.items():
+            simulated_s += float(machine.states[b]["samples"]) / machine.runs[b].goal * request.duration_s
+        progress(simulated_s)

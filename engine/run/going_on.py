@@ -128,9 +128,9 @@ def _reaching(Y: np.ndarray, shares: np.ndarray, place: np.ndarray) -> np.ndarra
 
 def _with_unknowns(state: FinalState, Y: np.ndarray) -> FinalState:
     """The state with these unknowns (n, 6 or 13), and the conserved variables that follow from them."""
-    velocity = slice(col.VX, col.PHI)
     if Y.shape[1] == 13:
-        velocity = slice(spatial_col.V, spatial_col.BETA)
         Y[:, lift.BETA] /= np.linalg.norm(Y[:, lift.BETA], axis=1, keepdims=True)
-    C = np.concatenate([lift.stretch_vectors(Y), Y[:, velocity]], axis=1)
+    q = lift.stretch_vectors(Y)
+    axes = q.shape[1]
+    C = np.concatenate([q, Y[:, axes : 2 * axes]], axis=1)  # the velocity has the same columns in Y and in C
     return replace(state, Y=Y, Y_before=Y.copy(), C=C, vectors=NONE, lateral=NONE, growth=NONE)

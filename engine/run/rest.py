@@ -1,7 +1,6 @@
 """Where a scene begins: the line at rest, its buoy displaced where the scene says so; and the static tension."""
 
 import math
-from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -9,12 +8,13 @@ import numpy as np
 from ..parameters import numbers_of
 from ..physics.strains import tension_at
 from ..planar.columns import EPS, PHI  # in space EPS is the same column
-from ..record import HELD, is_spatial, lengths_of
+from ..record import arc_lengths, is_spatial
 from ..scene.models import Scene
 from ..spatial import lift
 from ..time.held_start import held_away, why_not_held
 from ..time.statics import static_equilibrium, why_no_rest
 from ..time.status import OK, STATICS_FAILED, TURN_UNRESOLVED
+from ..trajectory.columns import Columns
 
 
 class Rest(NamedTuple):
@@ -38,11 +38,10 @@ def rest_of(scene: Scene) -> Rest:
     """The static equilibrium of a scene."""
     record, tables = numbers_of(scene)
     fault = why_no_rest
-    place = np.array(scene.end.position_m if record["end"] == HELD else (0.0, 0.0, 0.0))
-    status, Y = static_equilibrium(record, scene, tables, place if is_spatial(record) else place[[0, 2]])
+    status, Y = static_equilibrium(record, scene, tables)
     if status == OK and any(scene.start.buoy_displacement_m):
         fault = why_not_held
-        status, Y = held_away(scene, Y, np.append(0.0, np.cumsum(lengths_of(record, tables))))
+        status, Y = held_away(scene, Y, arc_lengths(record, tables))
     if not record["bent"] and not is_spatial(record):
         Y[:, PHI] = np.unwrap(Y[:, PHI])  # a whole turn in an element is none where nothing resists bending
     turn = largest_turn(Y)
@@ -57,7 +56,7 @@ def largest_turn(Y: np.ndarray) -> float:
     return float(np.abs(np.diff(Y[:, PHI])).max() if Y.shape[1] == 6 else lift.turns(Y).max())
 
 
-def static_tension_N(scene: Scene, columns: Mapping[str, np.ndarray]) -> float:
+def static_tension_N(scene: Scene, columns: Columns) -> float:
     """Tension at the top of the line at rest: of the first sample of a run that began so, else of the static start.
 
     columns: of a trajectory of the scene. NaN where the scene has no equilibrium. What a line without weight bears,

@@ -63,7 +63,7 @@ def taken_over(state: FinalState | None, scene: Scene) -> tuple[FinalState | Non
     if other_samples or "waves.period_s" in changed:
         words.append("the clock starts at 0")
         state = state.at_zero(with_samples=not other_samples)
-    if state.profile_step_s != replace(state, scene=scene).profile_step_s:
+    if state.scene.profile_step_s() != scene.profile_step_s():
         state = replace(state, profiles=NONE)
     if state.scene.motion.dimensions < scene.motion.dimensions:
         state = in_space(state, scene)

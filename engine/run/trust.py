@@ -10,12 +10,12 @@ from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_bey
 from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
 from ..physics.strains import tension_at
 from ..physics.waves import MOST_URSELL, breaking_steepness, ursell_number, wave_number
-from ..record import AT_Z, HELD, ONE_STAGE, TOP_HIGH, lengths_of
+from ..record import AT_Z, HELD, ONE_STAGE, lengths_of
 from ..scene.models import Output, Scene
 from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
 from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
-from ..trajectory.columns import columns_of
+from ..trajectory.columns import Columns, columns_of
 from .rest import rest_of, static_tension_N
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
 
-def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
+def doubts_of(run: "Run", columns: Columns) -> str:
     """What the user has to know of a run that came to its end, before using its numbers; empty where there is nothing.
 
     columns: of its trajectory.
@@ -53,14 +53,14 @@ def doubts_of(run: "Run", columns: dict[str, np.ndarray]) -> str:
         _pressed_together(run, columns),
         _coarse_grid(run, columns),
         _regular_waves(run),
-        _sea(run, columns),
+        *_sea(run, columns),
     ]
     if record["end"] == HELD:
         doubts.append(words_of_folds(scene, run.state, columns))
     return "; ".join(filter(None, doubts))
 
 
-def _coarse_at_rest(run: "Run") -> str:
+def _coarse_at_rest(run):
     """Says that a line which is bent at rest has another tension at the top on a finer grid, or nothing."""
     if run.rest is None or run.rest.turn < BENT:
         return ""
@@ -74,18 +74,18 @@ def _coarse_at_rest(run: "Run") -> str:
     )
 
 
-def _steps_too_long(run: "Run", columns: dict[str, np.ndarray]) -> str:
+def _steps_too_long(run, columns):
     """Says what steps twice as long do to the largest tension, of one-stage methods in steps of one length."""
     solver = run.scene.solver
     if run.record["method"] != ONE_STAGE or solver.courant is not None:
         return ""
     twice = run.scene.with_values("solver", step_s=2 * float(run.record["fixed_step"]))
-    longer = type(run)(twice, run.duration_s, run.started)
-    longer.advance(longer.goal)
-    largest_N = float(columns["tension_top_high_N"].max())
-    other_N = float(longer.output.samples[: longer.goal, TOP_HIGH].max())
+    longer = _columns_of_companion(run, twice)
+    if longer is None:
+        return ""
+    largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in (columns, longer))
     error_N = abs(other_N - largest_N) / (1 if solver.integrator == "backward-euler" else 3)  # 2^order - 1
-    if longer.state["status"] != OK or error_N <= NOTED * abs(largest_N):
+    if error_N <= NOTED * abs(largest_N):
         return ""
     return (
         f"the largest tension, {largest_N:.4g} N, holds to {error_N:.2g} N, because it is {other_N:.4g} N in steps "
@@ -93,7 +93,7 @@ def _steps_too_long(run: "Run", columns: dict[str, np.ndarray]) -> str:
     )
 
 
-def _waves_on_element(run: "Run") -> str:
+def _waves_on_element(run):
     """Says what the uppermost element takes for the force of waves that do not reach so far down, or nothing."""
     record = run.record
     length, top_m = float(lengths_of(record, run.tables)[-1]), run.output.samples[:1, AT_Z].sum()
@@ -104,7 +104,7 @@ def _waves_on_element(run: "Run") -> str:
     return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
 
 
-def _out_at_rest(run: "Run") -> str:
+def _out_at_rest(run):
     """Says that a buoy without a cap began at rest more than half out of still water, or nothing."""
     record, scene = run.record, run.scene
     moved = run.started is not None or any(scene.start.buoy_displacement_m)
@@ -114,7 +114,7 @@ def _out_at_rest(run: "Run") -> str:
     return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
 
-def _undamped(run: "Run", columns: dict[str, np.ndarray]) -> str:
+def _undamped(run, columns):
     """Says of a moored buoy that nothing calms the folds of its slack line, or nothing.
 
     On 21, 41 and 81 nodes the largest tensions of the shipped buoy without drag of the line differ by 4 % (kA = .03 and
@@ -131,7 +131,7 @@ def _undamped(run: "Run", columns: dict[str, np.ndarray]) -> str:
     )
 
 
-def _pressed_together(run: "Run", columns: dict[str, np.ndarray]) -> str:
+def _pressed_together(run, columns):
     """Says how far the largest tension holds where a line is pressed together and its elements cannot buckle.
 
     The fastest buckle under a force P is 2 pi sqrt(2 EI/P) long (Triantafyllou & Howell 1994). Shorter elements let the
@@ -151,7 +151,7 @@ def _pressed_together(run: "Run", columns: dict[str, np.ndarray]) -> str:
     )
 
 
-def _coarse_grid(run: "Run", columns: dict[str, np.ndarray]) -> str:
+def _coarse_grid(run, columns):
     """Says that half the elements give another largest tension or another slack fraction, or nothing.
 
     It costs half a run more, and is left out for a buoy in waves, whose runs campaigns refine (docs/trust.md).
@@ -177,21 +177,26 @@ def _coarse_grid(run: "Run", columns: dict[str, np.ndarray]) -> str:
     return f"on {nodes} nodes {' and '.join(sentences)}, so that the grid decides: add nodes until it no longer does"
 
 
-def _columns_on(run: "Run", nodes: int) -> dict[str, np.ndarray] | None:
+def _columns_on(run, nodes):
     """The columns of the same run on half the elements; None where it ends early."""
     scene, damping = run.scene, run.scene.tether.damping_critical
     if damping is not None:
         damping = damping / 2  # a share of that of an element: so the damping of the line stays the same
     coarse_scene = scene.with_values("tether", nodes=nodes, damping_critical=damping)
     coarse_scene = coarse_scene.model_copy(update={"output": Output(step_s=scene.output.step_s)})
-    coarser = type(run)(coarse_scene, run.duration_s)
-    coarser.finish(lambda simulated_s: None)
-    if coarser.state["status"] != OK:
+    return _columns_of_companion(run, coarse_scene)
+
+
+def _columns_of_companion(run, scene):
+    """The columns of the same run of another scene; None where it ends early."""
+    companion = type(run)(scene, run.duration_s, run.started)
+    companion.finish(lambda simulated_s: None)
+    if companion.state["status"] != OK:
         return None
-    return columns_of(coarser.output.samples[: coarser.goal], coarse_scene)
+    return columns_of(companion.output.samples[: companion.goal], scene)
 
 
-def _slack_share(scene: Scene, columns: dict[str, np.ndarray]) -> float:
+def _slack_share(scene, columns):
     """Share of the samples in which the top bears at most SLACK of its tension at rest; 0 where it bears none there."""
     rest_N = static_tension_N(scene, columns)
     if not rest_N > 0.0:  # NaN without an equilibrium
@@ -199,7 +204,7 @@ def _slack_share(scene: Scene, columns: dict[str, np.ndarray]) -> float:
     return float(np.mean(columns["tension_top_N"] <= SLACK * rest_N))
 
 
-def _regular_waves(run: "Run") -> str:
+def _regular_waves(run):
     """Says that regular waves would break, or are too long for their height to be linear, or nothing."""
     waves, water = run.scene.waves, run.scene.water
     if waves is None or waves.irregular:
@@ -219,24 +224,24 @@ def _regular_waves(run: "Run") -> str:
     return ""
 
 
-def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
+def _sea(run, columns):
     """Says of a sea what its laws do not cover: short or steep waves, extrapolated ones, too few for a long run."""
     scene = run.scene
     if not run.record["sea_n"]:
-        return ""
-    rows, sentences = rows_of(scene), []
+        return
+    rows = rows_of(scene)
     energy, omega = rows[:, AMPLITUDE] ** 2, np.sort(rows[:, OMEGA])
     if scene.buoy is not None:
         short = float(energy[rows[:, K] * scene.buoy.diameter_m > 1.0].sum() / energy.sum())
         if short > MUCH:
-            sentences.append(
+            yield (
                 f"{100 * short:.0f} % of the energy of the sea is in waves with k D > 1, shorter than six diameters of "
                 "the sphere: eq. (30) has no diffraction, and overstates their force"
             )
     waves, depth = scene.waves, scene.water.depth_m
     steepness = wave_number(waves.period_s, depth, scene.gravity_mps2) * math.sqrt(2.0 * energy.sum())
     if steepness > STEEPEST:
-        sentences.append(
+        yield (
             f"k H_s/2 = {steepness:.2g} of the sea is above {STEEPEST:.2g}, that of the steepest seas in nature: its "
             "higher waves would break"
         )
@@ -245,7 +250,7 @@ def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
         speed = rows[:, SPEED]
         faster = np.linalg.norm(speed * np.exp(rows[:, K] * above_m)) / np.linalg.norm(speed)
         if faster > FASTER:
-            sentences.append(
+            yield (
                 f"{above_m:.2g} m above still water, where the upper end was, extrapolated waves are {faster:.2g} "
                 "times as fast as at its level: waves.above_still_water = 'wheeler' or 'zero' bounds them"
             )
@@ -254,11 +259,10 @@ def _sea(run: "Run", columns: dict[str, np.ndarray]) -> str:
     spacing = (omega[-1] - omega[0]) / spacings if spacings else 0.0
     recurs_s = 2 * math.pi / spacing if spacing else math.inf
     if len(omega) >= MANY and run.duration_s > (1.0 if measured else RECURRENCES) * recurs_s:
-        sentences.append(
+        yield (
             f"the sea has {len(omega)} waves and {'repeats' if measured else 'nearly repeats its groups'} after some "
             f"{recurs_s:.4g} s: " + ("use a longer record" if measured else "give it more waves, or run several seeds")
         )
-    return "; ".join(sentences)
 
 
 def errors_of_ringing(record: np.void, scene: Scene, time_s: np.ndarray, lost_N: np.ndarray) -> np.ndarray:
@@ -277,7 +281,7 @@ def errors_of_ringing(record: np.void, scene: Scene, time_s: np.ndarray, lost_N:
         return 1 / (beta * time_s + np.minimum.accumulate(1 / lost_N - beta * time_s))
 
 
-def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[str, np.ndarray]) -> str:
+def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: Columns) -> str:
     """Says how far the largest tension holds where ringing was lost, and other and later ones; at most to itself."""
     time_s, high, lost_N = columns["time_s"], columns["tension_top_high_N"], columns["unresolved_N"]
     if not lost_N.any():
@@ -304,7 +308,7 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: dict[
     return f"{cause} not resolved by steps of up to {step_s:.2g} s: {holds}; lower {key}"
 
 
-def blows(record: np.void, scene: Scene, columns: dict[str, np.ndarray]) -> str:
+def blows(record: np.void, scene: Scene, columns: Columns) -> str:
     """Says where a held end is set in motion or stopped at once, if that makes the largest force.
 
     A jump of velocity v sends out a wave of the force v sqrt(m T'). Spread over longer than a wave takes along the line

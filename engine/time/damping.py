@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from ..compiled import by_kind, kernel
+from ..compiled import by_kind, kernel, of_extras
 from ..dimensions import conserved, last_strain
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
@@ -17,26 +17,14 @@ from ..record import TENSION
 from ..simd.elementary import within
 
 
-@kernel
-def _undamped(p):
-    return 0.0
-
-
-@kernel
-def _damped(p):
+@of_extras(otherwise=0.0)
+def damping_of(p):
+    """c (N s) of the line."""
     return p.damping
 
 
-damping_of = by_kind(_undamped, _undamped, extra=_damped)
-
-
-@kernel
-def _no_damping(p, weights, share, begin, end, row):
-    pass
-
-
-@kernel
-def _with_damping(p, weights, share, begin, end, row):
+@of_extras()
+def add_damping(p, weights, share, begin, end, row):
     """Add c e_t to the tensions of row (n, 6), at the instant of a step that weights tell; begin, end: (C, K)."""
     if p.damping == 0.0:
         return
@@ -48,9 +36,6 @@ def _with_damping(p, weights, share, begin, end, row):
             square += q * q
             stretching += q * ((1.0 - share) * K0[k, i] + share * K1[k, i])
         row[k, TENSION] += p.damping * stretching / math.sqrt(square)
-
-
-add_damping = by_kind(_no_damping, _no_damping, extra=_with_damping)
 
 
 @kernel
@@ -73,11 +58,8 @@ top_tension = by_kind(_of_strain, _of_strain, extra=_of_strain_and_rate)
 
 @kernel
 def _by_strains(p, tables, Ys, Ks):
-    low = high = Ys[1, Ys.shape[1] - 1, EPS]
-    for i in range(2, Ys.shape[0]):
-        top = Ys[i, Ys.shape[1] - 1, EPS]
-        low, high = min(low, top), max(high, top)
-    return tension(low, p, tables)[0], tension(high, p, tables)[0]
+    top = Ys[1:, Ys.shape[1] - 1, EPS]
+    return tension(top.min(), p, tables)[0], tension(top.max(), p, tables)[0]
 
 
 @kernel
@@ -94,16 +76,11 @@ def _by_stages(p, tables, Ys, Ks):
 stage_tensions = by_kind(_by_strains, _by_strains, extra=_by_stages)  # least and greatest at the upper end in a step
 
 
-@kernel
-def _stays(p, tables, strain, z, dt):
-    return 1.0
+@of_extras(otherwise=1.0)
+def left_after(p, tables, strain, z, dt):
+    """Share of a ringing that the damping of the line leaves after a step in which it turns by z = omega dt.
 
-
-@kernel
-def _dies_away(p, tables, strain, z, dt):
-    """exp(-zeta z), zeta = c omega/(2 T') of a motion that turns by z = omega dt."""
+    exp(-zeta z), zeta = c omega/(2 T').
+    """
     slope = max(tension(strain, p, tables)[1], 0.0)
     return math.exp(-0.5 * p.damping * z * z / max(slope * dt, 1e-300))
-
-
-left_after = by_kind(_stays, _stays, extra=_dies_away)  # share of a ringing that the damping of the line leaves

@@ -126,16 +126,16 @@ def add_powers(p, tables, dt, alphas, motion, C1, K1, Y, Q, sums):
             lift = 0.5 * p.w0 * (V[0, half - 1] + V[1, half - 1])
             sums[POWERS - SUMS] += h * (0.5 * (axial[0] + axial[1]) + kinetic + lift)
             if floored:
-                spring = 0.5 * h * (taken[0, 0] + taken[1, 0])
-                damper, rub = 0.5 * h * (taken[0, 1] + taken[1, 1]), 0.5 * h * (taken[0, 2] + taken[1, 2])
-                sums[POWERS - SUMS] += spring
-                sums[BED_DAMPING - SUMS] += damper
-                sums[FRICTION - SUMS] += rub
+                of_bed = 0.0
+                for i, column in enumerate((POWERS, BED_DAMPING, FRICTION)):
+                    power = 0.5 * h * (taken[0, i] + taken[1, i])
+                    sums[column - SUMS] += power
+                    of_bed += power
                 of_load = (bed[0, 0] + bed[1, 0]) * (V[0, 0] + V[1, 0])
                 of_load += (bed[0, 2] + bed[1, 2]) * (V[0, half - 1] + V[1, half - 1])
                 if half == 3:
                     of_load += (bed[0, 1] + bed[1, 1]) * (V[0, 1] + V[1, 1])
-                sums[SPACE - SUMS] += 0.25 * h * of_load - (spring + damper + rub)
+                sums[SPACE - SUMS] += 0.25 * h * of_load - of_bed
     last = (n - 1) % 2
     for i in range(half):
         sums[END_WORK - SUMS] += dt * N[last, i] * V[last, i]

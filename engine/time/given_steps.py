@@ -12,10 +12,9 @@ from ..arrays import Step, Trial
 from ..compiled import kernel
 from ..dimensions import largest_turn, release_loop, size_of, work_arrays
 from ..record import BEGIN, KIND, RELEASE_STEPS, RESTART, STEP
-from ..simd.elementary import copy_into
 from .status import OK, TURN_UNRESOLVED
 from .steps import runge_kutta_step
-from .time_loop import hold_turn, sample
+from .time_loop import accept, hold_turn, sample, store_step
 
 BEFORE_RELEASE = 0.9 * math.pi  # turn of an element: from here on its stiffness grows without bound until its release
 
@@ -29,7 +28,7 @@ def march_over(p, tables, state, steps, motion, output, trail):
     largest turn that no release has ended. Returns (code, steps taken): a code of Newton's method, or TURN_UNRESOLVED
     where a turn passes pi without a release, or is released below BEFORE_RELEASE.
     """
-    Y, Y_before, C, K = motion
+    Y, _, C, K = motion
     unknowns, size = size_of(p)
     work = work_arrays(p, p.nodes)
     trial = Trial(np.empty((p.stages, p.nodes, unknowns)), np.empty((p.stages, p.nodes, size)), np.empty_like(C))
@@ -53,14 +52,8 @@ def march_over(p, tables, state, steps, motion, output, trail):
         state.t = step.t
         begin, end = (C, K), (trial.C, trial.K[p.stages - 1])
         sample(p, tables, state, step.dt, not small, begin, end, trial.Y, output.samples, output.profiles)
-        trail.T[at, BEGIN], trail.T[at, STEP], trail.T[at, KIND] = step.t, step.dt, steps[at, KIND]
-        for i in range(p.stages):
-            copy_into(trail.Y[at, i], trial.Y[i])
-            copy_into(trail.K[at, i], trial.K[i])
-        copy_into(Y_before, Y)
-        copy_into(Y, trial.Y[p.stages - 1])
-        copy_into(K, trial.K[p.stages - 1])
-        copy_into(C, trial.C)
+        store_step(trail, at, step, steps[at, KIND], trial)
+        accept(motion, trial)
         dt_before = step.dt
         if small:
             state.small_steps -= 1

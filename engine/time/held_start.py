@@ -25,7 +25,7 @@ def held_away(scene: Scene, rest: np.ndarray, s: np.ndarray) -> tuple[int, np.nd
         return STATICS_FAILED, rest
     held = scene.model_copy(update={"end": End(kind="held", position_m=tuple(place)), "buoy": None})
     record, tables = parameters.numbers_of(held)
-    return static_equilibrium(record, held, tables, place[axes])
+    return static_equilibrium(record, held, tables)
 
 
 def why_not_held(record: np.void, scene: Scene) -> str:

@@ -58,9 +58,8 @@ def too_short(p, z, dt):
 
     Steps that resolve what the grid does not carry at the speed of waves keep its errors, which run ahead of a front.
     """
-    if p.all_waves:
-        if dispersed(p, z / dt) > LEFT_BEHIND:
-            return True
+    if p.all_waves and dispersed(p, z / dt) > LEFT_BEHIND:
+        return True
     return z * p.shortest > 2.0 * math.pi * dt
 
 
@@ -142,9 +141,7 @@ def near_stages(p, tables, Ys, row):
     if p.end == BUOY:
         return
     for k in range(row.shape[0]):
-        low = high = Ys[0, k, EPS]
-        for i in range(1, Ys.shape[0]):
-            low, high = min(low, Ys[i, k, EPS]), max(high, Ys[i, k, EPS])
+        low, high = Ys[:, k, EPS].min(), Ys[:, k, EPS].max()
         beyond = BEYOND * (high - low)
         eps = min(max(row[k, STRAIN], low - beyond), high + beyond)
         if eps != row[k, STRAIN]:

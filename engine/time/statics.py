@@ -16,9 +16,8 @@ from ..parameters.scales import buckling_load
 from ..physics.strains import strain_at, tension_at
 from ..planar import columns as col
 from ..planar import state as planar
-from ..record import BUOY, FREE, HELD, has_extras, is_spatial, lengths_of
+from ..record import BUOY, FREE, HELD, arc_lengths, has_extras, is_spatial, lengths_of
 from ..scene.models import Scene
-from ..spatial import columns as spatial_col
 from ..spatial import lift
 from ..spatial import state as spatial
 from .newton import newton
@@ -38,10 +37,8 @@ PRESSED = 10.0  # of weight and buckling load together: more compression than th
 SPANS = 0.95, 0.98, 0.8, 0.9, 0.7, LEANING  # shares of its length that a slack line under a floating buoy spans
 
 
-def static_equilibrium(
-    record: np.void, scene: Scene, tables: np.ndarray, target_m: np.ndarray
-) -> tuple[int, np.ndarray]:
-    """Static equilibrium of a scene: a status code and the state. Arguments as for `settle` and `first_guess`.
+def static_equilibrium(record: np.void, scene: Scene, tables: np.ndarray) -> tuple[int, np.ndarray]:
+    """Static equilibrium of a scene: a status code and the state. record, tables: parameters of the scene.
 
     Under a buoy that floats the line may stand upright, pressed together between buoy and anchor: a rest too, but one
     that buckles, or tips over about a pinned anchor where the line is too stiff to buckle, and Newton's method meets it
@@ -50,22 +47,21 @@ def static_equilibrium(
     line may be such a rest: there other beds to begin with are tried. A sphere that would stand in the air at rest with
     the buoyancy of one in the water has no rest.
     """
-    code, Y = _least_pressed(record, scene, tables, target_m)
+    code, Y = _least_pressed(record, scene, tables)
     if code == OK and record["end"] == BUOY and record["wet"] and not record["spherical_cap"]:
-        s = np.append(0.0, np.cumsum(lengths_of(record, tables)))
-        top_m = scene.anchor.position_m[2] + np.trapezoid(lift.stretch_vectors(Y)[:, -1], s)
+        top_m = scene.anchor.position_m[2] + np.trapezoid(lift.stretch_vectors(Y)[:, -1], arc_lengths(record, tables))
         code = IN_THE_AIR if top_m - record["D_buoy"] / 2 >= record["depth"] else OK
     return code, Y
 
 
-def _least_pressed(record, scene, tables, target_m):
+def _least_pressed(record, scene, tables):
     """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least."""
     h, best = lengths_of(record, tables), None
     weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
     capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])
     for span, sinking in product(SPANS if capped else SPANS[:1], SINKING if bedded else SINKING[:1]):
         Y = first_guess(record, scene, h, span)
-        code = _settle_on_bed(record, tables, Y, target_m, sinking)
+        code = _settle_on_bed(record, scene, tables, Y, sinking)
         if not (capped or bedded):
             return code, Y
         if code != OK and not bedded:
@@ -87,7 +83,7 @@ def _folded(Y):
     return bool(np.min(np.sum(q[1:] * q[:-1], axis=1)) < 0.0)
 
 
-def _settle_on_bed(record, tables, Y, target_m, sinking):
+def _settle_on_bed(record, scene, tables, Y, sinking):
     """As `settle`, with a bed: first one so soft that its line sinks into it, then stiffer ones."""
     soft = record.copy()
     if has_extras(record) and record["floored"]:
@@ -95,30 +91,32 @@ def _settle_on_bed(record, tables, Y, target_m, sinking):
         while softer > 1.0:
             soft["bed_stiffness"], soft["bed_onset"] = record["bed_stiffness"] / softer, record["bed_onset"] * softer
             trial = Y.copy()
-            if settle(soft, tables, trial, target_m) == OK:
+            if settle(soft, scene, tables, trial) == OK:
                 Y[:] = trial
             softer /= STIFFER
-    return settle(record, tables, Y, target_m)
+    return settle(record, scene, tables, Y)
 
 
-def settle(record: np.void, tables: np.ndarray, Y: np.ndarray, target_m: np.ndarray) -> int:
+def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> int:
     """Move the guess Y (n, 6 or 13) to static equilibrium, in place; the velocities come back as zero.
 
-    record: parameter record (not changed); target_m: (x, z) or (x, y, z) of a held end. Returns a status code. The
-    loop is Python: a score of Newton solves, and nothing more to compile.
+    record: parameter record (not changed). Returns a status code. The loop is Python: a score of Newton solves, and
+    nothing more to compile.
     """
     p = record.copy()
     space = is_spatial(p)
     work = (spatial if space else planar).work_arrays.py_func(p, int(p["nodes"]))
     C_tilde = work.C_tilde
     axes = ("end_x", "end_y", "end_z") if space else ("end_x", "end_z")
-    velocity = slice(spatial_col.V, spatial_col.BETA) if space else slice(col.VX, col.PHI)
+    velocity = slice(len(axes), 2 * len(axes))
     half = 0.5 * lengths_of(p, tables)[:, None]
     mu, turns, settled = FIRST, 0, None
     for _ in range(400):
         C_tilde[:, : len(axes)] = lift.stretch_vectors(Y)
         if p["end"] == HELD:
             q = C_tilde[:, : len(axes)]
+            x, y, z = scene.end.position_m
+            target_m = np.array((x, y, z) if space else (x, z))
             for axis, place in zip(axes, target_m - np.sum(half * (q[1:] + q[:-1]), axis=0), strict=True):
                 p[axis] = place
         trial = Y.copy()

@@ -199,17 +199,16 @@ def embedded_error(p, tables, dt, Ks, Q, d, errors):
 
 
 @kernel
-def one_stage_step(p, tables, step, alphas, max_iterations, motion, trial, work):
+def one_stage_step(p, tables, step, motion, trial, work):
     """A trial step of the generalized-alpha family (backward Euler and implicit midpoint included).
 
     With C_s the state and K_s the rates at the stage, t_n + alpha_f dt:
     K_s = c0 (C_s - C~), c0 = alpha_m/(alpha_f gamma dt), C~ = C_n + alpha_f dt (1 - gamma/alpha_m) K_n;
     C_(n+1) = C_n + (C_s - C_n)/alpha_f,  K_(n+1) = (K_s - (1 - alpha_m) K_n)/alpha_m.
-    alphas: (alpha_m, alpha_f, gamma); max_iterations: of Newton's method; step, motion, trial, work: as for
-    `runge_kutta_step`. Returns (code, Newton iterations).
+    step, motion, trial, work: as for `runge_kutta_step`. Returns (code, Newton iterations).
     """
     t, dt, dt_before, _ = step
-    alpha_m, alpha_f, gamma = alphas
+    alpha_m, alpha_f, gamma = p.alpha_m, p.alpha_f, p.gamma
     Y, Y_before, C, K = motion
     last = trial.Y.shape[0] - 1
     Y_new, K_new, C_new = trial.Y[last], trial.K[last], trial.C
@@ -228,7 +227,7 @@ def one_stage_step(p, tables, step, alphas, max_iterations, motion, trial, work)
             Y_new[k, i] = Y[k, i] + ratio * (Y[k, i] - Y_before[k, i])
     rate = alpha_m / (alpha_f * gamma * dt)
     stage = Stage(t + alpha_f * dt, 1.0, rate, rate)
-    code, used = newton(p, tables, stage, p.newton_tolerance, max_iterations, Y_new, work)
+    code, used = newton(p, tables, stage, p.newton_tolerance, p.max_newton, Y_new, work)
     if code != OK:
         return code, used
     for k in range(n):

@@ -52,9 +52,7 @@ def guard_turns(p, tables, state, Y):
     for _ in range(Y.shape[0]):
         turn, element = largest_turn(p, Y)
         watch_turn(state, turn)
-        if turn <= math.pi:
-            return OK, released
-        if state.turned != 0:
+        if turn <= math.pi or state.turned != 0:
             return OK, released
         if p.loop_release == 0 or state.releases >= p.max_releases:
             return TURN_UNRESOLVED, released
@@ -142,8 +140,8 @@ def next_step(p, state, code, released, error, longest):
         state.small_steps -= 1
         if state.small_steps == 0:
             state.turned = 0
-        if state.small_steps == 0 and p.adaptive == 0:
-            state.dt = p.fixed_step
+            if p.adaptive == 0:
+                state.dt = p.fixed_step
     elif p.adaptive:
         grow = GROW
         if state.cautious > 0:
@@ -166,6 +164,22 @@ def weights_within(hermite, theta, dt):
 
 
 @kernel
+def line_at(p, tables, since, dt, hermite, begin, end, Ys, row):
+    """The line `since` (s) after the begin of a step, as a profile: row (n, 6). Arguments as for `sample`.
+
+    Returns the velocity (3) of the upper end, and the largest distance of a node from the plane.
+    """
+    (C0, K0), (C1, K1) = begin, end
+    theta = since / dt
+    weights, share = weights_within(hermite, theta, dt), theta if hermite else 0.5
+    at_end = configuration(p, tables, weights, C0, K0, C1, K1, row)
+    if hermite and Ys is not None:
+        near_stages(p, tables, Ys, row)
+    add_damping(p, weights, share, begin, end, row)
+    return at_end
+
+
+@kernel
 def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
     """Store the samples and profiles that lie within the step from state.t to state.t + dt.
 
@@ -177,44 +191,48 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
     row = np.empty((n, col.PROFILE_WIDTH))
     while state.samples < samples.shape[0] and (state.first + state.samples) * p.output_step <= until:
         t = (state.first + state.samples) * p.output_step
-        theta = (t - state.t) / dt
-        weights, share = weights_within(hermite, theta, dt), theta if hermite else 0.5
         out = samples[state.samples]
-        out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = configuration(
-            p, tables, weights, C0, K0, C1, K1, row
+        out[col.AT_U], out[col.AT_V], out[col.AT_W], out[col.OFFPLANE] = line_at(
+            p, tables, t - state.t, dt, hermite, begin, end, Ys, row
         )
-        if hermite and Ys is not None:
-            near_stages(p, tables, Ys, row)
-        add_damping(p, weights, share, begin, end, row)
-        least, lowest = row[0, col.TENSION], row[0, col.PLACE + 2]
-        s, most, most_at = 0.0, row[0, col.TENSION], 0.0
-        for k in range(1, n):
-            s += tables[p.grid_at + k - 1]
-            if row[k, col.TENSION] > most:
-                most, most_at = row[k, col.TENSION], s
-            least = min(least, row[k, col.TENSION])
-            lowest = min(lowest, row[k, col.PLACE + 2])
         for i in range(3):
             out[col.AT_X + i] = row[n - 1, col.PLACE + i]
-        top = row[n - 1, col.TENSION]
-        out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
+        tensions = row[:, col.TENSION]
+        top, most_at = tensions[n - 1], tensions.argmax()
+        out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, tensions.min()
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
-        out[col.RELEASES], out[col.LOWEST], out[col.MISSED] = state.releases, lowest, max(state.ringing, 0.0)
-        out[col.FOOT], out[col.MOST], out[col.MOST_AT] = row[0, col.TENSION], most, most_at
+        out[col.RELEASES], out[col.MISSED] = state.releases, max(state.ringing, 0.0)
+        out[col.LOWEST] = row[:, col.PLACE + 2].min()
+        out[col.FOOT], out[col.MOST] = tensions[0], tensions[most_at]
+        out[col.MOST_AT] = tables[p.grid_at : p.grid_at + most_at].sum()
         state.ringing = min(state.ringing, 0.0)
         state.low, state.high = top, top
         state.samples += 1
     while state.profiles < profiles.shape[0] and (state.first_profile + state.profiles) * p.profile_step <= until:
         t = (state.first_profile + state.profiles) * p.profile_step
-        theta = (t - state.t) / dt
-        weights, share = weights_within(hermite, theta, dt), theta if hermite else 0.5
-        configuration(p, tables, weights, C0, K0, C1, K1, profiles[state.profiles])
-        if hermite and Ys is not None:
-            near_stages(p, tables, Ys, profiles[state.profiles])
-        add_damping(p, weights, share, begin, end, profiles[state.profiles])
+        line_at(p, tables, t - state.t, dt, hermite, begin, end, Ys, profiles[state.profiles])
         state.profiles += 1
     top = top_tension(p, tables, 1.0 if hermite else 0.5, C1, K0, K1)
     state.low, state.high = min(state.low, top), max(state.high, top)
+
+
+@kernel
+def store_step(trail, at, step, kind, trial):
+    """An accepted Step and its stages into row `at` of a Trail."""
+    trail.T[at, col.BEGIN], trail.T[at, col.STEP], trail.T[at, col.KIND] = step.t, step.dt, kind
+    for i in range(trial.Y.shape[0]):
+        copy_into(trail.Y[at, i], trial.Y[i])
+        copy_into(trail.K[at, i], trial.K[i])
+
+
+@kernel
+def accept(motion, trial):
+    """The last stage of a Trial becomes the state."""
+    last = trial.Y.shape[0] - 1
+    copy_into(motion.Y_before, motion.Y)
+    copy_into(motion.Y, trial.Y[last])
+    copy_into(motion.K, trial.K[last])
+    copy_into(motion.C, trial.C)
 
 
 @kernel
@@ -226,11 +244,11 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
     output: Output, columns of samples and profiles in `engine.record`; trail: Trail of accepted steps. An array without
     rows keeps nothing.
 
-    None where the scene does not need them, so that their kernels are not compiled for it: one_stage, the alphas of a
-    one-stage method; e_t (n,), work of the shock viscosity; budget, the energies and sums of Output (columns in
+    None where the scene does not need them, so that their kernels are not compiled for it: one_stage, True for
+    a one-stage method; e_t (n,), work of the shock viscosity; budget, the energies and sums of Output (columns in
     `engine.time.energy`), a row of which is stored at the first step past each output time.
     """
-    Y, Y_before, C, K = motion
+    Y, _, C, K = motion
     s = max(p.stages, 2)  # a one-stage method (p.stages = 0) fills the last of two
     unknowns, size = size_of(p)
     work = work_arrays(p, p.nodes)
@@ -259,7 +277,7 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
             code, used, error = runge_kutta_step(p, tables, step, motion, trial, work)
         if one_stage is not None:
             if not stiff:
-                code, used = one_stage_step(p, tables, step, one_stage, p.max_newton, motion, trial, work)
+                code, used = one_stage_step(p, tables, step, motion, trial, work)
         Y_new, K_new, jumps = trial.Y[s - 1], trial.K[s - 1], (0.0, 0.0)
         least, top = least_strain(Y_new), Y_new[p.nodes - 1, EPS]
         if code == OK and not small:
@@ -285,17 +303,10 @@ def march(p, tables, state, motion, output, trail, until, one_stage, e_t, budget
                 store_energies(p, tables, step.t + step.dt, trial.C, sums, energies[state.energies])
                 state.energies += 1
         if room > 0:
-            at, kind = state.trail, col.RESTART if small else col.CONTROLLED if stiff else col.EULER
-            trail.T[at, col.BEGIN], trail.T[at, col.STEP], trail.T[at, col.KIND] = step.t, step.dt, kind
-            for i in range(s):
-                copy_into(trail.Y[at, i], trial.Y[i])
-                copy_into(trail.K[at, i], trial.K[i])
+            kind = col.RESTART if small else col.CONTROLLED if stiff else col.EULER
+            store_step(trail, state.trail, step, kind, trial)
             state.trail += 1
-        # the trial becomes the state
-        copy_into(Y_before, Y)
-        copy_into(Y, Y_new)
-        copy_into(K, K_new)
-        copy_into(C, trial.C)
+        accept(motion, trial)
         step_done(p, state)
         state.min_strain = min(state.min_strain, least)
         code, released = guard_turns(p, tables, state, Y)

@@ -15,11 +15,11 @@ from engine.atomic import write_atomic
 from engine.scene.models import Scene
 
 from . import netcdf, stored
-from .columns import COLUMNS
+from .columns import COLUMNS, Columns
 from .final_state import FinalState
 from .joining import joined
+from .netcdf import TrajectoryError
 from .parts import EnergyBudget, Profiles, TangentGrowth
-from .stored import TrajectoryError
 
 if TYPE_CHECKING:
     import pandas
@@ -43,7 +43,7 @@ class Trajectory:
     scene: Scene
     status: str
     message: str
-    columns: dict[str, np.ndarray]
+    columns: Columns
     statistics: dict[str, int | float]
     profiles: Profiles | None = None
     tangent: TangentGrowth | None = None
@@ -75,7 +75,9 @@ class Trajectory:
 
     def __getitem__(self, column: str) -> np.ndarray:
         """The samples of a column, as run["tension_top_N"]. Raises ValueError with all names where there is none."""
-        return views.samples(self, column)
+        if column not in self.columns:
+            raise ValueError(f"no column {column!r}; allowed: {', '.join(self.columns)}")
+        return self.columns[column]
 
     # how one looks at a run: each of these takes the run and is described there
     plot, animate, snaps, extremes = views.plot, views.animate, views.snaps, views.extremes
@@ -117,7 +119,7 @@ class Trajectory:
         try:
             texts, arrays = netcdf.from_bytes(content, stored.TEXTS, stored.OPTIONAL_TEXTS, attributes)
             return Trajectory(**stored.fields_of(texts, arrays))
-        except (TrajectoryError, netcdf.DamagedError) as error:
+        except TrajectoryError as error:
             raise TrajectoryError(f"{name}: {error}") from None
         except Exception as error:  # a damaged header can make the reader fail in any way at all
             raise TrajectoryError(f"{name}: truncated, damaged, or not a netCDF-3 file ({error})") from None

@@ -1,9 +1,13 @@
 """Columns and statistics of a trajectory, and how they follow from the samples and the STATE of the kernels."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from .. import record as col
 from ..scene.models import Scene
+
+Columns = Mapping[str, np.ndarray]  # of a trajectory: a name of COLUMNS -> (n,) array, evenly sampled
 
 COLUMNS = {  # name -> (unit, long name), in the order of the table
     "time_s": ("s", "time"),
@@ -35,6 +39,8 @@ STATISTICS = {  # of a trajectory: the fields of STATE that they come from
     "steps": "steps", "rejected_steps": "rejected", "newton_iterations": "newton", "newton_failures": "failures",
     "loop_releases": "releases", "max_turn_rad": "max_turn", "min_strain": "min_strain", "end_time_s": "t",
 }  # fmt: skip
+# of runs that follow each other; all other statistics are sums
+EXTREMES = {"max_turn_rad": max, "end_time_s": max, "unresolved_ringing_N": max, "min_strain": min}
 
 
 def statistics_of(state: np.void, wall_s: float) -> dict[str, int | float]:
@@ -57,7 +63,7 @@ def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return x if heading == 0 else np.cos(heading) * x + np.sin(heading) * y
 
 
-def columns_of(samples: np.ndarray, scene: Scene) -> dict[str, np.ndarray]:
+def columns_of(samples: np.ndarray, scene: Scene) -> Columns:
     """The COLUMNS of a run of the scene, from its samples (n, SAMPLE_WIDTH) with the columns of `engine.record`.
 
     The angle from the vertical is taken in the plane of the waves, from place and rate in their direction.

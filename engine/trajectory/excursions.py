@@ -4,11 +4,12 @@ A sphere counts as in the air where its lowest point is above the linear wave: i
 above the water, and nothing of its constant buoyancy, eq. (30), is there. Less than that is a part of it.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 import numpy as np
 
 from ..scene.models import Scene
+from .columns import Columns
 
 AIR = (
     "the sphere was in the air for {share:.2g} % of the time from t = {first:.5g} to {last:.5g} s, its lowest point up "
@@ -21,7 +22,7 @@ BED = (
 )
 
 
-def with_excursions(own_message: str, scene: Scene, columns: Mapping[str, np.ndarray], status: str) -> tuple[str, str]:
+def with_excursions(own_message: str, scene: Scene, columns: Columns, status: str) -> tuple[str, str]:
     """The message of a run, and the part of it that tells where the run left the water or went below the bed.
 
     own_message: what the engine says of the run, "event" or "event: advice". A run that failed with its sphere in the
@@ -36,7 +37,7 @@ def with_excursions(own_message: str, scene: Scene, columns: Mapping[str, np.nda
     return "; ".join(filter(None, (own_message, excursions))), excursions
 
 
-def named_end(status: str, scene: Scene, columns: Mapping[str, np.ndarray]) -> str:
+def named_end(status: str, scene: Scene, columns: Columns) -> str:
     """The status of a run; `left-the-water` where the numerics failed in a sea with the sphere in the air.
 
     Up there it keeps all its buoyancy, and the first pull of the line after that means nothing.
@@ -47,7 +48,7 @@ def named_end(status: str, scene: Scene, columns: Mapping[str, np.ndarray]) -> s
     return "left-the-water" if height_above_wave(scene, columns)[-1] > 0.0 else status
 
 
-def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[str]:
+def excursions_of(scene: Scene, columns: Columns) -> Iterator[str]:
     """A sentence for each way in which a run left what its laws are made for."""
     time_s = columns["time_s"]
     if scene.water is None or not len(time_s):
@@ -64,7 +65,7 @@ def excursions_of(scene: Scene, columns: Mapping[str, np.ndarray]) -> Iterator[s
         yield BED.format(most=depth[buried].max(), first=time_s[buried][0])
 
 
-def height_above_wave(scene: Scene, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+def height_above_wave(scene: Scene, columns: Columns) -> np.ndarray:
     """Height (m) of the lowest point of a buoy without a cap above the linear wave at its place; -inf without one."""
     if scene.buoy is None or scene.buoy.submergence != "full":
         return np.full(len(columns["time_s"]), -np.inf)

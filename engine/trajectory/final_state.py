@@ -10,8 +10,9 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from ..record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME
+from ..record import RELEASES, SAMPLE_WIDTH, SMALL_STEPS, STATE, TIME, WIDTHS
 from ..scene.models import Scene
+from .netcdf import NamedArrays
 
 PREFIX = "final_"
 NONE = np.empty(0)
@@ -53,17 +54,12 @@ class FinalState:
 
     def state(self) -> np.void:
         """The numbers as a STATE."""
-        state = np.zeros(1, STATE)[0]
-        for name, number in zip(STATE.names, self.numbers, strict=True):
-            state[name] = number
-        return state
+        return np.array([tuple(self.numbers)], STATE)[0]
 
     def with_numbers(self, **changes: float) -> "FinalState":
         """The state with other values of some fields of STATE."""
-        numbers = self.numbers.copy()
-        for name, number in changes.items():
-            numbers[STATE.names.index(name)] = number
-        return replace(self, numbers=numbers)
+        numbers = dict(zip(STATE.names, self.numbers, strict=True)) | changes
+        return replace(self, numbers=np.array([*numbers.values()]))
 
     def restarted(self) -> "FinalState":
         """The state as after a sudden change: it goes on by small steps that need no rates and no state before."""
@@ -84,7 +80,8 @@ class FinalState:
             samples[:, TIME] = np.arange(len(samples)) * self.scene.sample_step_s()
             samples[:, RELEASES] -= self.samples[0, RELEASES]
             numbers = {"releases": state["releases"] - self.samples[0, RELEASES]}
-            first_profile_s = (state["first_profile"] + state["profiles"] - len(self.profiles)) * self.profile_step_s
+            first_profile = state["first_profile"] + state["profiles"] - len(self.profiles)
+            first_profile_s = first_profile * self.scene.profile_step_s()
             if abs(first_profile_s - begin_s) < 1e-9 * self.scene.sample_step_s():
                 profiles = self.profiles
         else:
@@ -95,12 +92,6 @@ class FinalState:
         counts = {"samples": len(samples), "profiles": len(profiles), "first": 0, "first_profile": 0}
         moved = self.with_numbers(**numbers, **counts)
         return replace(moved, samples=samples, profiles=profiles, growth=np.zeros_like(self.growth)).restarted()
-
-    @property
-    def profile_step_s(self) -> float:
-        """Step (s) of the profiles of its scene; 0 without."""
-        output = self.scene.output
-        return (output.profiles_step_s or self.scene.sample_step_s()) if output.profiles else 0.0
 
     def digest(self) -> str:
         """SHA-256 (hex) of its content, its scene included: equal states, equal digests, on any machine.
@@ -115,8 +106,8 @@ class FinalState:
 
     def fault(self) -> str:
         """Why no run can go on from it, as the end of a sentence; empty where one can."""
-        nodes, plane = self.scene.tether.nodes, self.scene.motion.dimensions == 2
-        unknowns, conserved = ((nodes, width) for width in ((6, 4) if plane else (13, 6)))
+        nodes = self.scene.tether.nodes
+        unknowns, conserved = ((nodes, width) for width in WIDTHS[self.scene.motion.dimensions])
         rows = max(self.samples.shape[0], 1) if self.samples.ndim else 1
         shapes = {"numbers": (len(STATE.names),), "samples": (rows, SAMPLE_WIDTH), "Y": unknowns, "Y_before": unknowns}
         for name, shape in (shapes | {"C": conserved, "K": conserved}).items():
@@ -142,7 +133,7 @@ class FinalState:
         return [(name, values) for name, values in arrays if values.size]
 
 
-def state_of_file(scene: Scene, arrays: dict[str, np.ndarray]) -> FinalState | None:
+def state_of_file(scene: Scene, arrays: NamedArrays) -> FinalState | None:
     """The state among the arrays of a file of that scene, or None."""
     if PREFIX + "Y" not in arrays:
         return None

@@ -5,14 +5,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .columns import COLUMNS, along_waves, heading_of
+from .columns import COLUMNS, EXTREMES, along_waves, heading_of
 from .excursions import with_excursions
 from .parts import Profiles, TangentGrowth
 
 if TYPE_CHECKING:
     from . import Trajectory
-
-EXTREMES = {"max_turn_rad": max, "end_time_s": max, "unresolved_ringing_N": max, "min_strain": min}  # others are sums
 
 
 def joined(earlier: "Trajectory", later: "Trajectory") -> "Trajectory":

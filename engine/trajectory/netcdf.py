@@ -11,15 +11,16 @@ import warnings
 import numpy as np
 
 DIGEST = "content_sha256"
+NamedArrays = dict[str, np.ndarray]  # variables of a file by name
 # One variable of a file: name, names of its dimensions, array of floats, unit, long name
 Variable = tuple[str, tuple[str, ...], np.ndarray, str, str]
 
 
-class DamagedError(ValueError):
-    """The content of a file is not what its digest says, or not a run."""
+class TrajectoryError(ValueError):
+    """A trajectory file that cannot be read: not there, truncated, damaged, or not one of ours."""
 
 
-def _digest(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> str:
+def _digest(texts: dict[str, str], arrays: NamedArrays) -> str:
     content = hashlib.sha256()
     for name, text in sorted(texts.items()):
         content.update(f"{name}={len(text.encode())}:{text}\n".encode())
@@ -59,10 +60,10 @@ def to_bytes(variables: list[Variable], texts: dict[str, str], attributes: dict[
 
 def from_bytes(
     content: bytes, names: tuple[str, ...], optional: tuple[str, ...] = (), attributes: dict[str, str] | None = None
-) -> tuple[dict[str, str], dict[str, np.ndarray]]:
+) -> tuple[dict[str, str], NamedArrays]:
     """(texts of these names, arrays) of a file, which need not have the optional ones. attributes: that it must have.
 
-    Raises DamagedError, or whatever a damaged header makes of it.
+    Raises TrajectoryError, or whatever a damaged header makes of it.
     """
     from scipy.io import netcdf_file
 
@@ -73,16 +74,16 @@ def from_bytes(
     texts = {name: _text(file, name) for name in (*names, *present)}
     arrays = {name: np.array(variable.data, dtype=np.float64) for name, variable in file.variables.items()}
     if _digest(texts, arrays) != _text(file, DIGEST):
-        raise DamagedError("damaged: the content does not match its own digest")
+        raise TrajectoryError("damaged: the content does not match its own digest")
     for name, wanted in (attributes or {}).items():
         text = _text(file, name)
         if text != wanted:
-            raise DamagedError(f"another run: its {name} is {text!r}")
+            raise TrajectoryError(f"another run: its {name} is {text!r}")
     return texts, arrays
 
 
 def _text(file: object, name: str) -> str:
     value = getattr(file, name, None)
     if not isinstance(value, bytes):
-        raise DamagedError(f"not a trajectory file: it has no attribute {name!r}")
+        raise TrajectoryError(f"not a trajectory file: it has no attribute {name!r}")
     return value.decode("utf-8")

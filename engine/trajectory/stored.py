@@ -11,6 +11,7 @@ from . import netcdf
 from .columns import COLUMNS
 from .excursions import excursions_of
 from .final_state import state_of_file
+from .netcdf import NamedArrays, TrajectoryError
 from .parts import EnergyBudget, Profiles, TangentGrowth
 
 if TYPE_CHECKING:
@@ -26,10 +27,6 @@ NOT_IN_OLDER_FILES = {  # columns that older files lack, and what is known of th
     "tension_max_N": np.nan,
     "tension_max_s_m": np.nan,
 }
-
-
-class TrajectoryError(ValueError):
-    """A trajectory file that cannot be read: not there, truncated, damaged, or not one of ours."""
 
 
 def texts_of(run: "Trajectory") -> dict[str, str]:
@@ -93,7 +90,7 @@ def _descriptions(part: type, prefix: str) -> dict[str, tuple[str, str, str]]:
     return {field: (field if field == "s_m" else prefix + field, *words) for field, words in about.items()}
 
 
-def fields_of(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> dict[str, object]:
+def fields_of(texts: dict[str, str], arrays: NamedArrays) -> dict[str, object]:
     """The fields of the Trajectory of which a file holds these texts and arrays. Raises TrajectoryError."""
     try:
         scene = scene_from_toml(texts["scene"])
@@ -121,7 +118,7 @@ def fields_of(texts: dict[str, str], arrays: dict[str, np.ndarray]) -> dict[str,
     }
 
 
-def _part_of(part: type, prefix: str, arrays: dict[str, np.ndarray]) -> Profiles | EnergyBudget:
+def _part_of(part: type, prefix: str, arrays: NamedArrays) -> Profiles | EnergyBudget:
     """A part of which a file holds these arrays; what is empty is not there."""
     no_rows = np.empty((0, len(arrays.get("s_m", ()))))
     values = {}
@@ -131,7 +128,7 @@ def _part_of(part: type, prefix: str, arrays: dict[str, np.ndarray]) -> Profiles
     return part(**values)
 
 
-def _growth_of(scene: Scene, arrays: dict[str, np.ndarray]) -> TangentGrowth | None:
+def _growth_of(scene: Scene, arrays: NamedArrays) -> TangentGrowth | None:
     """What a file holds of perturbations; empty arrays for a run that ended before its first period did."""
     count, sideways = scene.output.tangent_vectors, scene.output.lateral_growth
     if not (count or sideways):
