@@ -8,16 +8,12 @@ from collections import namedtuple
 
 import numpy as np
 
-from ..arrays import Work
 from ..compiled import kernel
-from ..physics import sea_series
-from ..planar import columns as col
-from ..planar.extras import node_width
 from ..record import BEGIN, KIND, STEP
 from ..simd.elementary import copy_into
 from ..simd.vector import COUNT, as_lanes, lane_zeros
 from ..time.steps import known_part, plan_stage
-from .tangent import Base, Water, linearise, tangent_stage, water_moves
+from .tangent import Base, linearise, tangent_arrays, tangent_stage, water_moves
 
 # COUNT perturbations, COUNT the last axis: C, K (n, 4), conserved variables and rates; work: C_tilde, C_new (n, 4),
 # rates Ks (s, n, 4) of the stages of a step, known (n, 3) as in `tangent_stage`
@@ -28,16 +24,7 @@ Abreast = namedtuple("Abreast", "C K C_tilde C_new Ks known")
 def _carry_abreast(p, tables, count, trail, in_lanes):
     """Carry what an Abreast holds through the first `count` steps of a Trail."""
     s, n = trail.Y.shape[1], trail.Y.shape[2]
-    work = Work(
-        np.zeros((n, 2)),
-        np.zeros((n, 4)),
-        np.zeros((n, node_width(p))),
-        np.zeros((n, col.WITH_INVERSE)),
-        np.zeros((n, 6)),
-        np.zeros((n, 4)),
-        np.zeros((n + 1, sea_series.WIDTH)),
-    )
-    water, moving_water = Water(np.zeros((n, 8)), np.zeros((n, 4))), water_moves(p)
+    (work, water), moving_water = tangent_arrays(p, n), water_moves(p)
     a, w = np.empty(s), np.empty(3)
     perturbed = as_lanes(in_lanes)
     for step in range(count):

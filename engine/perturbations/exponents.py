@@ -5,20 +5,17 @@ In the paper: eq. (32) Lyapunov exponent.
 
 import numpy as np
 
-from ..arrays import Trail, Work
+from ..arrays import Trail
 from ..compiled import kernel
 from ..dimensions import shape
-from ..physics import sea_series
 from ..physics.sea_series import forget
 from ..physics.water import water as flow
-from ..planar import columns as col
-from ..planar.extras import node_width
-from ..record import BEGIN, KIND, RESTART, STEP
+from ..record import BEGIN, KIND, RESTART, STEP, WIDTHS
 from ..simd.elementary import copy_into
 from ..time.steps import known_part, plan_stage, stage_rate
 from ..trajectory.parts import TangentGrowth
 from .lateral import COEFFICIENTS, WIDTH, energy_weights, lateral_stage, normalise
-from .tangent import Base, Water, linearise, orthonormalise, period_of, tangent_stage, water_moves
+from .tangent import Base, linearise, orthonormalise, period_of, tangent_arrays, tangent_stage, water_moves
 
 STEPS = 200  # of the trail before it is followed: 4 MB at 41 nodes, 21 MB of eight runs in lanes
 SEED = 20  # of the first perturbations: any will do, they turn to the fastest growth by themselves
@@ -34,15 +31,12 @@ def carry(p, tables, period, count, trail, tangent, across):
     (the last, beyond the end).
     """
     s, n = trail.Y.shape[1], trail.Y.shape[2]
-    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
-    sea = np.zeros((n + 1, sea_series.WIDTH))
+    work, water = tangent_arrays(p, n)
     a, w = np.empty(s), np.empty(3)
     moving_water = water_moves(p)
     if tangent is not None:
         vectors, rates, growth = tangent
         number = vectors.shape[0]
-        work = Work(X, F, Q, np.zeros((n, col.WITH_INVERSE)), np.zeros((n, 6)), np.zeros((n, 4)), sea)
-        water = Water(np.zeros((n, 8)), np.zeros((n, 4)))
         dKs, dC_tilde, dC = np.zeros((number, s, n, 4)), np.zeros((n, 4)), np.zeros((n, 4))
         lengths, known_of_box = np.empty(number), np.zeros((n, 3))
     if across is not None:
@@ -56,7 +50,7 @@ def carry(p, tables, period, count, trail, tangent, across):
                 copy_into(dKs[v, 0], rates[v])
         if across is not None:
             copy_into(dK[0], vector_rates)
-        forget(sea)
+        forget(work.sea)
         for i in range(s - 1 if euler else 1, s):
             rate, delay = plan_stage(p, tables, i, euler, dt, 0.0, a, w)  # 0.0 and w: of a first guess, not used
             so_far = 0 if euler else i
@@ -70,11 +64,11 @@ def carry(p, tables, period, count, trail, tangent, across):
                         copy_into(vectors[v], dC)
                         copy_into(rates[v], dKs[v, i])
             else:
-                shape(p, tables, base.Y, Q, X)
-                flow(p, tables, base.t, 1.0, X, F, sea)
+                shape(p, tables, base.Y, work.Q, work.X)
+                flow(p, tables, base.t, 1.0, work.X, work.F, work.sea)
             if across is not None:
                 known_part(a, so_far, vector, dK, known)
-                lateral_stage(p, tables, base, X, Q, F, known, H, E, dC_y)
+                lateral_stage(p, tables, base, work.X, work.Q, work.F, known, H, E, dC_y)
                 stage_rate(rate, dC_y, known, dK[i])
         if tangent is not None:
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)
@@ -95,7 +89,7 @@ class Followed:
         self.count, self.sideways = scene.output.tangent_vectors, scene.output.lateral_growth
         self.followed = self.count > 0 or self.sideways
         room = STEPS if self.followed else 0
-        unknowns, conserved = (6, 4) if scene.motion.dimensions == 2 else (13, 6)
+        unknowns, conserved = WIDTHS[scene.motion.dimensions]
         self.steps = Trail(np.zeros((room, 3)), np.zeros((room, s, n, unknowns)), np.zeros((room, s, n, conserved)))
         self.period_s = scene.waves.period_s if scene.waves is not None else 1.0
         if not self.followed:

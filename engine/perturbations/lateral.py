@@ -61,12 +61,12 @@ from ..planar.extras import (
 from ..record import BUOY, HELD, lengths_of
 from ..simd.elementary import sincos, small_sincos
 from ..simd.select import every, larger, where
-from ..spatial.vectors import put_rows
+from ..spatial.vectors import dot, mixed, put, put_rows, rows_of, times, vector
 from .tangent import to_length_one
 
 # Columns of H: `engine.planar.extras`
 COEFFICIENTS = 10
-P, P_KNOWN, R, R_KNOWN, WIDTH = 0, 4, 6, 12, 15  # columns of E: P (2 x 2), p (2), R (3 x 2), r (3)
+P, R, WIDTH = 0, 6, 15  # columns of E, in rows of three: (P, p), two rows of y, and (R, r), three of v
 QY, VY = 0, 1  # columns of dC, dK
 
 
@@ -124,6 +124,13 @@ _lateral_end = by_kind(_upper_end, _upper_end, _buoy_end)
 
 
 @kernel
+def _in_above(X0, X1, x, P0, P1):
+    """A row of v_b = X y_a + x in y_b, with both rows (P, p) of y_a = P y_b + p."""
+    by_tau, by_shear, known = mixed(X0, P0, X1, P1)
+    return by_tau, by_shear, known + x
+
+
+@kernel
 def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     """dC (n, 2) = (q_y, V_y) of one stage, q_y,t = rate (q_y - q~_y) and V_y,t likewise, from dC_tilde (n, 2).
 
@@ -169,15 +176,15 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
         g0 = below_r * r2 - above_r * x2 + Ja * r0 + Jb * x0 - inertia * known
         g1 = -p.EI * (x1 - r1)
         d = 1.0 / (A00 * A11 - A01 * A10)
-        P00, P01 = d * (A01 * B10 - A11 * B00), d * (A11 + A01 * B11)
-        P10, P11 = d * (A10 * B00 - A00 * B10), -d * (A10 + A00 * B11)
-        p0, p1 = d * (A11 * g0 - A01 * g1), d * (A00 * g1 - A10 * g0)
-        R00, R01, r0 = X00 * P00 + X01 * P10 + bt, X00 * P01 + X01 * P11, X00 * p0 + X01 * p1 + x0
-        R10, R11, r1 = X10 * P00 + X11 * P10 + f, X10 * P01 + X11 * P11, X10 * p0 + X11 * p1 + x1
-        R20, R21, r2 = X20 * P00 + X21 * P10, X20 * P01 + X21 * P11, X20 * p0 + X21 * p1 + x2
-        row = E[k]
-        row[P], row[P + 1], row[P + 2], row[P + 3], row[P_KNOWN], row[P_KNOWN + 1] = P00, P01, P10, P11, p0, p1
-        put_rows(row, R, ((R00, R01, R10), (R11, R20, R21), (r0, r1, r2)))  # nine in a row: R (3 x 2), then r
+        P0 = d * (A01 * B10 - A11 * B00), d * (A11 + A01 * B11), d * (A11 * g0 - A01 * g1)
+        P1 = d * (A10 * B00 - A00 * B10), -d * (A10 + A00 * B11), d * (A00 * g1 - A10 * g0)
+        R00, R01, r0 = _in_above(X00, X01, x0, P0, P1)
+        R10, R11, r1 = _in_above(X10, X11, x1, P0, P1)
+        R20, R21, r2 = _in_above(X20, X21, x2, P0, P1)
+        R00, R10 = R00 + bt, R10 + f
+        put(E[k], P, P0)
+        put(E[k], P + 3, P1)
+        put_rows(E[k], R, ((R00, R01, r0), (R10, R11, r1), (R20, R21, r2)))
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:
@@ -187,15 +194,11 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     A01 = of_N * (H[b, N_RHO] * R21 - 1.0) + of_V * R01
     g0 = -known - of_N * H[b, N_RHO] * r2 - of_V * r0
     d = 1.0 / (A00 * R11 - A01 * R10)
-    tau, Sb = d * (R11 * g0 + A01 * r1), -d * (A00 * r1 + R10 * g0)
+    y = d * (R11 * g0 + A01 * r1), -d * (A00 * r1 + R10 * g0), 1.0  # 1.0: for the known parts
     for k in range(n - 1, -1, -1):
-        rho = E[k, R + 4] * tau + E[k, R + 5] * Sb + E[k, R_KNOWN + 2]
-        dC[k, QY] = H[k, Q_TAU] * tau + H[k, Q_RHO] * rho
-        dC[k, VY] = E[k, R] * tau + E[k, R + 1] * Sb + E[k, R_KNOWN]
-        tau, Sb = (
-            E[k, P] * tau + E[k, P + 1] * Sb + E[k, P_KNOWN],
-            E[k, P + 2] * tau + E[k, P + 3] * Sb + E[k, P_KNOWN + 1],
-        )
+        dC[k, VY], _, rho = times(rows_of(E[k], R), y)
+        dC[k, QY] = H[k, Q_TAU] * y[0] + H[k, Q_RHO] * rho
+        y = dot(vector(E[k], P), y), dot(vector(E[k], P + 3), y), 1.0
 
 
 def energy_weights(p: np.void, tables: np.ndarray) -> np.ndarray:

@@ -26,15 +26,18 @@ periods in which one happens are marked, because another shape of the tether is 
 import math
 from collections import namedtuple
 
-from ..arrays import Stage
+import numpy as np
+
+from ..arrays import Stage, Work
 from ..compiled import kernel
 from ..dimensions import eliminate, node_quantities, shape
+from ..physics import sea_series
 from ..physics.submergence import change_of_cap
 from ..physics.water import water as flow
 from ..physics.water import water_and_slopes
 from ..planar import columns as col
 from ..planar.elimination import inertia_of_box
-from ..planar.extras import beside_drag, known_end, known_force, push_by_place
+from ..planar.extras import beside_drag, known_end, known_force, node_width, push_by_place
 from ..record import BUOY
 from ..simd.select import where
 from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vector
@@ -44,6 +47,14 @@ from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vect
 Base = namedtuple("Base", "t rate moving_water Y K")
 # What the water does at the nodes: J (n, 8), dF/dx (4) and dF/dz (4); drag (n, 4), xx, xz, zx, zz of -dG/dU_w
 Water = namedtuple("Water", "J drag")
+
+
+@kernel
+def tangent_arrays(p, n):
+    """Work with room for what `linearise` eliminates, and Water, of n nodes."""
+    X, F, Q = np.zeros((n, 2)), np.zeros((n, 4)), np.zeros((n, node_width(p)))
+    E, sea = np.zeros((n, col.WITH_INVERSE)), np.zeros((n + 1, sea_series.WIDTH))
+    return Work(X, F, Q, E, np.zeros((n, 6)), np.zeros((n, 4)), sea), Water(np.zeros((n, 8)), np.zeros((n, 4)))
 
 
 @kernel
