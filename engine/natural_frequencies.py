@@ -58,14 +58,19 @@ def stiffness_N(scene, strain: float) -> float:
     return (tension_at(strain + _STEP, law) - tension_at(strain - _STEP, law)) / (2.0 * _STEP)
 
 
+def _stiffness_under(scene, static_N: float) -> float:
+    """Slope f' (N) at the strain under a tension."""
+    from engine.physics.strains import strain_at
+
+    return stiffness_N(scene, strain_at(static_N, scene.tether.tension))
+
+
 def axial_period_s(scene, static_N: float) -> float:
     """Longest period (s) of axial ringing of the line at a tension: 2 l/c, c = sqrt(f'/m) in unstretched length.
 
     m is the mass per length. 0 where the law has no stiffness there.
     """
-    from engine.physics.strains import strain_at
-
-    slope, tether = stiffness_N(scene, strain_at(static_N, scene.tether.tension)), scene.tether
+    slope, tether = _stiffness_under(scene, static_N), scene.tether
     if slope <= 0.0:
         return 0.0
     return 2.0 * tether.length_m * math.sqrt(tether.density_kgpm3 * tether.area_m2 / slope)
@@ -76,9 +81,7 @@ def impact_Nspm(scene, static_N: float) -> float | None:
 
     None without a buoy, and where the law has no stiffness there.
     """
-    from engine.physics.strains import strain_at
-
-    slope = stiffness_N(scene, strain_at(static_N, scene.tether.tension))
+    slope = _stiffness_under(scene, static_N)
     if scene.buoy is None or slope <= 0.0:
         return None
     return math.sqrt(slope / scene.tether.length_m * (scene.buoy.mass_kg + scene.buoy.added_mass_kg))

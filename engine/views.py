@@ -31,6 +31,11 @@ STROBE_TOLERANCE = 0.01
 LAST_PERIODS = 12  # drawn larger
 NEEDED = 50  # periods that leave 32 after the transient, which `analysis.tangent_lyapunov` needs
 LEAST_SHOWN = 0.01  # of the range of a run: a section of a periodic motion is a dot, and not its rounding enlarged
+PANELS = {  # of a figure over time -> the column that it shows, and its title
+    "tension": ("tension_top_N", "tension at the upper end (N)"),
+    "radius": ("radius_m", "distance r from the anchor (m)"),
+    "angle": ("angle_rad", "angle θ from the vertical (rad)"),
+}
 WHOLE_WINDOW = 12  # periods of a spectrum are a multiple of it: motions of period 2, 3, 4 and 6 then do not leak
 
 
@@ -43,6 +48,11 @@ def carries_tangents(scene: "Scene") -> bool:
     """Whether the engine can carry perturbations through this scene, for exponents and a verdict on its regime."""
     implicit = scene.solver.integrator in ("esdirk43", "trbdf2")
     return implicit and scene.tether.bending_stiffness_Nm2 > 0 and scene.motion.dimensions == 2
+
+
+def _can_be_judged(run: "Trajectory") -> bool:
+    """Whether the run has a `verdict`."""
+    return run.status == "ok" and in_regular_waves(run.scene)
 
 
 def carried(run: "Trajectory") -> bool:
@@ -121,7 +131,7 @@ def spectrum(run: "Trajectory", column: str = "radius_m", transient_periods: int
     if first >= periods:
         raise ValueError(f"transient_periods: given {first}; allowed: less than the {periods} periods of the run")
     length = (periods - first) // WHOLE_WINDOW * WHOLE_WINDOW or periods - first
-    return spectrum_of(samples(run, column), step_s, period_s, periods - length, length)
+    return spectrum_of(run[column], step_s, period_s, periods - length, length)
 
 
 def section(
@@ -133,7 +143,7 @@ def section(
     """Columns of the table once per period after the transient, its first third (`analysis.poincare_section`)."""
     from analysis import poincare_section
 
-    shown = {name: samples(run, name) for name in ([columns] if isinstance(columns, str) else columns)}
+    shown = {name: run[name] for name in ([columns] if isinstance(columns, str) else columns)}
     return poincare_section(shown, *_forcing(run), phase, _transient(run, transient_periods))
 
 
@@ -149,7 +159,7 @@ def exponent(run: "Trajectory", transient_periods: int | None = None) -> "Expone
     from analysis.tangent_growth import turned
 
     (step_s, period_s), first = _forcing(run), _transient(run, transient_periods)
-    if transient_periods is None and run.status == "ok" and in_regular_waves(run.scene):
+    if transient_periods is None and _can_be_judged(run):
         first = verdict(run).transient or first
     last = _periods(run)
     if carried(run):
@@ -199,14 +209,15 @@ def look_after(periods: int) -> int:
 
 def facts(run: "Trajectory") -> dict[str, str]:
     """What a run did, in words: the name of a fact -> its text; extremes of all of it, and after its beginning."""
-    waves, end_s = run.scene.waves, float(run.columns["time_s"][-1]) if len(run.columns["time_s"]) else 0.0
+    time_s, waves = run.columns["time_s"], run.scene.waves
+    end_s = float(time_s[-1]) if len(time_s) else 0.0
     length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.4g} s"
     texts = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
     if run.message:
         texts["message"] = run.message
     if run.began:
         texts["began"] = run.began
-    if len(run.columns["time_s"]) > 3:
+    if len(time_s) > 3:
         texts["radius"] = _in_words(run, "radius_m", "m")
         texts["tension"] = _in_words(run, "tension_top_N", "N at the top")
         breaking_N = run.scene.tether.breaking_load_N
@@ -217,7 +228,7 @@ def facts(run: "Trajectory") -> dict[str, str]:
     loops = run.statistics.get("loop_releases")
     if loops:
         texts["loops"] = f"{loops} released, because a plane cannot open them; in motion.dimensions = 3 they open"
-    if run.status == "ok" and in_regular_waves(run.scene):
+    if _can_be_judged(run):
         if carried(run):
             texts["exponent"] = str(exponent(run))
         texts["verdict"] = str(verdict(run))
@@ -398,26 +409,24 @@ def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes
 
     look = {"linewidth": 0.6, "rasterized": True}  # thousands of strokes
     time, unit, parts = run.columns["time_s"], "t (s)", {"": slice(None)}
-    rows = [["tension", "path"], ["radius", "path"], ["angle", "path"]]
-    sound = all(np.isfinite(run.columns[name]).all() for name in ("radius_m", "angle_rad", "tension_top_N"))
+    rows = [[name, "path"] for name in PANELS]
+    sound = all(np.isfinite(run.columns[column]).all() for column, _ in PANELS.values())
     forced = sound and _forced(run.scene) is not None and _periods(run) > 1
     if forced:
         period_s = _forcing(run)[1]
         time, unit = time / period_s, "t/T (forcing periods)"
         parts["last "] = time >= time[-1] - LAST_PERIODS
-        rows = [[name, f"last {name}"] for name in ("tension", "radius", "angle")] + [["section", "spectrum"]]
+        rows = [*([name, f"last {name}"] for name in PANELS), ["section", "spectrum"]]
     figure = (pyplot.figure if path is None else Figure)(figsize=(10.0, 2.5 * len(rows)), layout="constrained")
     axes = figure.subplot_mosaic(rows)
     for prefix, part in parts.items():
         span = f", last {LAST_PERIODS} periods" if prefix else ""
-        low, high, top = (run.columns[f"tension_top{kind}_N"][part] for kind in ("_low", "_high", ""))
+        low, high = run["tension_top_low_N"][part], run["tension_top_high_N"][part]
         axes[f"{prefix}tension"].fill_between(time[part], low, high, alpha=0.35, linewidth=0, rasterized=True)
-        axes[f"{prefix}tension"].plot(time[part], top, **look)
-        axes[f"{prefix}tension"].set(title=f"tension at the upper end (N){span}")
-        axes[f"{prefix}radius"].plot(time[part], run.columns["radius_m"][part], **look)
-        axes[f"{prefix}radius"].set(title=f"distance r from the anchor (m){span}")
-        axes[f"{prefix}angle"].plot(time[part], run.columns["angle_rad"][part], **look)
-        axes[f"{prefix}angle"].set(xlabel=unit, title=f"angle θ from the vertical (rad){span}")
+        for name, (column, title) in PANELS.items():
+            axes[f"{prefix}{name}"].plot(time[part], run[column][part], **look)
+            axes[f"{prefix}{name}"].set(title=f"{title}{span}")
+        axes[f"{prefix}angle"].set(xlabel=unit)
     if forced:
         points, lines = run.section().points, run.spectrum()
         axes["section"].plot(*points.T, ".", markersize=3)
@@ -434,8 +443,7 @@ def plot(run: "Trajectory", path: "str | Path | None" = None) -> "dict[str, Axes
     for panel in axes.values():
         if panel.get_yscale() == "linear":
             panel.ticklabel_format(useOffset=False)
-    judged = run.status == "ok" and in_regular_waves(run.scene)
-    outcome = verdict(run).regime if judged else run.status
+    outcome = verdict(run).regime if _can_be_judged(run) else run.status
     figure.suptitle(f"{run.scene.title or run.scene.name}: {outcome}")
     if path is not None:
         content, kind = BytesIO(), str(path).rpartition(".")[2]
@@ -454,13 +462,6 @@ def _widened(axes: "Axes", across: "numpy.ndarray", upward: "numpy.ndarray") -> 
     ):
         middle, half = 0.5 * sum(limits), 0.5 * LEAST_SHOWN * float(np.ptp(series))
         set_limits(min(limits[0], middle - half), max(limits[1], middle + half))
-
-
-def samples(run: "Trajectory", column: str) -> "numpy.ndarray":
-    """The samples of a column of the table; ValueError where there is none of that name."""
-    if column not in run.columns:
-        raise ValueError(f"no column {column!r}; allowed: {', '.join(run.columns)}")
-    return run.columns[column]
 
 
 def _forced(scene: "Scene") -> float | None:
