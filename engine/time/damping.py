@@ -57,9 +57,18 @@ top_tension = by_kind(_of_strain, _of_strain, extra=_of_strain_and_rate)
 
 
 @kernel
+def extremes(values):
+    """The least and the greatest of some numbers (n,): the methods of arrays take Numba longer to compile."""
+    low = high = values[0]
+    for i in range(1, values.shape[0]):
+        low, high = min(low, values[i]), max(high, values[i])
+    return low, high
+
+
+@kernel
 def _by_strains(p, tables, Ys, Ks):
-    top = Ys[1:, Ys.shape[1] - 1, EPS]
-    return tension(top.min(), p, tables)[0], tension(top.max(), p, tables)[0]
+    low, high = extremes(Ys[1:, Ys.shape[1] - 1, EPS])
+    return tension(low, p, tables)[0], tension(high, p, tables)[0]
 
 
 @kernel

@@ -12,7 +12,7 @@ from ..dimensions import size_of
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS  # in space the same column
 from ..record import BUOY, STRAIN, TENSION
-from .damping import left_after
+from .damping import extremes, left_after
 
 HEARD = 0.02  # ringing of this share of the static strain is resolved; less of it may be damped
 LEFT_BEHIND = 0.1  # phase (rad) in one passage along the line beyond which a wave is the grid's: it may be damped
@@ -141,7 +141,7 @@ def near_stages(p, tables, Ys, row):
     if p.end == BUOY:
         return
     for k in range(row.shape[0]):
-        low, high = Ys[:, k, EPS].min(), Ys[:, k, EPS].max()
+        low, high = extremes(Ys[:, k, EPS])
         beyond = BEYOND * (high - low)
         eps = min(max(row[k, STRAIN], low - beyond), high + beyond)
         if eps != row[k, STRAIN]:

@@ -31,7 +31,7 @@ from ..physics.shocks import deforming_element, renew_viscosity
 from ..planar.columns import EPS, TURN  # EPS: in space the same column
 from ..record import RELEASE_STEPS, SMALL_STEPS
 from ..simd.elementary import copy_into
-from .damping import add_damping, stage_tensions, top_tension
+from .damping import add_damping, extremes, stage_tensions, top_tension
 from .energy import add_powers, store_energies
 from .folds import watch_turn
 from .ringing import jumps_of_rates, near_stages, watch_ringing
@@ -197,14 +197,16 @@ def sample(p, tables, state, dt, hermite, begin, end, Ys, samples, profiles):
         )
         for i in range(3):
             out[col.AT_X + i] = row[n - 1, col.PLACE + i]
-        tensions = row[:, col.TENSION]
-        top, most_at = tensions[n - 1], tensions.argmax()
-        out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, tensions.min()
+        tensions, most_at, k = row[:, col.TENSION], 0.0, 0
+        (least, most), top = extremes(tensions), tensions[n - 1]
+        while tensions[k] < most:
+            most_at += tables[p.grid_at + k]
+            k += 1
+        out[col.TIME], out[col.TOP], out[col.LEAST] = t, top, least
         out[col.TOP_LOW], out[col.TOP_HIGH] = min(state.low, top), max(state.high, top)
         out[col.RELEASES], out[col.MISSED] = state.releases, max(state.ringing, 0.0)
-        out[col.LOWEST] = row[:, col.PLACE + 2].min()
-        out[col.FOOT], out[col.MOST] = tensions[0], tensions[most_at]
-        out[col.MOST_AT] = tables[p.grid_at : p.grid_at + most_at].sum()
+        out[col.LOWEST], _ = extremes(row[:, col.PLACE + 2])
+        out[col.FOOT], out[col.MOST], out[col.MOST_AT] = tensions[0], most, most_at
         state.ringing = min(state.ringing, 0.0)
         state.low, state.high = top, top
         state.samples += 1
