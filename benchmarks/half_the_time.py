@@ -6,14 +6,11 @@ BEFORE, AFTER   folders of two checkouts; AFTER is this one unless given
 Works           each is a command, or a few lines of Python, in a process of its own on all cores. "cold":
                 no kernel is compiled; "again": the command is given a second time. Kernels of the others are compiled
                 before the clock starts. Medians over the rounds, in which the checkouts take turns.
---growth        how the time of AFTER grows with nodes, values, starts and workers. With 1 and 2 workers it is measured.
-                With 2 to 64 it is simulated: the queue of a dask scheduler hands out tasks that only wait, each as long
-                as a run of the sweep took, in TIMES of its time.
-MoorDyn         where it is installed, `campaigns.accuracy` gives its time and ours for the regular buoy at 2 mm.
+--growth        how the time of AFTER grows with nodes, values, starts and workers. The time of MoorDyn beside ours is
+                in the report of `campaigns.accuracy`.
 """
 
 import argparse
-import csv
 import os
 import subprocess
 import sys
@@ -23,11 +20,9 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 
-from benchmarks.shared import in_turns, print_load, seconds
+from benchmarks.shared import in_turns, print_load
 
 HERE = Path(__file__).parents[1]
-TIMES = 0.2
-ENOUGH_MM = 2.0
 SWEEP = "-m", "campaigns.buoy_sweep"
 ORBITS = "-m", "campaigns.orbits", "--vary", "waves.steepness", "0.1", "0.16", "--set"
 RATES = """
@@ -120,49 +115,14 @@ def growth(checkout: Path, kernels: Path) -> None:
     rest = *SWEEP, "--starts", "rest", "--no-report", "--no-between", "--no-accuracy"
     with tempfile.TemporaryDirectory() as folder:
         for values in (15, 30, 60):
-            out = Path(folder, str(values))
-            words = *rest, "--steepness-range", "0.05", "0.16", str(values), "--out", str(out)
+            words = *rest, "--steepness-range", "0.05", "0.16", str(values), "--out", f"{folder}/{values}"
             print(f"{process(checkout, kernels, words):9.2f} s  sweep from rest, {values} values", flush=True)
         for starts in (12, 24, 48):
             words = "-m", "campaigns.basins", "--grid", str(starts), "--no-report", "--out", f"{folder}/b{starts}"
             print(f"{process(checkout, kernels, words):9.2f} s  basins, {starts} x {starts} starts", flush=True)
         for jobs in (1, 2):
             words = *rest, "--steepness-range", "0.05", "0.16", "60", "--jobs", str(jobs), "--out", f"{folder}/j{jobs}"
-            print(f"{process(checkout, kernels, words):9.2f} s  sweep from rest, {jobs} workers, measured", flush=True)
-        with (out / "table.csv").open() as file:
-            tasks_s = [float(row["wall_s"]) for row in csv.DictReader(file) if row["wall_s"]]
-    for workers in (2, 4, 8, 16, 32, 64):
-        print(
-            f"{simulated(tasks_s, workers):9.2f} s  its {len(tasks_s)} runs, {workers} workers, simulated", flush=True
-        )
-
-
-def simulated(tasks_s: list[float], workers: int) -> float:
-    """Seconds that tasks of these lengths take through the queue of a dask scheduler with so many workers."""
-    from distributed import Client, LocalCluster
-
-    options = {"n_workers": workers, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
-    with LocalCluster(**options) as cluster, Client(cluster) as client:
-        client.gather(client.map(time.sleep, [0.1] * workers, pure=False))
-        waits = [TIMES * task_s for task_s in tasks_s]
-        return seconds(lambda: client.gather(client.map(time.sleep, waits, pure=False))) / TIMES
-
-
-def beside_moordyn(checkout: Path, kernels: Path) -> None:
-    """Print what the regular buoy costs at an error of ENOUGH_MM, of this engine and of MoorDyn."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder, "out")
-        process(checkout, kernels, ("-m", "campaigns.accuracy", "--works", "regular", "--no-report", "--out", str(out)))
-        least_s: dict[str, float] = {}
-        with (out / "table.csv").open() as file:
-            for row in csv.DictReader(file):
-                if row["status"] == "ok" and row["round"] and row["error"] and float(row["error"]) <= ENOUGH_MM:
-                    method = row["method"]
-                    least_s[method] = min(float(row["wall_s"]), least_s.get(method, float("inf")))
-    for method, run_s in sorted(least_s.items(), key=lambda pair: pair[1]):
-        print(f"{run_s:9.4f} s  regular buoy to {ENOUGH_MM:g} mm, {method}")
-    if "MoorDyn" not in least_s:
-        print("MoorDyn: not installed, or not so accurate")
+            print(f"{process(checkout, kernels, words):9.2f} s  sweep from rest, {jobs} workers", flush=True)
 
 
 def main() -> None:
@@ -179,7 +139,6 @@ def main() -> None:
         compare(checkouts, arguments.works, arguments.rounds, Path(folder))
         if arguments.growth:
             growth(checkouts["after"], Path(folder, "after"))
-            beside_moordyn(checkouts["after"], Path(folder, "after"))
     print_load()
 
 

@@ -36,7 +36,7 @@ def swept(folder, depth_m, kind):
 def panel(folder, depth_m, kind):
     """Strobed radius over steepness."""
     name, colour = KINDS[kind]
-    dots = [(run.steepness, r) for run in swept(folder, depth_m, kind) for r in run.section[:, 0]]
+    dots = [(run.value, r) for run in swept(folder, depth_m, kind) for r in run.section[:, 0]]
     curve = Curve(*np.array(dots).T, line="", mark="o", colour=colour, size=0.8)
     return Panel([curve], "wave steepness kA", "strobed radius r in m", f"H = {depth_m} m, {name}")
 
