@@ -10,7 +10,6 @@ Works           each is a command, or a few lines of Python, in a process of its
                 in the report of `campaigns.accuracy`.
 """
 
-import argparse
 import os
 import subprocess
 import sys
@@ -20,7 +19,7 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 
-from benchmarks.shared import in_turns, print_load
+from benchmarks.shared import command_line, in_turns, print_load
 
 HERE = Path(__file__).parents[1]
 SWEEP = "-m", "campaigns.buoy_sweep"
@@ -126,7 +125,7 @@ def growth(checkout: Path, kernels: Path) -> None:
 
 
 def main() -> None:
-    options = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    options = command_line(__doc__)
     options.add_argument("before", type=Path)
     options.add_argument("after", type=Path, nargs="?", default=HERE)
     options.add_argument("--rounds", type=int, default=3)

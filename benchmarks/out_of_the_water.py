@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.shared import DOCS
 from campaigns.buoy_sweep import main as sweep
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.curves import Curve, Panel, curves
 from reports.parts.style import BLUE, VERMILION
 
-FIGURE = Path(__file__).parents[1] / "docs" / "out_of_the_water.png"
 DEPTHS_M = (21.0, 22.5)
 KINDS = {"full": ("whole sphere (eq. (30))", BLUE), "spherical-cap": ("wetted cap", VERMILION)}
 STEEPNESS, LENGTH = ["0.016", "0.16", "28"], ["--periods", "300", "--transient", "100"]
@@ -45,7 +45,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("usage: python -m benchmarks.out_of_the_water FOLDER")
     rows = [[panel(Path(sys.argv[1]), depth_m, kind) for kind in KINDS] for depth_m in DEPTHS_M]
-    FIGURE.write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
+    (DOCS / "out_of_the_water.png").write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
 
 
 if __name__ == "__main__":
