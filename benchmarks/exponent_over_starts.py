@@ -9,11 +9,10 @@ where errors are right. A row has the mean of all with the error that its scatte
 Five minutes of a core a row. --waves: pairs of a depth (m) and the wave periods of each run; --write: into the page.
 """
 
-import argparse
-
 import numpy as np
 
 from analysis import tangent_lyapunov
+from benchmarks.shared import command_line
 from benchmarks.write_tables import publish
 from engine import load_scene, simulate_each
 
@@ -52,7 +51,7 @@ def row(depth_m, periods, growths):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = command_line(__doc__)
     waves = "depths of the water (m), each with the wave periods of a run that are judged"
     parser.add_argument("--waves", type=float, nargs="+", default=[21.0, 700, 20.8, 400], metavar="M N", help=waves)
     parser.add_argument("--steepness", type=float, default=0.13, metavar="KA", help="kA of the wave")

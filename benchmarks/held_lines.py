@@ -23,6 +23,7 @@ from reports.figures.curves import Curve, Panel, curves
 from reports.parts.content import Picture
 from tests.engine.spatial.test_held_lines import LENGTH as L
 from tests.engine.spatial.test_held_lines import G, fall
+from tests.engine.spatial.test_torsion_localised import slack_of, torque_of
 
 
 @dataclass(frozen=True)
@@ -31,43 +32,26 @@ class Localised:
 
     With m = M/(2 sqrt(EI T)), k = sqrt(T/EI), a = sqrt(1 - m^2), theta and psi the polar angles of t about the axis,
     1 - cos theta = 2 a^2 sech^2(k a s),  psi = m k s + arctan((a/m) tanh(k a s)).
+    deflection: largest distance from the axis, m; half of what the ends come closer, extension left out.
     """
 
-    EI: float
-    GI: float
+    k: float
     T: float
     m: float
-
-    @property
-    def torque(self):
-        return 2 * self.m * np.sqrt(self.EI * self.T)
-
-    @property
-    def shortening(self):
-        """D: what the ends come closer, m, extension left out."""
-        return 4 * np.sqrt(self.EI / self.T) * np.sqrt(1 - self.m**2)
-
-    @property
-    def deflection(self):
-        """Largest distance from the axis, m: half the shortening."""
-        return 0.5 * self.shortening
+    deflection: float
 
     def angles(self, s):
         """theta and psi at s from the middle."""
-        k, a, m = np.sqrt(self.T / self.EI), np.sqrt(1 - self.m**2), self.m
+        k, a, m = self.k, np.sqrt(1 - self.m**2), self.m
         return 2 * np.arcsin(a / np.cosh(k * a * s)), m * k * s + np.arctan(a / m * np.tanh(k * a * s))
 
 
 def localised(scene, slack_m):
     """The localised buckle of the scene's rope and twist with this slack."""
-    tether = scene.tether
-    EI, GI = tether.bending_stiffness_Nm2, tether.torsion_stiffness_Nm2
-
-    def buckle(m):
-        torque = (scene.end.twist_rad - 4 * math.acos(m)) * GI / tether.length_m
-        return Localised(EI, GI, torque**2 / (4 * EI * m**2), m)
-
-    return buckle(brentq(lambda m: buckle(m).shortening - slack_m, 0.56, 1 - 1e-12))
+    m = brentq(lambda m: slack_of(scene, m) - slack_m, 0.56, 1 - 1e-12)
+    EI = scene.tether.bending_stiffness_Nm2
+    T = torque_of(scene, m) ** 2 / (4 * EI * m**2)
+    return Localised(np.sqrt(T / EI), T, m, 0.5 * slack_m)
 
 
 def shape(buckle, length, middle, count=4001):

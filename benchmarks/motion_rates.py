@@ -10,7 +10,6 @@ every 15 periods from 60 on, has it settled; after 400 periods it is unsettled. 
 without a period counts only when it is the same 300 periods later. --write: with --cable, into the page.
 """
 
-import argparse
 from collections import Counter
 
 import numpy as np
@@ -19,6 +18,7 @@ from numba import njit
 from analysis import detect_period, distance, joins, settled
 from analysis.motions import APART
 from analysis.oscillator import SnapOscillator, snap_motion
+from benchmarks.shared import command_line
 from benchmarks.write_tables import publish
 from engine import load_scene, simulate_each
 from engine.views import state_of
@@ -231,7 +231,7 @@ def rows_of(systems, starts, cable):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--systems", type=int, default=25)
     parser.add_argument("--starts", type=int, default=24)
     parser.add_argument("--cable", action="store_true")

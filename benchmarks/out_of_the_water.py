@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.shared import DOCS
 from campaigns.buoy_sweep import main as sweep
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.curves import Curve, Panel, curves
 from reports.parts.style import BLUE, VERMILION
 
-FIGURE = Path(__file__).parents[1] / "docs" / "out_of_the_water.png"
 DEPTHS_M = (21.0, 22.5)
 KINDS = {"full": ("whole sphere (eq. (30))", BLUE), "spherical-cap": ("wetted cap", VERMILION)}
 STEEPNESS, LENGTH = ["0.016", "0.16", "28"], ["--periods", "300", "--transient", "100"]
@@ -36,7 +36,7 @@ def swept(folder, depth_m, kind):
 def panel(folder, depth_m, kind):
     """Strobed radius over steepness."""
     name, colour = KINDS[kind]
-    dots = [(run.steepness, r) for run in swept(folder, depth_m, kind) for r in run.section[:, 0]]
+    dots = [(run.value, r) for run in swept(folder, depth_m, kind) for r in run.section[:, 0]]
     curve = Curve(*np.array(dots).T, line="", mark="o", colour=colour, size=0.8)
     return Panel([curve], "wave steepness kA", "strobed radius r in m", f"H = {depth_m} m, {name}")
 
@@ -45,7 +45,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit("usage: python -m benchmarks.out_of_the_water FOLDER")
     rows = [[panel(Path(sys.argv[1]), depth_m, kind) for kind in KINDS] for depth_m in DEPTHS_M]
-    FIGURE.write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
+    (DOCS / "out_of_the_water.png").write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
 
 
 if __name__ == "__main__":

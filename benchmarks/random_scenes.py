@@ -13,7 +13,6 @@ announced   the message of the run speaks of the accuracy (ACCURACY)
 A largest tension below 0.1 % of the weight of the line, or below 1 % of the compression at rest, is rounding.
 """
 
-import argparse
 import math
 import re
 from collections import Counter
@@ -22,6 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analysis import slack_fraction
+from benchmarks.shared import command_line
 from campaigns.stability.limits import DONE, limited, load_kernels
 from engine import SceneError, load_scene, simulate
 from engine.run.rest import static_tension_N
@@ -109,6 +109,11 @@ def tension_share(scene: dict, force_N: float) -> float:
     return force_N / stiffness_N
 
 
+def weight_of(line: dict) -> float:
+    """Weight of a line in air, N."""
+    return 9.81 * line["tether.density_kgpm3"] * line["tether.area_m2"] * line["tether.length_m"]
+
+
 def moored(draw: Draw) -> dict:
     """A buoy on a rope in still water."""
     keys = rope(draw)
@@ -189,8 +194,7 @@ def held_line(draw: Draw, line: dict, share: float) -> dict:
 
 def taut_line(draw: Draw) -> dict:
     line = rope(draw)
-    weight_N = 9.81 * line["tether.density_kgpm3"] * line["tether.area_m2"] * line["tether.length_m"]
-    return held_line(draw, line, 1.0 + tension_share(line, weight_N * draw.scale(1.0, 100.0)))
+    return held_line(draw, line, 1.0 + tension_share(line, weight_of(line) * draw.scale(1.0, 100.0)))
 
 
 def slack_line(draw: Draw) -> dict:
@@ -239,8 +243,7 @@ def line_on_bed(draw: Draw) -> dict:
 def flying_end(draw: Draw) -> dict:
     """A free end under a force that a fracture takes away."""
     line = rope(draw)
-    weight_N = 9.81 * line["tether.density_kgpm3"] * line["tether.area_m2"] * line["tether.length_m"]
-    end = free(0.0, weight_N * draw.scale(2.0, 100.0)) | {"end.force_decay_s": draw.scale(0.05, 2.0)}
+    end = free(0.0, weight_of(line) * draw.scale(2.0, 100.0)) | {"end.force_decay_s": draw.scale(0.05, 2.0)}
     return line | around(draw, line) | end
 
 
@@ -353,7 +356,7 @@ def compared(changes: dict) -> tuple[str, str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = command_line(__doc__)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="number of the first scene (default 0)")
     parser.add_argument("--count", type=int, default=100, help="number of scenes (default 100)")

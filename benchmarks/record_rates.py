@@ -8,7 +8,6 @@ and 5 % of their standard deviation. Prints how many records of each kind got wh
 --only: kinds whose name has this word; --show: a line a record, with its evidence; --write: all kinds, into the page.
 """
 
-import argparse
 import time
 from collections import Counter
 
@@ -17,6 +16,7 @@ import numpy as np
 from analysis import evidence_text
 from benchmarks.known_flows import chaotic_flows, with_noise
 from benchmarks.known_records import REGULAR
+from benchmarks.shared import command_line
 from benchmarks.write_tables import publish
 from campaigns.time_series.study import judged, least_tolerance, seen
 
@@ -40,7 +40,7 @@ def _flows(share, samplings, rng):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = command_line(__doc__)
     parser.add_argument("--count", type=int, default=30, help="records of each regular kind (default: 30)")
     parser.add_argument("--seed", type=int, default=2024)
     parser.add_argument("--only", nargs="*", default=[""], metavar="WORD")

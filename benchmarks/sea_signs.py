@@ -8,7 +8,6 @@ within CLEAR errors of 0, up to twelve hours. The reference: three other seas of
 tolerance.
 """
 
-import argparse
 import math
 from collections.abc import Sequence
 
@@ -16,6 +15,7 @@ import numpy as np
 from joblib import Parallel, delayed
 
 from analysis import sea_lyapunov
+from benchmarks.shared import command_line
 from campaigns.sea.rows import CLEAR
 from engine import load_scene, simulate_batch
 
@@ -61,7 +61,7 @@ def sign(value: float, error: float) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = command_line(__doc__)
     parser.add_argument("--cells", type=int, default=20, help="seas to draw (default 20)")
     parser.add_argument("--nodes", type=int, default=41, help="nodes of the line (default 41)")
     options = parser.parse_args()

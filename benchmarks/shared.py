@@ -10,9 +10,14 @@ from statistics import median
 DOCS = Path(__file__).parents[1] / "docs"
 
 
+def command_line(doc: str) -> argparse.ArgumentParser:
+    """A command line; its description is the first paragraph of the module's text."""
+    return argparse.ArgumentParser(description=doc.split("\n\n")[0])
+
+
 def parser(doc: str, rounds: int) -> argparse.ArgumentParser:
-    """A command line with --rounds and --core; its description is the first paragraph of the module's text."""
-    parser = argparse.ArgumentParser(description=doc.split("\n\n")[0])
+    """A command line with --rounds and --core."""
+    parser = command_line(doc)
     parser.add_argument("--rounds", type=int, default=rounds, help=f"turns of every setting (default {rounds})")
     parser.add_argument("--core", type=int, help="the core to run on (default: the last one allowed; Linux)")
     return parser

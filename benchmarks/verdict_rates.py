@@ -10,7 +10,6 @@ a motion settles only after the periods that were judged) and two tables: how ma
 deviation of z = (exponent of a stretch - that of the rest)/stated error. --write: all of it, into the pages.
 """
 
-import argparse
 import math
 from collections import Counter
 from dataclasses import astuple, replace
@@ -24,6 +23,7 @@ from analysis.oscillator import SnapOscillator
 from analysis.oscillator.growth import random_starts
 from analysis.oscillator.strobing import growth_over_values
 from benchmarks.known_records import GOLDEN
+from benchmarks.shared import command_line
 from benchmarks.write_tables import publish
 from campaigns.machinery.long_runs import LEAST_CHECK, SURE
 from engine import load_scene, simulate_each
@@ -261,7 +261,7 @@ def errors_rows(scores):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = command_line(__doc__)
     parser.add_argument("--quick", action="store_true", help="a tenth of the motions")
     parser.add_argument("--only", nargs="+", default=[""], metavar="WORD", help="kinds whose name has this word")
     parser.add_argument("--cable", action="store_true", help="runs of the engine too: eight minutes of a core")

@@ -8,7 +8,6 @@ Ours is the whole estimate (embedding, noise level, grid of settings, error). `-
 method on 100,000 samples. Ours is compiled before it is timed; wall clock, one process.
 """
 
-import argparse
 import time
 import warnings
 from functools import partial
@@ -19,7 +18,7 @@ from analysis.divergence import rosenstein_lyapunov
 from analysis.embedding import choose_delay, choose_embedding, noise_level
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
-from benchmarks.shared import seconds
+from benchmarks.shared import command_line, seconds
 from tests.analysis.systems import TRUTH, record
 
 OURS = {"Wolf plateau": wolf_lyapunov, "Rosenstein": rosenstein_lyapunov}
@@ -76,7 +75,7 @@ def settings(samples=100_000):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line(__doc__)
     parser.add_argument("--samples", type=int, default=5000)
     parser.add_argument("--noise", type=float, default=0.0)
     parser.add_argument("--systems", nargs="+", choices=TRUTH, default=list(TRUTH))

@@ -13,7 +13,6 @@ because a number that somebody changes by hand is no longer what the command fou
 A table without a seal was computed before its command wrote it here; it has to name the commit and the date.
 """
 
-import argparse
 import csv
 import json
 import math
@@ -24,7 +23,8 @@ from datetime import UTC, datetime
 from hashlib import sha256
 from pathlib import Path
 
-DOCS = Path(__file__).parents[1] / "docs"
+from benchmarks.shared import DOCS, command_line
+
 BLOCK = re.compile(
     r"<!-- table (?P<name>\w+): (?P<command>.*?) -->\n(?P<content>.*?)<!-- end of table ?(?P<seal>\w*) ?-->", re.DOTALL
 )
@@ -205,7 +205,7 @@ def options_of(command: Sequence[str]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = command_line(__doc__)
     parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="finished folders of campaigns")
     for folder in parser.parse_args().folders:
         print(f"{folder}: written to docs/{write_folder(folder).name}")

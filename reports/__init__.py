@@ -58,9 +58,9 @@ def content_of(directory: str | Path):
         "campaign", "buoy_sweep"
     )  # without one, the reader of any content lists all that is wrong
     name = campaign
-    if campaign not in CONTENTS:
-        name = "sweep" if provenance.get("vary") else ""
-    if not name:
+    if campaign not in CONTENTS and provenance.get("vary"):
+        name = "sweep"
+    if name not in CONTENTS:
         known = ", ".join(CONTENTS)
         fault = f"provenance.json names the campaign {campaign!r} and nothing that it varied; reports exist for {known}"
         raise FolderError(directory, fault)

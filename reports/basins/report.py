@@ -5,14 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 
 from ..figures.curves import Curve, Panel, curves
-from ..figures.orbit_diagram import NARROW_IN
+from ..figures.orbit_diagram import NARROW_IN, cell_edges
 from ..figures.regime_map import widest
 from ..parts import (
     LONGEST_CELL,
@@ -93,9 +93,8 @@ def _value(row, axis: str) -> float:
 
 
 def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Items:
-    values = [[_value(row, axis) for row in folder.table] for axis in across]
-    x, columns = np.unique(values[0], return_inverse=True)
-    y, rows = np.unique(values[1], return_inverse=True)
+    x, columns = np.unique([_value(row, across[0]) for row in folder.table], return_inverse=True)
+    y, rows = np.unique([_value(row, across[1]) for row in folder.table], return_inverse=True)
     ended = np.full((len(y), len(x)), "", dtype=object)
     for row, up, right in zip(folder.table, rows, columns, strict=True):
         ended[up, right] = row["motion"] or _outcome(row)
@@ -129,21 +128,19 @@ def _draw(axes, places: tuple[np.ndarray, np.ndarray], ended: np.ndarray, across
     places: values of the starts (p,) and (q,). ended: (q, p) letters of motions, or keys of _OPEN.
     """
     x, y = places
-    letters = list(colours)
-    numbers = np.full(ended.shape, -1)
-    for place, letter in enumerate(letters):
-        numbers[ended == letter] = place
-    look = {"cmap": ListedColormap([*colours.values()]), "vmin": -0.5, "vmax": len(letters) - 0.5}
+    shades = np.zeros((*ended.shape, 4))
+    for letter, colour in colours.items():
+        shades[ended == letter] = to_rgba(colour)
     axes.grid(False)
-    axes.pcolormesh(_edges(x), _edges(y), np.ma.masked_less(numbers, 0), rasterized=True, **look)
+    axes.pcolormesh(cell_edges(x), cell_edges(y), shades, rasterized=True)
     axes.set_facecolor(SHADES[-1])
     size = max(2.0, min(6.0, 160.0 / len(x)))
     for word, mark in _OPEN.items():
         rows, columns = np.nonzero(ended == word)
         if len(rows):
             axes.plot(x[columns], y[rows], mark, color=INK, markersize=size, label=word, linestyle="")
-    for place, letter in enumerate(letters):
-        inside = numbers == place
+    for letter in colours:
+        inside = ended == letter
         if arrow is not None:
             off_the_arrow = inside & _aside(x, y)
             if off_the_arrow.any():
@@ -171,11 +168,6 @@ def _arrow_text(axes, text: str, begin: Sequence[float], end: Sequence[float]) -
         y_offset, look["va"] = -y_offset, "top"
     offset = (x_offset, y_offset)
     axes.annotate(text, tuple(end), offset, textcoords="offset points", path_effects=_HALO, weight="bold", **look)
-
-
-def _edges(values: np.ndarray) -> np.ndarray:
-    half = 0.5 * (values[1] - values[0])
-    return np.append(values - half, values[-1] + half)
 
 
 def _aside(x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -213,28 +205,30 @@ def _motions(part: Folder, motions, edge: Folder | None) -> Items:
         if row["confirmed"]:
             yield Text(f"Motion {row['motion']}, when it goes on from its state, is found {row['confirmed']}.")
     colours, lines = _colours(motions), []
-    looks = [(part, row, f"{row['motion']}", "-", "", colours[row["motion"]]) for row in motions]
+    for row in motions:
+        lines += _loop(part, row, name=row["motion"], colour=colours[row["motion"]])
     if edge is not None:
-        looks += [(edge, row, "edge state", (0, (3, 1)), "", INK) for row in edge.table if row["run_key"]]
-    for folder, row, *look in looks:
-        run, _ = folder.trajectory(row)
-        if run is not None:
-            lines.append(_loop(run, row["strobed_period"], look))
+        for row in edge.table:
+            lines += _loop(edge, row, name="edge state", line=(0, (3, 1)), colour=INK)
     if lines:
         caption = "Radial speed over r, of the last periods of each motion and of the edge state between two of them."
         picture = curves([[Panel(lines, "r (m)", "dr/dt (m/s)")]], 3.4, "right")
         yield Figure(picture, caption, f"Phase portrait of {listed(line.name for line in lines)}.")
 
 
-def _loop(run, period: float, look: list) -> Curve:
-    """The last periods of a run: one orbit, or a few. look: name, line, mark and colour."""
+def _loop(folder: Folder, row, **look) -> list[Curve]:
+    """The last periods of a run: one orbit, or a few; nothing without its file. look: of the curve."""
+    run, _ = folder.trajectory(row)
+    if run is None:
+        return []
+    period = row["strobed_period"]
     samples_per_period = round(run.scene.waves.period_s / run.scene.sample_step_s())
     periods, width = _PERIODS, 0.5
     if math.isfinite(period):
         periods, width = int(period), 1.2
     last = slice(-periods * samples_per_period - 1, None)
     radius, rate = run.columns["radius_m"][last], run.columns["radius_rate_mps"][last]
-    return Curve(radius, rate, *look, width=width)
+    return [Curve(radius, rate, width=width, **look)]
 
 
 def _warnings(folder: Folder, across: list[str]) -> Notice:

@@ -28,7 +28,7 @@ from ..figures.animations import tether_animation, tether_stills
 from ..figures.curves import Curve, Panel
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain, series
-from ..parts.style import BLUE, INK, REGIME_COLOURS
+from ..parts.style import BLUE, INK, REGIME_COLOURS, kind_of
 from ..sweep.quantities import in_order
 from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import STEEPNESS, Run, Sweep
@@ -154,7 +154,7 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
     """
     y, bars, words = [], [], []
     for run in sweep.judged:
-        word = PERIODIC if run["regime"].startswith(PERIODIC) else run["regime"]
+        word = kind_of(run["regime"])
         exponent, error = math.nan, math.nan
         if run.known(TANGENT_EXPONENT):
             exponent, error = run[TANGENT_EXPONENT], run[TANGENT_ERROR]

@@ -39,15 +39,12 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
     """The largest tension of each motion with its letter, and arrows to the motion that follows where one ends."""
     peaks = {}  # letter -> value and largest tension along its motion
     largest = {}  # of each motion
-    top = 0.0
     for run in drawn:
-        if not run.known(PEAK):
-            continue
-        peak = scale * run[PEAK]
-        top = max(top, peak)
-        if run.motion in sweep.colours:
+        if run.known(PEAK):
+            peak = scale * run[PEAK]
             peaks.setdefault(run.motion, []).append((run.value, peak))
             largest[run.motion] = max(peak, largest.get(run.motion, 0.0))
+    top = max(largest.values())
     letters = [letter for letter in sweep.colours if letter in peaks]
     calm = min(letters, key=largest.get)
     arrows, texts = [], []

@@ -10,7 +10,7 @@ import numpy as np
 from tables import PERIODIC
 
 from ..parts import content
-from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, picture_of, sheet
+from ..parts.style import INK, REGIME_COLOURS, SHADES, SOFT, VERMILION, WIDTH_IN, kind_of, picture_of, sheet
 from .curves import Curve, Panel, draw
 
 NARROW_IN = 3.7  # of the form for telephones
@@ -154,7 +154,7 @@ class OrbitDiagram(NamedTuple):
         rows, names = [], {}
         for column in self.columns:
             if column.word:
-                kind = _kind(column.word)
+                kind = kind_of(column.word)
                 names[kind] = kind.replace(PERIODIC, "periodic")
         if names and self.motions:
             patches = []
@@ -228,11 +228,6 @@ def _spans(at: np.ndarray, words: Sequence, text: str = "") -> list[Span]:
     return spans
 
 
-def _kind(word: str) -> str:
-    """The word, one for all periods."""
-    return PERIODIC if word.startswith(PERIODIC) else word
-
-
 def _hatched(kind: str, colour: str) -> dict[str, object]:
     """How a kind of motion looks in a colour: filled, or hatched on white."""
     hatch = _HATCHES.get(kind, "")
@@ -243,7 +238,7 @@ def _hatched(kind: str, colour: str) -> dict[str, object]:
 def _word_bar(axes, spans: Sequence[Span], inch: float, letter: str, colour: str) -> None:
     """Words as a bar with numbers of periods: in their colours, or hatched in that of a motion, its letter beside."""
     for word, low, high in spans:
-        kind, number_text = _kind(word), word.removeprefix(PERIODIC)
+        kind, number_text = kind_of(word), word.removeprefix(PERIODIC)
         filling = {"facecolor": colour or REGIME_COLOURS[kind], "edgecolor": "white", "linewidth": 0.7}
         if colour and kind in _HATCHES:
             filling = _hatched(kind, colour)
@@ -291,7 +286,7 @@ def _points(axes, columns: Sequence[Strobes], inch: float, motions: Motions) -> 
         if motions:
             colour, _ = motions.get(motion, (_NEUTRAL, ""))
         elif word:
-            colour = REGIME_COLOURS[_kind(word)]
+            colour = REGIME_COLOURS[kind_of(word)]
         elif len(members) == len(columns):
             colour, thick, alpha = INK, 0.45, 0.5
         else:

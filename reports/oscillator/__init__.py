@@ -1,1 +1,1 @@
-"""The report of `campaigns.oscillator`: `report.py` says what comes in which order, the other files what is said."""
+"""The report of `campaigns.oscillator`."""

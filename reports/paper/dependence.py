@@ -9,11 +9,11 @@ import numpy as np
 
 from engine import Scene, load_scene
 from engine.natural_frequencies import natural_frequencies
-from tables import EMPTY, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
+from tables import EMPTY, PERIODIC, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
 
 from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..out_of_plane.report import comparison_items
 from ..out_of_plane.runs import read_study
-from ..out_of_plane.sections import comparison_items
 from ..parts import (
     Figure,
     Folder,
@@ -33,11 +33,11 @@ from ..parts import (
     series,
     table_of,
 )
-from ..parts.style import INK
+from ..parts.style import INK, kind_of
 
 BESIDE = 0.14  # of the space between two values
 DASHES = ("-", "--", ":", "-.", "-")
-MARKS = {"periodic": "o", "quasi-periodic": "s", "chaotic": "*", "transient": "v", "undecided": "x", "": "+"}
+MARKS = {PERIODIC: "o", "quasi-periodic": "s", "chaotic": "*", "transient": "v", "undecided": "x", "": "+"}
 Exponents = tuple[str, list[Row]]  # the name of a curve, and the rows of the table on it
 Panels = list[list[tuple[str, list[Exponents]]]]  # rows and columns of them, each (title, curves)
 TREATMENTS = {
@@ -202,11 +202,6 @@ def _plane(part: Path) -> Items:
         return [heading, Text("The part `out_of_plane` is not there.")]
 
 
-def kind_of(regime: str) -> str:
-    """The mark that a regime gets: one for all periods."""
-    return "periodic" if regime.startswith("period-") else regime
-
-
 def depth_exponents(panels: Panels, key: str, label: str, log: bool = False) -> Picture:
     """The panels over the column `key`, on an axis with that label: lines with error bars, marked by regime.
 
@@ -221,7 +216,7 @@ def depth_exponents(panels: Panels, key: str, label: str, log: bool = False) -> 
     meanings, nothing = [], np.empty(0)  # of the marks, as curves without points
     for kind, mark in MARKS.items():
         if kind in kinds:
-            meanings.append(Curve(nothing, nothing, kind or "no verdict", "", mark, INK))
+            meanings.append(Curve(nothing, nothing, kind.replace(PERIODIC, "periodic") or "no verdict", "", mark, INK))
     axis, ticks = "x", {}
     if not log:
         axis, ticks = "", {"xticks": range(len(values)), "xticklabels": list(map(number, values))}

@@ -14,6 +14,7 @@ import matplotlib
 from matplotlib.figure import Figure
 
 from engine.animation import BLUE, ORANGE, SKY, VERMILION  # noqa: F401  the other colours of every figure
+from tables import PERIODIC
 
 from .content import Picture
 
@@ -26,9 +27,9 @@ GREEN, PURPLE, PLUM, BROWN = "#009e73", "#cc79a7", "#9b3d73", "#7a5200"
 _FILE = files("reports").joinpath("templates/report.mplstyle")
 _SETTINGS = matplotlib.rc_params_from_file(_FILE, use_default_template=False)
 INK, SOFT, GRID = _SETTINGS["text.color"], _SETTINGS["axes.edgecolor"], _SETTINGS["grid.color"]
-# colours of the regimes, in every diagram and map; all periods share the colour of "period-"
+# colours of the kinds of regimes (`kind_of`), in every diagram and map
 REGIME_COLOURS = {
-    "period-": BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
+    PERIODIC: BLUE, "quasi-periodic": GREEN, "chaotic": VERMILION, "transient": PURPLE, "undecided": SOFT,
 }  # fmt: skip
 MAP_PERIODS = ("#a9d3ee", BLUE, "#00365c")  # colours of period 1, period 2, and longer periods on a map
 SHADES = ("#f7f1e6", "#eee0c8")  # colours of ranges on an axis; the second is drawn over the first
@@ -53,6 +54,11 @@ def picture_of(figure: Figure, kind: str = "svg") -> Picture:
     metadata = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
     figure.savefig(target, format=kind, dpi=DOTS_PER_INCH, metadata=metadata)
     return Picture(target.getvalue(), kind)
+
+
+def kind_of(regime: str) -> str:
+    """The regime, one for all periods."""
+    return PERIODIC if regime.startswith(PERIODIC) else regime
 
 
 def kind_for(points: int) -> str:

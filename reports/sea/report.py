@@ -54,11 +54,10 @@ def report(directory: Path) -> Report:
         figures = _maps(cells, keys)
     else:
         figures = _pictures(folder, cells)
-    items = [*filter(None, figures), *section_items("sea")]
-    items += [Heading("What the runs say together"), _numbers(cells)]
+    items = [figures, section_items("sea"), Heading("What the runs say together"), _numbers(cells)]
     regular = part_of(folder, "regular")
     if regular is not None:
-        items += [Heading("Regular waves beside the sea"), *_regular(regular)]
+        items += [Heading("Regular waves beside the sea"), _regular(regular)]
     items += [Heading("Warnings"), _warnings(folder)]
     names = shown_on(folder.columns, folder.table, longest=LONGEST_CELL)
     if len(folder.table) <= 60:
@@ -106,10 +105,10 @@ def _maps(cells: Folder, keys: Sequence[str]) -> Items:
     yield Figure(maps(columns, cells.table, drawn), caption, f"Maps over {heads}.")
 
 
-def _regular(regular: Folder) -> Items:
+def _regular(regular: Folder) -> Table:
     wanted = ("waves.amplitude_m", "motion", "regime", "strobed_period", "tension_top_max_N", "slack_fraction")
     names = [name for name in wanted if name in regular.columns]
-    yield table_of(regular.columns, names, regular.table, _REGULAR)
+    return table_of(regular.columns, names, regular.table, _REGULAR)
 
 
 def _warnings(folder: Folder) -> Notice:

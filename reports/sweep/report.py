@@ -68,20 +68,20 @@ def report(directory: Path) -> Report:
         key_cells[key.name] = lambda row, name=key.name: number(float(row[name]))  # with the digits that it needs
     shipped = str(folder.provenance.get("scene") or folder.scene.name)
     key_names = listed(f"`{name}`" for name in varied)
+    verb = "vary"
     if len(keys) == 1:
         (key,) = keys
-        question = f"What does the scene `{folder.scene.name}` do as {key_names} varies?"
+        verb = "varies"
         figures = _panels(key, rows, shown, motions), every_motion(folder, key.name, key.head), snap_items(folder, key)
         if set(NEEDED) <= set(folder.columns):  # of a buoy in regular waves
             sweep = read_sweep(directory, key)
             first, sheets = [orbit_figure(sweep), motions_items(sweep), explorer(sweep)], sheet_items(sweep)
     else:
-        question = f"What does the scene `{folder.scene.name}` do as {key_names} vary?"
         figures = _maps_of_each(keys, rows, shown, motions)
     items = [
         first,
         Heading("Question"),
-        Text(question),
+        Text(f"What does the scene `{folder.scene.name}` do as {key_names} {verb}?"),
         extremes(run_keys, rows, _columns_of(shown), _EXTREMES),
         figures,
         Heading("Warnings"),

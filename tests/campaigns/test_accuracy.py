@@ -12,7 +12,7 @@ from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
 from campaigns.machinery.plan import Job
 from engine import load_scene
-from reports.accuracy.sections import cheapest, read_study, smooth_series, within, work_items
+from reports.accuracy.report import cheapest, read_study, smooth_series, within, work_items
 from reports.parts.content import Table
 from tables import names
 from tests.campaigns.conftest import built_twice, chosen, ran, rows_of

@@ -4,7 +4,7 @@ import pytest
 
 from campaigns import oscillator
 from reports import build
-from reports.oscillator.sections import PARTS, read_study
+from reports.oscillator.report import PARTS, read_study
 from tests.campaigns.conftest import built_twice, rows_of
 
 QUICK = ["--effort", "0.005", "--no-report"]

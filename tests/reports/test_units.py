@@ -16,7 +16,7 @@ from reports.buoy_sweep import runs
 from reports.buoy_sweep.report import warnings
 from reports.buoy_sweep.runs import Run, Sweep
 from reports.figures.curves import Curve, Panel, curves
-from reports.oscillator.sections import attracting_orbit
+from reports.oscillator.report import attracting_orbit
 from reports.paper.figures.buoy import spectrum_panels
 from reports.paper.figures.chaos import running_exponents
 from reports.parts.content import Listing
