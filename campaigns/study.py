@@ -146,21 +146,6 @@ class Order:
         return Job(labels, scene, self.periods)
 
 
-def no_parameters(order: Order) -> Mapping[str, object]:
-    """Nothing beside the scene, its changes and the lengths."""
-    return {}
-
-
-def nothing_after(order: Order) -> Iterable[Callable[[Plan, Summary], float]]:
-    """Nothing is done after the runs."""
-    return ()
-
-
-def usual_runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
-    """`runner.run`: every run of the order, as its scene begins."""
-    return run(plan, jobs)
-
-
 @dataclass(frozen=True)
 class Study:
     """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
@@ -171,11 +156,11 @@ class Study:
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
-    parameters: Callable[[Order], Mapping[str, object]] = no_parameters  # in its provenance, beside those of scenes
+    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
     answer: Callable[[Order, list[dict]], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
-    perform: Callable[[Order], tuple[dict[str, float], Summary]] | None = None  # does them; returns times and summary
+    perform: Callable[[Order], Summary] | None = None  # does them
 
     # runs of scenes
     scene: str = ""  # it starts from this one
@@ -184,10 +169,11 @@ class Study:
     lengths: Lengths | None = None  # None: its cases have lengths of their own
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    runs: Callable = usual_runs  # what does the runs, as of `usual_runs`
+    # does them, in place of `runner.run`
+    runs: Callable[[Order, Plan, list[Job]], Summary] = lambda order, plan, jobs: run(plan, jobs)
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = nothing_after
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
@@ -273,11 +259,10 @@ class Study:
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
 
-    def work(self, order: Order) -> tuple[dict[str, float], Summary]:
+    def work(self, order: Order) -> Summary:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
 
-        Returns times, with compile_s, run_s and analysis_s among them, and summary. Raises CampaignStopped, OSError,
-        KeyboardInterrupt.
+        Raises CampaignStopped, OSError, KeyboardInterrupt.
         """
         if self.perform is not None:
             return self.perform(order)
@@ -295,13 +280,13 @@ class Study:
         further_steps = list(self.beside(order))
         steps = 1 + len(further_steps)
         with stage(f"step 1 of {steps}"):
-            timing, summary = self.runs(order, plan, order.cases)
+            summary = self.runs(order, plan, order.cases)
         began = time.perf_counter()
         for number, step in enumerate(further_steps, 2):
             with stage(f"step {number} of {steps}"):
-                timing["analysis_s"] += step(plan, summary)
-        timing["run_s"] += time.perf_counter() - began
-        return timing, summary
+                summary.times["analysis_s"] += step(plan, summary)
+        summary.times["run_s"] += time.perf_counter() - began
+        return summary
 
     def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""

@@ -68,17 +68,17 @@ def perform(order: Order):
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     plans = plan, plan, plan, one_at_a_time
     phases = jobs.phases(out, options.effort, options.quick, of_engine and not options.no_peers)
-    timing, jobs_so_far, computed = Counter(compile_s=0.0, run_s=0.0, analysis_s=0.0), [], set()
+    times, jobs_so_far, computed = Counter(), [], set()
     for number, (phase_plan, phase) in enumerate(zip(plans, phases, strict=True), 1):
         if phase and not jobs_so_far:
             write_scene(out, STUDY.name, phase)
         jobs_so_far += phase
         with stage(f"step {number} of {len(plans)}"):
-            phase_timing, summary = run(phase_plan, jobs_so_far)
+            summary = run(phase_plan, jobs_so_far)
         computed |= summary.made
-        timing.update(phase_timing)
+        times.update(summary.times)
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
-    return dict(timing), replace(summary, computed=len(computed), found=len(summary.rows) - len(computed))
+    return replace(summary, computed=len(computed), found=len(summary.rows) - len(computed), times=times)
 
 
 def parameters(order: Order) -> dict[str, object]:

@@ -87,7 +87,7 @@ def measures(order: Order) -> Measures:
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
     from campaigns.basins.edge import edge_state
     from campaigns.basins.exploration import COLUMNS, Exploration
@@ -104,11 +104,10 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         shocks(exploration, worst)
         edge_state(exploration, rest, worst)
     confirm(exploration.places)
-    exploration.places.write()
-    rows = exploration.rows()
+    times = exploration.places.write().times
+    rows, computed = exploration.rows(), exploration.computed
     write_table(plan.how.out / "table.csv", COLUMNS, rows)
-    computed, timing = exploration.computed, exploration.places.timing()
-    return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
+    return Summary(rows, len(rows) - computed, computed, times)
 
 
 def parameters(order: Order) -> dict:
@@ -142,4 +141,4 @@ STUDY = Study(
     runs=runs,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

@@ -122,8 +122,8 @@ class Edge:
         jobs = [job_from({}, scene, periods, state) for state in self.states]
         plan, places = self.exploration.plan, self.exploration.places
         folder = plan.how.out / FOLDER
-        timing, summary = run_within(plan, folder, jobs, title="along the edge")
-        places.times.update(timing)
+        summary = run_within(plan, folder, jobs, title="along the edge")
+        places.times.update(summary.times)
         runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
         if None in runs:
             return None, ""

@@ -106,7 +106,7 @@ def dimensions_of(order: Order) -> str:
     return str(scene.motion.dimensions)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """The runs in a plane, in space where needed, or of every motion."""
     if has_between(order):
         from campaigns.explore.batches import between_ahead
@@ -164,15 +164,9 @@ def beside(order: Order) -> Iterator[Callable]:
 
 def answer(order: Order, rows: list[dict]) -> list[str]:
     """The findings of the sweep (`campaigns.explore.answer`)."""
-    from campaigns.explore.answer import sentences
-
-    folders = []
-    if not order.options.no_accuracy:
-        folders.append("companions")
-    if motions.kicks_of(order) is not None:
-        folders.append("ends")
-    tables = motions.tables_of(order.how.out, *folders)
-    return sentences(rows, "steepness", "kA", order.cases[0].scene, **tables)
+    if order.options.no_accuracy:
+        return motions.answer(order, rows, COLUMN.symbol)
+    return motions.answer(order, rows, COLUMN.symbol, "companions")
 
 
 STUDY = Study(
@@ -194,4 +188,4 @@ STUDY = Study(
     beside=beside,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

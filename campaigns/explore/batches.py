@@ -47,8 +47,8 @@ def batch(
     out = plan.how.out / folder
     if not jobs and not out.exists():
         return 0.0
-    _, summary = run_within(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
-    return summary.analysis_s
+    summary = run_within(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
+    return summary.times["analysis_s"]
 
 
 def unfollowed(scene, changes: dict):

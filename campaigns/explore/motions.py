@@ -163,8 +163,8 @@ class Motions:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
-        timing, summary = run_within(self.plan, self.folder, jobs, ahead, title=title)
-        self.times.update(timing)
+        summary = run_within(self.plan, self.folder, jobs, ahead, title=title)
+        self.times.update(summary.times)
         self.computed |= summary.made
         self.rows |= summary.by_key
 
@@ -260,18 +260,16 @@ class Motions:
         return rows
 
     def write(self) -> Summary:
-        """Write table.csv, and that of the starts; returns the summary of the rows. Raises OSError."""
+        """Write table.csv, and that of the starts; returns the summary of the rows, with the times of all runs.
+
+        Raises OSError.
+        """
         rows = self.table()
         write_table(self.folder / "table.csv", self.plan.columns, rows)
         if self.starts.endings:
             self.starts.write()
         reused = sum(row.get("run_key") not in self.computed for row in rows)
-        return Summary(rows, reused, len(rows) - reused, self.times["analysis_s"])
-
-    def timing(self) -> dict[str, float]:
-        """Seconds of all runs, those of the starts among them."""
-        times = self.times + self.starts.times
-        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}
+        return Summary(rows, reused, len(rows) - reused, self.times + self.starts.times)
 
 
 def subfolder(plan: Plan, name: str) -> Path:

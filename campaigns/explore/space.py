@@ -49,13 +49,12 @@ def in_space(scene):
     return engine.scene.scene_from_toml(scene.to_toml(), changes), added
 
 
-def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
+def run_where_needed(plan: Plan, jobs: list[Job]) -> Summary:
     """Do the planar jobs, then the runs in three dimensions of the values whose planar run released loops.
 
-    table.csv has one row for each value. Returns the times and the summary of both halves together. Raises the same
-    errors as `runner.run`.
+    table.csv has one row for each value. Raises the same errors as `runner.run`.
     """
-    timing, summary = run(plan, jobs)
+    summary = run(plan, jobs)
     rows = summary.by_key
     jobs_of_rows, in_space_count = [], 0
     for job in jobs:
@@ -67,10 +66,9 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
             in_space_count += 1
         jobs_of_rows.append(job)
     if not in_space_count:
-        return timing, summary
-    timing_in_space, final = run(plan, jobs_of_rows)
-    times = {name: timing[name] + timing_in_space[name] for name in timing}
+        return summary
+    final = run(plan, jobs_of_rows)
     # The second half finds the planar runs of the first half on disk; only its runs in space are new.
     found = summary.found + in_space_count - final.computed
     computed = summary.computed + final.computed
-    return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])
+    return replace(final, computed=computed, found=found, times=summary.times + final.times)

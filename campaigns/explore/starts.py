@@ -239,15 +239,13 @@ class Ending:
         return None
 
 
-def run_within(
-    plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes
-) -> tuple[dict, Summary]:
+def run_within(plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes) -> Summary:
     """Do runs in a folder of a campaign; changes: of its plan. Raises as `runner.run`."""
     claim = contextlib.nullcontext()
     if folder != plan.how.out:
         claim = claimed(folder)
     with claim:
-        return run(replace(plan, how=replace(plan.how, out=folder), **changes), list(jobs), ahead)
+        return run(plan.within(folder, **changes), list(jobs), ahead)
 
 
 class Starts:
@@ -269,8 +267,8 @@ class Starts:
         jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
-        timing, summary = run_within(self.plan, self.folder, jobs, title=title)
-        self.times.update(timing)
+        summary = run_within(self.plan, self.folder, jobs, title=title)
+        self.times.update(summary.times)
         self.computed |= summary.made
         rows = summary.by_key
         endings = [self._ending({**rows[job.key], **job.labels}) for job in jobs]

@@ -1,7 +1,7 @@
 """A sweep over one key with every motion of each value: its options, its runs, and the tables that an answer reads."""
 
 import contextlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -13,7 +13,7 @@ from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import Column, names, read_table
+from tables import Column, Row, names, read_table
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -116,7 +116,7 @@ def parameters(order: Order) -> dict:
     return {"starts": kicks, "kick_speed_mps": options.kick_speed, "seed": options.seed}
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
     kicks = kicks_of(order)
     if kicks is None:
@@ -132,7 +132,7 @@ def every_motion(
     speed_mps: float,
     seed: int,
     named: Callable[[], None] = lambda: None,
-) -> tuple[dict[str, float], Summary]:
+) -> Summary:
     """In place of `runner.run`: the motions of each value of the only key, with the ends of their ranges.
 
     kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`. named: called when the motions have their letters
@@ -156,18 +156,32 @@ def every_motion(
             find_ends(motions, Scenes(jobs[0].scene, key))
 
     explore(motions, jobs, Search(order, kicks, speed_mps, seed), ends, partial(confirm, motions))
-    summary = motions.write()
-    return motions.timing(), summary
+    return motions.write()
 
 
-def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
-    """The rows of table.csv in these folders of a campaign; none where there is no table, or an empty one."""
-    tables: dict[str, tuple[dict, ...]] = {}
-    for folder in folders:
-        tables[folder] = ()
-        with contextlib.suppress(OSError, ValueError):
-            tables[folder] = read_table(out / folder / "table.csv")
-    return tables
+def table_of(folder: Path) -> tuple[Row, ...]:
+    """The rows of table.csv in a folder; none where there is no table, or an empty one."""
+    with contextlib.suppress(OSError, ValueError):
+        return read_table(folder / "table.csv")
+    return ()
+
+
+def tables_of(out: Path, *folders: str) -> dict[str, tuple[Row, ...]]:
+    """The rows of `table_of` in these folders of a campaign."""
+    return {folder: table_of(out / folder) for folder in folders}
+
+
+def answer(order: Order, rows: Sequence[Row], symbol: str, *folders: str) -> list[str]:
+    """The findings of a sweep over one key (`campaigns.explore.answer`), which is called `symbol` in words.
+
+    folders: within that of the sweep, whose tables count too; that of the ends of motions is one where there are some.
+    """
+    from campaigns.explore.answer import sentences
+
+    if kicks_of(order) is not None:
+        folders = *folders, "ends"
+    (key,) = names(order.options.grid.columns)
+    return sentences(rows, key, symbol, order.cases[0].scene, **tables_of(order.how.out, *folders))
 
 
 def measures_of(order: Order, columns: tuple[Column, ...]) -> Measures:

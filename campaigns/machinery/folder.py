@@ -22,6 +22,7 @@ import engine
 from engine.atomic import write_atomic
 from tables import Column, Row, names, write_table
 
+PACKAGES = "machine_code", "tables", "engine", "analysis", "campaigns", "reports"  # of this project
 PROGRESS = ".progress-"  # begins the names of folders in which workers say how far they are
 SEAL = b"sha256:" + 64 * b"0"  # stands in a content that `write_sealed` is given
 _SEALED = re.compile(rb"sha256:[0-9a-f]{64}")
@@ -141,6 +142,12 @@ def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
     except ValueError:  # TrajectoryError
         pass
     return None
+
+
+def write_new(path: Path, content: bytes) -> None:
+    """Write a file, unless it has this content already. Raises OSError."""
+    if not path.exists() or path.read_bytes() != content:
+        write_atomic(path, content)
 
 
 def read_json(path: Path) -> object:

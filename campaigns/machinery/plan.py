@@ -6,14 +6,17 @@ lost at no cost: its rows come from these files, or from the copies of rows besi
 
 import hashlib
 import json
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
 import engine
 from campaigns.machinery.cli import Running
 from tables import Column
+
+TIMES = "compile_s", "run_s", "analysis_s"
 
 
 @dataclass(frozen=True)
@@ -67,8 +70,10 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Summary:
-    """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers.
+    """A campaign's rows in order, and how many were found or computed.
 
+    times    seconds by TIMES, and of the report and of all together; 0 where there is no entry. Those of analysis are
+             summed over workers
     whole    whether nothing was done, and the report that is there stays as it is
     made     keys of the runs that were computed, or went on
     """
@@ -76,7 +81,7 @@ class Summary:
     rows: list[dict[str, object]]
     found: int
     computed: int
-    analysis_s: float
+    times: Counter[str] = field(default_factory=Counter)
     whole: bool = False
     made: frozenset[str] = frozenset()
 
@@ -118,10 +123,9 @@ class Plan:
     on_row: Callable[[dict], None] | None = None
     spare: list = field(default_factory=list)
 
-    @property
-    def sends(self) -> bool:
-        """Whether workers send what they computed, because they need not see the folder."""
-        return self.how.backend == "dask"
+    def within(self, folder: Path | None, **changes: object) -> "Plan":
+        """The plan for another folder, with further changes."""
+        return replace(self, how=replace(self.how, out=folder), **changes)
 
 
 def name_of(task: Sequence[Job]) -> str:

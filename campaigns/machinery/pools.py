@@ -24,14 +24,13 @@ from concurrent.futures import CancelledError
 from functools import cache, partial
 from importlib import metadata
 
-from campaigns.machinery.folder import CampaignStopped, made_by
+from campaigns.machinery.folder import PACKAGES, CampaignStopped, made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
 ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
-_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports", "tables")
 _GO_ON = "finished runs are kept; mend the cluster and run the same command again"
 _REFUSED = "refused, not the same version as here: {}; install there what is installed here, and start it again"
 
@@ -178,7 +177,7 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
 def facts() -> dict[str, str]:
     """What decides the numbers that this process computes: versions, and a hash of the sources of each package."""
     versions = {name: metadata.version(name) for name in _NUMBERS}
-    sources = {f"sources of {part}": made_by({}, part)[:12] for part in _PARTS}
+    sources = {f"sources of {part}": made_by({}, part)[:12] for part in PACKAGES}
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
 
 

@@ -8,8 +8,8 @@ import contextlib
 import math
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -33,21 +33,21 @@ FEWEST = 3  # jobs for each worker below which they go alone: eight lanes cost a
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
-def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> tuple[dict[str, float], Summary]:
-    """Compile and do the runs; returns the times of both and the summary. ahead: of these what they need is compiled
-    too, because they come next and two processes are done sooner with all of it.
+def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> Summary:
+    """Compile and do the runs. ahead: of these what they need is compiled too, because they come next and two processes
+    are done sooner with all of it.
     """
     missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
     start = time.perf_counter()
-    if missing and plan.sends and plan.how.dask_address is not None:
+    if missing and plan.how.sends and plan.how.dask_address is not None:
         print_line("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
         later = chain.from_iterable(spare.jobs for spare in plan.spare)
         _compile(plan, [*missing, *ahead, *later])
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
-    run_s = time.perf_counter() - compiled
-    return {"compile_s": compiled - start, "run_s": run_s, "analysis_s": summary.analysis_s}, summary
+    summary.times.update(compile_s=compiled - start, run_s=time.perf_counter() - compiled)
+    return summary
 
 
 def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
@@ -67,7 +67,7 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
             alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
     groups, workers = [], plan.how.jobs
     most = MOST
-    if plan.sends:
+    if plan.how.sends:
         most = MOST_SENT
     for members in alike.values():
         if len(members) < FEWEST * workers:
@@ -90,10 +90,10 @@ def spare_groups(plan: Plan, folder: Path, jobs: Sequence[Job], **changes) -> li
     changes: of the plan in that step. Raises OSError.
     """
     missing = [job for job in jobs if not trajectory_path(folder, job.key).exists()]
-    if not missing or plan.sends:
+    if not missing or plan.how.sends:
         return []
     trajectory_path(folder, "").parent.mkdir(parents=True, exist_ok=True)
-    later = replace(plan, how=replace(plan.how, out=folder.absolute()), spare=[], **changes)
+    later = plan.within(folder.absolute(), spare=[], **changes)
     firsts = range(0, len(missing), MOST_SENT)
     return [Spare(later, missing[first : first + MOST_SENT]) for first in firsts]
 
@@ -158,13 +158,13 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
     by_key = {job.key: job for job in jobs}
     table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
     finished: set[str] = set()
-    analysis_s = 0.0
+    times: Counter[str] = Counter()
     with stage("looking for finished runs"):
         for key, job in by_key.items():
             outcome = reuse(plan, job, print_line)
             if outcome is not None and _ended(job, outcome):
                 finished.add(key)
-                analysis_s += outcome.analysis_s
+                times["analysis_s"] += outcome.analysis_s
                 table.rows[key] = _row(job, outcome)
     table.write()
     missing = [job for key, job in by_key.items() if key not in finished]
@@ -174,7 +174,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
                 write_atomic(trajectory_path(plan.how.out, key), outcome.content)
                 keep_row(plan, outcome, outcome.content)
                 orbits_in(plan.how.out).add(outcome.orbits)
-            analysis_s += outcome.analysis_s
+            times["analysis_s"] += outcome.analysis_s
             row = _row(by_key[key], outcome)
             table.add(key, row)
             if plan.on_row is not None:
@@ -184,7 +184,7 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
             table.write()
         raise
     table.write()
-    return Summary(table.in_order(), len(finished), len(missing), analysis_s, made=frozenset(_keys([missing])))
+    return Summary(table.in_order(), len(finished), len(missing), times, made=frozenset(_keys([missing])))
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
@@ -202,11 +202,7 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     """
     if not jobs:
         return
-    # Workers that send their results need not see the campaign's folder: theirs is a temporary one.
-    out = None
-    if not plan.sends:
-        # a worker kept from an earlier campaign of this process may stand in another folder
-        out = plan.how.out.absolute()
+    out = plan.how.seen(plan.how.out)
     groups = groups_of(plan, jobs)
     total = reused + len(jobs)
     unfinished = _keys([jobs])
@@ -235,8 +231,7 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     # workers say there how far they are; a campaign drops what a kill leaves of it
     folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)
     with folder as place, stage(plan.title, total, "runs", count, simulated):
-        of_workers = {"how": replace(plan.how, out=out), "reports": Path(place), "on_row": None, "spare": []}
-        call = partial(run_jobs, replace(plan, **of_workers))
+        call = partial(run_jobs, plan.within(out, reports=Path(place), on_row=None, spare=[]))
         for key, outcome in as_completed(plan.how, groups, call, _given_up, plan.spare):
             unfinished.discard(key)
             yield key, outcome

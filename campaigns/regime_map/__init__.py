@@ -126,17 +126,16 @@ def measures(order: Order) -> Measures:
     return replace(measures, row=cell_row, sources=sources)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
     from campaigns.regime_map.maps import Map
 
     curves.take_over(order.options.curves, plan)
     regime_map = Map(plan, order)
     regime_map.run_screen(jobs)
-    summary = Summary([], 0, 0, 0.0)
-    if not order.options.screen:
-        summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
-    return regime_map.motions.timing(), summary
+    if order.options.screen:
+        return Summary([], 0, 0, regime_map.motions.times)
+    return regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
 
 
 def parameters(order: Order) -> dict:
@@ -170,8 +169,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
             scenes[values] = order.scene(changes)
         return scenes[values]
 
-    cells = motions.tables_of(order.how.out, "cells")["cells"]
-    return [*sentences(cells, rows, grid.columns, scene)]
+    return [*sentences(motions.table_of(order.how.out / "cells"), rows, grid.columns, scene)]
 
 
 STUDY = Study(
@@ -186,7 +184,7 @@ STUDY = Study(
     runs=runs,
     answer=answer,
 )
-parser, read_order = STUDY.parser, STUDY.read_order
+read_order = STUDY.read_order
 
 
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:

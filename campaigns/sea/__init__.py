@@ -19,22 +19,23 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from campaigns.explore.grid import Grid, varied
-from campaigns.explore.sweep import kick_speed
+from campaigns.explore.grid import Grid, grid_of
+from campaigns.explore.sweep import kick_speed, table_of
 from campaigns.finer import finer
 from campaigns.machinery import cli
+from campaigns.machinery.long_runs import TANGENTS
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import LARGE
 
-MOST_KEYS = 2
 HEIGHT = "waves.jonswap.significant_height_m"
-HEIGHTS = ("waves.jonswap.significant", "waves.components", "waves.significant", "waves.record", "waves.steepness")
-HEIGHTS += ("waves.amplitude_m",)
+HEIGHTS = (
+    "waves.jonswap.significant", "waves.components", "waves.significant", "waves.record", "waves.steepness",
+    "waves.amplitude_m",
+)  # fmt: skip
 SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
-TANGENTS = "output.tangent_vectors"
 AS_GIVEN, FINER = "", "finer"
 SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
@@ -75,14 +76,7 @@ class Options(cli.Options):
         """The keys with their values in the words of --vary; thresholds that contradict each other."""
         if self.screen:
             self.starts = 1
-        words = self.vary or []
-        if len(words) % 4 or len(words) > 4 * MOST_KEYS:
-            faults.append(f"--vary: given {' '.join(words)}; allowed: once or twice KEY LO HI COUNT")
-            words = []
-        keys = [varied(words[first : first + 4], faults) for first in range(0, len(words), 4)]
-        self.grid = Grid(tuple(filter(None, keys)))
-        if len({key.key for key in self.grid.keys}) < len(self.grid.keys):
-            faults.append(f"--vary {self.grid.keys[0].key}: given twice; allowed: two different keys")
+        self.grid = grid_of(self.vary or [], faults)
         if not self.slack_share < self.snap_share:
             allowed = f"above --slack-share {self.slack_share:g}"
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
@@ -132,11 +126,7 @@ def cases(order: Order) -> Iterator[Job]:
     if options.screen:
         order.changes["tether.nodes"] = SCREEN_NODES
     for place in options.grid.places():
-        base = order.base()
-        if base is None and not options.grid.keys:
-            order.base(tell=True)
-            return
-        changes, faults = options.grid.changes(place, base)
+        changes, faults = options.grid.changes(place, order.base())
         order.tell(faults)
         scene = order.base(changes, tell=True)
         if scene is None:
@@ -185,12 +175,12 @@ def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], 
                 yield Job({**of_run, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: a state whose exponent has no clear sign gets twice as many seas, again and again."""
     from campaigns.sea.rows import unclear_places
 
     options: Options = order.options
-    timing, summary = run(plan, jobs)
+    summary = run(plan, jobs)
     seeds, most = options.seeds, int(options.most_hours / options.hours)
     while seeds < most:
         unclear = unclear_places(summary.rows, options.grid.columns)
@@ -206,13 +196,11 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
         if not more:
             break
         jobs = [*jobs, *more]
-        before = summary
-        taken, summary = run(plan, jobs)
-        timing = {name: timing[name] + taken[name] for name in timing}
-        made = before.made | summary.made
-        summary = Summary(summary.rows, len(jobs) - len(made), len(made), timing["analysis_s"], made=made)
+        before, summary = summary, run(plan, jobs)
+        made, times = before.made | summary.made, before.times + summary.times
+        summary = Summary(summary.rows, len(jobs) - len(made), len(made), times, made=made)
         seeds = further[-1]
-    return timing, summary
+    return summary
 
 
 def measures(order: Order) -> Measures:
@@ -244,10 +232,10 @@ def parameters(order: Order) -> dict:
 
 def answer(order: Order, rows: list[dict]) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
-    from campaigns.explore.sweep import tables_of
     from campaigns.sea.answer import sentences
+    from campaigns.sea.cells import FOLDER
 
-    return sentences(tables_of(order.how.out, "cells")["cells"], order.options)
+    return sentences(table_of(order.how.out / FOLDER), order.options)
 
 
 STUDY = Study(
@@ -267,4 +255,4 @@ STUDY = Study(
     beside=beside,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

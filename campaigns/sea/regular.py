@@ -12,7 +12,7 @@ import numpy as np
 
 from analysis import slow_forecast
 from campaigns.explore.grid import Grid, varied
-from campaigns.explore.sweep import REST, tables_of
+from campaigns.explore.sweep import REST
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan, Summary
 from campaigns.study import Order
@@ -23,14 +23,14 @@ FOLDER, KEY = "regular", "waves.amplitude_m"
 DESIGN, SAME_ENERGY = 1.86, 1.0 / math.sqrt(2.0)  # heights of regular waves over the significant height
 HEIGHTS, LOWEST = 9, 0.15  # waves of the sweep; the lowest over the highest
 BUDGET, KICKS = 300, 3  # wave periods of a run, and kicks at each height
-BELOW_BREAKING, NEAR = (
-    0.98,
-    0.06,
-)  # of the amplitude of a wave: the highest of the sweep; nearness at which a wave counts as it
+# of the amplitude of a wave: the highest of the sweep; nearness at which a wave counts as it
+BELOW_BREAKING, NEAR = 0.98, 0.06
 RAMP = 2000  # amplitudes of a slowly rising or falling wave
 APART = 1.2  # two motions of a wave are a small and a large one if their tensions differ by this factor
-SEA_KEYS = ("waves.jonswap", "waves.component", "waves.significant_steepness", "waves.relative_width", "waves.seed")
-SEA_KEYS += ("waves.record",)
+SEA_KEYS = (
+    "waves.jonswap", "waves.component", "waves.significant_steepness", "waves.relative_width", "waves.seed",
+    "waves.record",
+)  # fmt: skip
 
 
 def significant_height_m(scene) -> float:
@@ -81,8 +81,7 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
         raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")
     (how.out / "trajectories").mkdir(parents=True, exist_ok=True)
     waves.simulate = None if plan.simulate_each is not None else order.simulate
-    timing, _ = sweep.STUDY.work(waves)
-    return timing["analysis_s"]
+    return sweep.STUDY.work(waves).times["analysis_s"]
 
 
 @dataclass(frozen=True)
@@ -175,9 +174,3 @@ def design_loads(rows: Sequence[Row], amplitude_m: float) -> list[tuple[str, flo
     if abs(nearest - amplitude_m) > NEAR * amplitude_m:
         return []
     return sorted(loads, key=lambda load: load[1])
-
-
-def regular_tables(order: Order) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
-    """The rows of the motions of regular waves, and of their ends; none where there are none."""
-    folder = order.how.out / FOLDER
-    return tables_of(folder, ".")["."], tables_of(folder, "ends")["ends"]

@@ -33,6 +33,7 @@ from tables import (
     Column,
     Row,
     counted,
+    finite,
     names,
     number_of,
 )
@@ -118,9 +119,12 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
         if len(snaps):
             row["snap_peak_median_N"] = float(np.median(snaps.peak_N))
             row["snap_speed_max_mps"] = float(np.max(snaps.taut_speed_mps))
-    return {
-        name: None if isinstance(entry, float) and not math.isfinite(entry) else entry for name, entry in row.items()
-    }
+    return finite_row(row)
+
+
+def finite_row(row: Row) -> Row:
+    """The row with None in place of numbers that are not finite."""
+    return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in row.items()}
 
 
 def unclear_places(rows: Sequence[Row], keys: Sequence[Column]) -> set[tuple]:

@@ -25,12 +25,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.explore import sweep as motions
-from campaigns.explore.grid import Grid, varied
+from campaigns.explore.grid import Grid, grid_of, varied
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
+from campaigns.machinery.folder import write_new
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
-from engine.atomic import write_atomic
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
 
@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     import pandas
 
     from engine.run.simulation import SceneOrName
-
-MOST_KEYS = 2
 
 
 @dataclass
@@ -52,18 +50,7 @@ class Options(motions.Starts):
 
     def read(self, out: Path, faults: list[str]) -> None:
         """The keys with their values in the words of --vary."""
-        words = self.vary or []
-        allowed = "once or twice KEY LO HI COUNT, for instance buoy.drag 0.1 0.8 8"
-        if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
-            faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
-            words = []
-        keys = []
-        while words:
-            keys.append(varied(words[:4], faults))
-            words = words[4:]
-        self.grid = Grid(tuple(filter(None, keys)))
-        if len(keys) == 2 and keys[0] and keys[1] and keys[0].key == keys[1].key:
-            faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
+        self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
 
 def cases(order: Order) -> list[Job]:
@@ -188,7 +175,6 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     In a sea the statistics of its runs (`seas.sentences`).
     """
     from campaigns.answers import known_rows, line
-    from campaigns.explore.answer import sentences
     from campaigns.explore.load import load
     from campaigns.sweep import seas
     from tables import PEAK
@@ -198,11 +184,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     if in_sea(scene):
         return seas.sentences(rows, symbols, scene)
     if len(keys) == 1:
-        folders = []
-        if motions.kicks_of(order) is not None:
-            folders.append("ends")
-        tables = motions.tables_of(order.how.out, *folders)
-        return sentences(rows, keys[0], keys[0], scene, **tables)
+        return motions.answer(order, rows, keys[0])
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     regimes = ", ".join(f"{word} {count}" for word, count in counts.most_common())
     lines = [line("MOTIONS", f"{len(rows)} runs: {regimes}.")]
@@ -260,8 +242,7 @@ def sweep(
     if isinstance(scene, Scene):
         name, content = str(how.out / "given.toml"), scene.to_toml().encode()
         how.out.mkdir(parents=True, exist_ok=True)
-        if not Path(name).exists() or Path(name).read_bytes() != content:
-            write_atomic(name, content)
+        write_new(Path(name), content)
     for name_of_scene in ("scene", "set"):
         delattr(options, name_of_scene)
     order = STUDY.order(how, name, {}, **vars(options) | {"grid": Grid((varied_key,))})
@@ -295,4 +276,4 @@ STUDY = Study(
     beside=beside,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order
