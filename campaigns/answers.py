@@ -6,12 +6,14 @@ prints them and keeps them as answer.txt, where its report finds them.
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from operator import itemgetter
 from pathlib import Path
 
-from tables import FAILS, STATEMENTS, VERDICTS, Row, any_rows, listed, number_of
+from tables import FAILS, PEAK, STATEMENTS, VERDICTS, Row, any_rows, listed, number_of
+
+NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
 
 
 def greatest(rows: Sequence[Row], name: str) -> Row | None:
@@ -32,6 +34,16 @@ def numbers_of(rows: Sequence[Row], name: str) -> list[float]:
 def line(word: str, text: str) -> str:
     """A line of an answer, with its word in front; the texts of all lines stand below each other."""
     return f"{word:<8} {text}"
+
+
+def lasting(rows: Sequence[Row]) -> list[Row]:
+    """The rows of runs that reached their end and have a largest tension after their transient."""
+    return [row for row in known_rows(rows, PEAK) if row["status"] == "ok"]
+
+
+def lines(texts: Mapping[str, str]) -> list[str]:
+    """The lines of an answer of texts by their words; without those that have no text."""
+    return [line(word, text) for word, text in texts.items() if text]
 
 
 def kilonewton(force_N: float) -> str:

@@ -232,7 +232,7 @@ class Study:
         """Whether a command line leaves the scene as it is, so that the scene has no faults to tell."""
         return not self.scene or (not values.set and values.scene == self.scene)
 
-    def order(self, how: cli.Running, scene: str, changes: dict[str, object], **options: object) -> Order:
+    def order(self, how: cli.Running, scene: str, changes: dict[str, object], /, **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
 
         options: of this study by name, as `read` leaves them; the others have their usual values.

@@ -24,7 +24,6 @@ from campaigns.machinery import cli
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import write_table
 
 COUNT, MOVED_M = 15, 2.0
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -90,24 +89,20 @@ def measures(order: Order) -> Measures:
 def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
     from campaigns.basins.edge import edge_state
-    from campaigns.basins.exploration import COLUMNS, Exploration
+    from campaigns.basins.exploration import Exploration
     from campaigns.basins.shocks import shocks
     from campaigns.explore.ends import confirm
     from campaigns.explore.motions import Search
 
-    search = Search(order, 0, order.options.kick_speed, order.options.seed)
-    exploration = Exploration(plan, jobs[0], order.options.grid, search)
-    exploration.find()
+    exploration = Exploration(plan, order.options.grid)
+    exploration.find(jobs[0], Search(order, 0, order.options.kick_speed, order.options.seed))
     rest, *kicked = exploration.motions or [None]
     if kicked:
         worst = max(kicked, key=lambda motion: motion.tension_N)
         shocks(exploration, worst)
         edge_state(exploration, rest, worst)
-    confirm(exploration.places)
-    times = exploration.places.write().times
-    rows, computed = exploration.rows(), exploration.computed
-    write_table(plan.how.out / "table.csv", COLUMNS, rows)
-    return Summary(rows, len(rows) - computed, computed, times)
+    confirm(exploration)
+    return exploration.write()
 
 
 def parameters(order: Order) -> dict:

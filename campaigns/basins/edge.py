@@ -120,10 +120,10 @@ class Edge:
         # with the output step of the runs that told them apart: with another one a state would begin a moment later
         scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
-        plan, places = self.exploration.plan, self.exploration.places
+        plan = self.exploration.plan
         folder = plan.how.out / FOLDER
         summary = run_within(plan, folder, jobs, title="along the edge")
-        places.times.update(summary.times)
+        self.exploration.times.update(summary.times)
         runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
         if None in runs:
             return None, ""

@@ -20,7 +20,7 @@ from itertools import groupby, pairwise
 from operator import itemgetter
 from statistics import median
 
-from campaigns.answers import greatest, kilonewton, known_rows, line, numbers_of
+from campaigns.answers import NOTHING_LASTS, greatest, kilonewton, known_rows, lasting, lines, numbers_of
 from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
 from engine.views import carries_tangents, in_regular_waves
@@ -64,11 +64,10 @@ def sentences(
 
     companions, ends: rows of its folders of these names.
     """
-    good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
+    good = sorted(lasting(rows), key=partial(number_of, name=key))
     if not good:
-        return [line("LOAD", "not known, because no run lasts beyond the transient.")]
-    good.sort(key=partial(number_of, name=key))
-    lines = {
+        return lines(NOTHING_LASTS)
+    texts = {
         "LOAD": load(good, {key: symbol}, scene, companions),
         "SNAPS": snaps(good, key, symbol),
         "JUMP": jump(good, key, symbol, ends),
@@ -77,7 +76,7 @@ def sentences(
         "CHAOS": chaos(good, key, symbol),
         "OPEN": undecided(rows, key, symbol, scene),
     }
-    return [line(word, text) for word, text in lines.items() if text]
+    return lines(texts)
 
 
 def by_motion(rows: Sequence[Row]) -> dict[str, list[Row]]:

@@ -85,6 +85,12 @@ class Summary:
     whole: bool = False
     made: frozenset[str] = frozenset()
 
+    def joined_to(self, earlier: "Summary") -> "Summary":
+        """The summary of both, where this is of all runs of the earlier one and of further runs."""
+        computed = earlier.made | self.made
+        counts = len(self.rows) - len(computed), len(computed)
+        return Summary(self.rows, *counts, earlier.times + self.times, made=computed)
+
     @property
     def by_key(self) -> dict[str, dict]:
         """The rows by the keys of their runs."""

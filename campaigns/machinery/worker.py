@@ -100,14 +100,9 @@ def _run_side_by_side(
         return part.scene, part.periods, part.start
 
     if plan.simulate_each is not None and under_way:
-        parts = [run.part for run in under_way]
-        first = {
-            "scenes": [part.scene for part in parts],
-            "periods": [part.periods for part in parts],
-            "starts": [part.start for part in parts],
-            "duration_s": parts[0].duration_s,
-        }
-        for _ in plan.simulate_each(**first, then=go_on, **with_progress(plan.simulate_each, progress)):
+        scenes, periods, starts, _, durations_s = zip(*(run.part for run in under_way), strict=True)
+        further = with_progress(plan.simulate_each, progress)
+        for _ in plan.simulate_each(scenes, periods, durations_s[0], starts=starts, then=go_on, **further):
             pass
         return
     for number, run in enumerate(under_way):

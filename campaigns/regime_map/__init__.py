@@ -134,7 +134,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     regime_map = Map(plan, order)
     regime_map.run_screen(jobs)
     if order.options.screen:
-        return Summary([], 0, 0, regime_map.motions.times)
+        return Summary([], 0, 0, regime_map.times)
     return regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
 
 

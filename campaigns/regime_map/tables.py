@@ -112,21 +112,20 @@ def write_cells(map_: "Map") -> None:
 
 
 def _cells(map_: "Map") -> Iterator[dict]:
-    grid, motions = map_.grid, map_.motions
-    rows = {}
+    grid, rows = map_.grid, {}
     for cell, screened in zip(grid.coarse(), map_.screen, strict=True):
         rows[cell] = {"source": SCREENED, **screen_row(screened)}
-    for job, motions_of_cell, cell in zip(motions.jobs, motions.at, map_.tree.cells, strict=False):
-        if job.key in motions.rows:  # the run from rest has ended
+    for job, motions_of_cell, cell in zip(map_.jobs, map_.at, map_.tree.cells, strict=False):
+        if job.key in map_.rows:  # the run from rest has ended
             rows.pop(cell, None)
-            rows[cell] = _cell(map_, motions_of_cell, motions.rows[job.key])
+            rows[cell] = _cell(map_, motions_of_cell, map_.rows[job.key])
     for cell, row in rows.items():
         yield {**grid.labels(cell), **grid.widths(cell), "level": cell.level, **row}
 
 
 def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
     """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
-    rows = list(filter(None, map(map_.motions.row_of, motions))) or [rest]
+    rows = list(filter(None, map(map_.row_of, motions))) or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
     largest = max(motions, key=map_.tension_N, default=None)
     tension_N, source = rest.get(TENSION.name), COMPUTED
@@ -152,8 +151,8 @@ def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
     }
     if tension_N and static_N:
         cell[RATIO.name] = tension_N / static_N
-    if largest is not None and map_.motions.kicks:
-        cell[SHARE.name] = largest.kicks / map_.motions.kicks
+    if largest is not None and map_.kicks:
+        cell[SHARE.name] = largest.kicks / map_.kicks
     return cell
 
 
@@ -166,14 +165,14 @@ def write_strobes(map_: "Map") -> None:
 
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.
     """
-    motions = [*map_.motions.all_motions()]
+    motions = [*map_.all_motions()]
     radius, tension = np.full((2, len(motions), STROBES), np.nan, np.float32)
     keys, letters = [], []
     for number, motion in enumerate(motions):
         points, measures = motion.settled.points[-STROBES:], motion.settled.measures[-STROBES:]
         radius[number, : len(points)] = np.hypot(points[:, 0], points[:, 1])
         tension[number, : len(measures)] = measures[:, 2]
-        keys.append(map_.motions.row_of(motion).get(RUN_KEY.name, ""))
+        keys.append(map_.row_of(motion).get(RUN_KEY.name, ""))
         letters.append(motion.branch.letter)
     content, words = io.BytesIO(), {"run_key": np.array(keys, "U64"), "motion": np.array(letters, "U8")}
     np.savez_compressed(content, **words, radius_m=radius, tension_N=tension)

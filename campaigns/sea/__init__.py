@@ -196,9 +196,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
         if not more:
             break
         jobs = [*jobs, *more]
-        before, summary = summary, run(plan, jobs)
-        made, times = before.made | summary.made, before.times + summary.times
-        summary = Summary(summary.rows, len(jobs) - len(made), len(made), times, made=made)
+        summary = run(plan, jobs).joined_to(summary)
         seeds = further[-1]
     return summary
 

@@ -7,10 +7,12 @@ height. Where a wave has two motions, the largest tension says to which of them 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
 
 from analysis import slow_forecast
+from campaigns.answers import lasting, numbers_of
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
 from campaigns.machinery.folder import CampaignStopped
@@ -126,9 +128,9 @@ def folds_of(rows: Sequence[Row], ends: Sequence[Row]) -> Folds | None:
     """The folds of a sweep of regular waves, from the rows of its tables; None where no wave has two unlike motions."""
     waves: dict[float, list[float]] = {}
     motions: dict[str, dict[float, float]] = {}
-    for row in rows:
-        amplitude_m, tension_N = number_of(row, KEY), number_of(row, PEAK)
-        if row.get("motion") and row["status"] == "ok" and math.isfinite(tension_N):
+    for row in lasting(rows):
+        amplitude_m, tension_N = row[KEY], row[PEAK]
+        if row.get("motion"):
             waves.setdefault(amplitude_m, []).append(tension_N)
             motions.setdefault(str(row["motion"]), {})[amplitude_m] = tension_N
     border = {}
@@ -166,11 +168,9 @@ def design_loads(rows: Sequence[Row], amplitude_m: float) -> list[tuple[str, flo
 
     Of the sweep, the nearest wave within NEAR counts; an empty list where there is none.
     """
-    known = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
-    if not known:
-        return []
-    nearest = min((number_of(row, KEY) for row in known), key=lambda value: abs(value - amplitude_m))
-    loads = [(str(row["motion"]), number_of(row, PEAK)) for row in known if number_of(row, KEY) == nearest]
+    known = lasting(rows)
+    nearest = min(numbers_of(known, KEY), key=lambda value: abs(value - amplitude_m), default=math.inf)
     if abs(nearest - amplitude_m) > NEAR * amplitude_m:
         return []
-    return sorted(loads, key=lambda load: load[1])
+    loads = [(str(row["motion"]), row[PEAK]) for row in known if row[KEY] == nearest]
+    return sorted(loads, key=itemgetter(1))

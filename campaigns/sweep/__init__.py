@@ -243,8 +243,6 @@ def sweep(
         name, content = str(how.out / "given.toml"), scene.to_toml().encode()
         how.out.mkdir(parents=True, exist_ok=True)
         write_new(Path(name), content)
-    for name_of_scene in ("scene", "set"):
-        delattr(options, name_of_scene)
     order = STUDY.order(how, name, {}, **vars(options) | {"grid": Grid((varied_key,))})
     if order.faults:
         if isinstance(scene, Scene):

@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from operator import itemgetter
 
-from campaigns.answers import kilonewton, known_rows, line, numbers_of
+from campaigns.answers import NOTHING_LASTS, kilonewton, known_rows, lasting, lines, numbers_of
 from campaigns.explore.answer import snap_peaks, span
 from campaigns.explore.load import load, place_of
 from campaigns.sea.rows import MEAN, SNAPS
 from engine.physics.sea import elevation_m
 from engine.views import snaps_of
-from tables import PEAK, Column, Row, number_of
+from tables import Column, Row
 
 SURFACE = Column(
     "significant_elevation_m", "m", "4 σ_η", "four standard deviations of the surface at x = 0 after the transient", 2
@@ -40,17 +40,17 @@ def sentences(rows: Sequence[Row], symbols: Mapping[str, str], scene) -> list[st
 
     symbols: of what is varied, by column; scene: of one of the runs.
     """
-    good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
+    good = lasting(rows)
     if not good:
-        return [line("LOAD", "not known, because no run lasts beyond the transient.")]
-    lines = {
+        return lines(NOTHING_LASTS)
+    texts = {
         "SEA": _sea(good, scene),
         "LOAD": load(good, symbols, scene),
         "TENSION": _tension(good, symbols),
         "SNAPS": _snaps(good, symbols),
         "OPEN": _open(rows, scene),
     }
-    return [line(word, text) for word, text in lines.items() if text]
+    return lines(texts)
 
 
 def _sea(rows: Sequence[Row], scene) -> str:
