@@ -15,10 +15,10 @@ import engine
 from campaigns.machinery import cli, session
 from campaigns.machinery.finished import finished, order_key
 from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.progress import stage
 from campaigns.machinery.runner import run, write_scene
-from tables import Column
+from tables import Columns, Rows
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Measures:
     judge: computes what a row reads beside its run (`Plan.judge`); then row(trajectory, judgement).
     """
 
-    columns: tuple[Column, ...]
+    columns: Columns
     row: Callable
     sources: tuple[str, ...] = ()
     settings: Mapping[str, object] = field(default_factory=dict)
@@ -157,7 +157,7 @@ class Study:
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
     parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
-    answer: Callable[[Order, list[dict]], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
+    answer: Callable[[Order, Rows], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
     perform: Callable[[Order], Summary] | None = None  # does them
@@ -170,7 +170,7 @@ class Study:
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
     # does them, in place of `runner.run`
-    runs: Callable[[Order, Plan, list[Job]], Summary] = lambda order, plan, jobs: run(plan, jobs)
+    runs: Callable[[Order, Plan, Jobs], Summary] = lambda order, plan, jobs: run(plan, jobs)
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
     beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
@@ -206,14 +206,16 @@ class Study:
         order = Order(how, cli.options_of(self.options, values), faults=faults)
         if self.lengths is not None:
             self.lengths.read(values, order)
-        if values.mistyped and self._scene_as_shipped(values):
+        # such a scene has no faults to tell
+        as_shipped = not self.scene or (not values.set and values.scene == self.scene)
+        if values.mistyped and as_shipped:
             return order  # answered before anything heavy is loaded
         order.options.read(how.out, faults)
-        if self.cases is None or (faults and self._scene_as_shipped(values)):
+        if self.cases is None or (faults and as_shipped):
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
-        unsound = not self._scene_as_shipped(values) and order.base() is None
+        unsound = not as_shipped and order.base() is None
         if unsound:  # the cases tell why, before the key of the order loads anything heavy
             self._add_cases(order)
         if faults:
@@ -227,10 +229,6 @@ class Study:
         """`Order.key` of the values of options, but for those that say where it is done, and of `further` ones."""
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
-
-    def _scene_as_shipped(self, values: Namespace) -> bool:
-        """Whether a command line leaves the scene as it is, so that the scene has no faults to tell."""
-        return not self.scene or (not values.set and values.scene == self.scene)
 
     def order(self, how: cli.Running, scene: str, changes: dict[str, object], /, **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.

@@ -7,7 +7,7 @@ a column is printed, so that a column that is declared reaches every report.
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tables.words import EMPTY, decimals, number, sub
@@ -61,6 +61,9 @@ class Column:
         if value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits:
             return number(value, 2)
         return decimals(value, self.digits)
+
+
+Columns = Sequence[Column]  # of a table
 
 
 def of_words(name: str, meaning: str, symbol: str = "") -> Column:

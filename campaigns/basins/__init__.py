@@ -21,9 +21,10 @@ from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
+from tables import Rows
 
 COUNT, MOVED_M = 15, 2.0
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -86,7 +87,7 @@ def measures(order: Order) -> Measures:
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
     from campaigns.basins.edge import edge_state
     from campaigns.basins.exploration import Exploration
@@ -115,7 +116,7 @@ def parameters(order: Order) -> dict:
     }
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.basins.answer import sentences
 

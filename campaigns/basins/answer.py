@@ -8,13 +8,13 @@ from campaigns.answers import greatest, kilonewton
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.explore.load import use_of
 from campaigns.explore.motions import from_rest
-from tables import PEAK, UNSETTLED, Row, listed, number_of, ranges
+from tables import PEAK, UNSETTLED, Row, Rows, listed, number_of, ranges
 
 NONE_FOUND = "No start has settled, so there is no motion to name."
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
 
-def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows]) -> Iterator[str]:
     """At most eight, of the rows of table.csv and those of the tables in its folders motions, shock and edge (parts).
 
     across: as `Grid.across`; scene: from rest.
@@ -61,7 +61,7 @@ def _of_motion(row: Row) -> str:
     return f"{name} ({row.get('regime') or row['status']}, {kilonewton(row[PEAK])})"
 
 
-def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
+def _shares(rows: Rows, motions: Rows) -> str:
     counts, unsettled, failed = Counter(), 0, 0
     for row in rows:
         counts[row["motion"]] += 1
@@ -92,7 +92,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     return f"{ahead}, {angle:.0f} degrees {upright}"
 
 
-def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
+def _shock(rows: Rows, across: Sequence[str]) -> str:
     unit = ("m/s", "m")["x" in across]
     good = [row for row in rows if row["status"] == "ok"]
     if not good:
@@ -113,7 +113,7 @@ def _phase(row: Row) -> float:
     return number_of(row, COLUMNS[PHASE]) / (2.0 * math.pi)
 
 
-def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
+def _when(rows: Rows, across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
     least = dict.fromkeys(sorted(map(_phase, rows)), math.inf)  # by phase
     for row in rows:

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.basins.exploration import Exploration
-from campaigns.explore.motions import Motion, subfolder
+from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
@@ -121,7 +121,7 @@ class Edge:
         scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
         plan = self.exploration.plan
-        folder = plan.how.out / FOLDER
+        folder = plan.out / FOLDER
         summary = run_within(plan, folder, jobs, title="along the edge")
         self.exploration.times.update(summary.times)
         runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
@@ -171,8 +171,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
         for trajectory in runs:
             strobed += [*_strobed(trajectory)[:-1]]
         row |= _later_extremes(runs) | {"strobed_period": _repeats(np.array(strobed) / edge.scale)}
-    folder = subfolder(exploration.plan, FOLDER)
-    write_table(folder / "table.csv", COLUMNS, [row])
+    folder = write_part(exploration.plan, FOLDER, COLUMNS, [row])
     orbit = []
     for period, state in enumerate(strobed):
         orbit.append(dict(zip(names(ORBIT), (period, *state, distances_so_far[period]), strict=True)))

@@ -92,6 +92,6 @@ class Exploration(Motions):
             if motion is not None:
                 row |= {"motion": motion.branch.letter, PEAK.name: self.row_of(motion).get(PEAK.name)}
             rows.append(row)
-        write_table(self.plan.how.out / "table.csv", COLUMNS, rows)
+        write_table(self.plan.out / "table.csv", COLUMNS, rows)
         computed = sum(row.get("run_key") in self.starts.computed for row in rows)
         return Summary(rows, len(rows) - computed, computed, times)

@@ -14,7 +14,7 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Order
-from tables import Column, Row, names
+from tables import Column, Columns, Row, names
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 
@@ -126,7 +126,7 @@ class Grid:
     keys: tuple[Varied, ...] = ()
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> Columns:
         """Those that name a place."""
         return tuple(key.column for key in self.keys)
 

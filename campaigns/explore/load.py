@@ -4,9 +4,9 @@ A tension is doubted where the model says more than it knows (`reasons`).
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
-from campaigns.answers import greatest, kilonewton, numbers_of
+from campaigns.answers import greatest, kilonewton, known_rows
 from engine.natural_frequencies import natural_frequencies
 from engine.views import in_regular_waves
 from tables import (
@@ -18,6 +18,7 @@ from tables import (
     PEAK,
     PEAK_ERROR,
     Row,
+    Rows,
     count,
     listed,
     number_of,
@@ -26,7 +27,7 @@ from tables import (
 FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
-def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequence[Row] = ()) -> str:
+def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
     """The largest tension, its use, that of the largest motion that stays in the water, and what was checked of it.
 
     keys: columns of what is varied, with their symbols.
@@ -42,7 +43,7 @@ def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequen
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:
         return sentences[0]
-    searched = any(map(math.isfinite, numbers_of(rows, "share")))
+    searched = bool(known_rows(rows, "share"))
     if not any(reasons(peak, scene)):
         return f"{sentences[0]} {use_of(peak, scene, searched)}"
     sentences.append(use_of(peak, scene, searched))

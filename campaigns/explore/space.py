@@ -12,7 +12,8 @@ import math
 from dataclasses import replace
 
 import engine.scene
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.judge import UNFOLLOWED
+from campaigns.machinery.plan import Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 
 SEED_MPS = 1e-5  # size of the push
@@ -42,14 +43,14 @@ def in_space(scene):
     heading = scene.waves.direction_rad
     sine, cosine = math.sin(heading), math.cos(heading)
     vx, vy, vz = scene.start.buoy_velocity_mps
-    changes = {"motion.dimensions": 3, "output.tangent_vectors": 0, "output.lateral_growth": False}
+    changes = {"motion.dimensions": 3, **UNFOLLOWED}
     added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
     if added:
         changes["start.buoy_velocity_mps"] = [vx - SEED_MPS * sine, vy + SEED_MPS * cosine, vz]
     return engine.scene.scene_from_toml(scene.to_toml(), changes), added
 
 
-def run_where_needed(plan: Plan, jobs: list[Job]) -> Summary:
+def run_where_needed(plan: Plan, jobs: Jobs) -> Summary:
     """Do the planar jobs, then the runs in three dimensions of the values whose planar run released loops.
 
     table.csv has one row for each value. Raises the same errors as `runner.run`.

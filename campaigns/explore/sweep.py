@@ -1,7 +1,7 @@
 """A sweep over one key with every motion of each value: its options, its runs, and the tables that an answer reads."""
 
 import contextlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
@@ -9,11 +9,11 @@ from typing import Any
 
 import engine
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import Column, Row, names, read_table
+from tables import Columns, Rows, names, read_table
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -83,9 +83,9 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def with_kicks(order: Order, jobs: Iterable[Job]) -> list[Job]:
-    """The cases of an order, whose starts they allow, or else that is told."""
-    order.cases = list(jobs)
+def with_kicks(cases: Callable[[Order], Iterable[Job]], order: Order) -> list[Job]:
+    """The cases of an order. It is a fault if they do not allow its starts."""
+    order.cases = list(cases(order))
     kicks_of(order)
     return order.cases
 
@@ -116,7 +116,7 @@ def parameters(order: Order) -> dict:
     return {"starts": kicks, "kick_speed_mps": options.kick_speed, "seed": options.seed}
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
     kicks = kicks_of(order)
     if kicks is None:
@@ -127,7 +127,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
 def every_motion(
     order: Order,
     plan: Plan,
-    jobs: list[Job],
+    jobs: Jobs,
     kicks: int,
     speed_mps: float,
     seed: int,
@@ -159,19 +159,19 @@ def every_motion(
     return motions.write()
 
 
-def table_of(folder: Path) -> tuple[Row, ...]:
+def table_of(folder: Path) -> Rows:
     """The rows of table.csv in a folder; none where there is no table, or an empty one."""
     with contextlib.suppress(OSError, ValueError):
         return read_table(folder / "table.csv")
     return ()
 
 
-def tables_of(out: Path, *folders: str) -> dict[str, tuple[Row, ...]]:
+def tables_of(out: Path, *folders: str) -> dict[str, Rows]:
     """The rows of `table_of` in these folders of a campaign."""
     return {folder: table_of(out / folder) for folder in folders}
 
 
-def answer(order: Order, rows: Sequence[Row], symbol: str, *folders: str) -> list[str]:
+def answer(order: Order, rows: Rows, symbol: str, *folders: str) -> list[str]:
     """The findings of a sweep over one key (`campaigns.explore.answer`), which is called `symbol` in words.
 
     folders: within that of the sweep, whose tables count too; that of the ends of motions is one where there are some.
@@ -184,7 +184,7 @@ def answer(order: Order, rows: Sequence[Row], symbol: str, *folders: str) -> lis
     return sentences(rows, key, symbol, order.cases[0].scene, **tables_of(order.how.out, *folders))
 
 
-def measures_of(order: Order, columns: tuple[Column, ...]) -> Measures:
+def measures_of(order: Order, columns: Columns) -> Measures:
     """The rows of a buoy in regular waves."""
     from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row
@@ -195,7 +195,7 @@ def measures_of(order: Order, columns: tuple[Column, ...]) -> Measures:
     return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
 
 
-def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+def columns_of(keys: Columns) -> Columns:
     """Those of the places of a grid, then those of the rows of a buoy in a plane."""
     from campaigns.explore.rows import COLUMNS, STEEPNESS
 

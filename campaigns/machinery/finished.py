@@ -14,7 +14,7 @@ from campaigns.machinery.folder import PACKAGES, made_by, of_the_page, read_json
 from campaigns.machinery.plan import Summary
 
 FILE = "finished.json"
-_BESIDE = (FILE, ".lock")  # files of the folder that say nothing of its results
+_BESIDE = {FILE, ".lock"}  # files of the folder that say nothing of its results
 _DATA = "engine/scenes/*.toml", "campaigns/**/*.toml", "campaigns/**/*.csv"
 _COMPUTED_AGAIN = {"error", "worker-died", "analysis-failed", "lost"}  # statuses of rows that another attempt may mend
 
@@ -67,14 +67,11 @@ def keep_finished(out: Path, key: str, summary: Summary) -> None:
 
 def _listing(out: Path) -> str:
     """Hash of names, sizes and times of all files in a folder."""
-    digest, folders = hashlib.sha256(), [str(out)]
-    while folders:
-        with os.scandir(folders.pop()) as entries:
-            for entry in sorted(entries, key=lambda entry: entry.name):
-                if entry.is_dir(follow_symlinks=False):
-                    folders.append(entry.path)
-                elif entry.name not in _BESIDE:
-                    status = entry.stat()
-                    name = os.path.relpath(entry.path, out)
-                    digest.update(f"{name} {status.st_size} {status.st_mtime_ns}\n".encode())
+    digest = hashlib.sha256()
+    for folder, folders, files in os.walk(out):
+        folders.sort()
+        for name in sorted({*files} - _BESIDE):
+            path = Path(folder, name)
+            status = path.stat()
+            digest.update(f"{path.relative_to(out)} {status.st_size} {status.st_mtime_ns}\n".encode())
     return digest.hexdigest()

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import engine
 from engine.atomic import write_atomic
-from tables import Column, Row, names, write_table
+from tables import Columns, Row, names, write_table
 
 PACKAGES = "machine_code", "tables", "engine", "analysis", "campaigns", "reports"  # of this project
 PROGRESS = ".progress-"  # begins the names of folders in which workers say how far they are
@@ -105,12 +105,12 @@ class Table:
     dictionary of its columns (columns.csv) is written before the table is.
     """
 
-    def __init__(self, path: Path, columns: tuple[Column, ...], keys: list[str]):
+    def __init__(self, path: Path, columns: Columns, keys: list[str]):
         self.path, self.columns, self.keys = path, columns, keys
-        self.rows: dict[str, dict[str, object]] = {}
+        self.rows: dict[str, Row] = {}
         self._written_s = -math.inf
 
-    def add(self, key: str, row: dict[str, object]) -> None:
+    def add(self, key: str, row: Row) -> None:
         """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
         unknown = set(row) - set(names(self.columns))
         if unknown:
@@ -119,7 +119,7 @@ class Table:
         if time.monotonic() - self._written_s > 0.5:
             self.write()
 
-    def in_order(self) -> list[dict[str, object]]:
+    def in_order(self) -> list[Row]:
         """The rows there are, in the order of the campaign."""
         return [self.rows[key] for key in self.keys if key in self.rows]
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import engine
 from campaigns.machinery.cli import Running
-from tables import Column
+from tables import Columns, Row
 
 TIMES = "compile_s", "run_s", "analysis_s"
 
@@ -53,6 +53,9 @@ class Job:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
+Jobs = Sequence[Job]
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What a worker hands back: the row of a run, but for its labels and key, and the seconds that it took to make.
@@ -62,7 +65,7 @@ class Outcome:
     """
 
     key: str
-    row: dict[str, object]
+    row: Row
     analysis_s: float = 0.0
     content: bytes = b""
     orbits: Mapping[str, dict] = field(default_factory=dict)
@@ -78,7 +81,7 @@ class Summary:
     made     keys of the runs that were computed, or went on
     """
 
-    rows: list[dict[str, object]]
+    rows: list[Row]
     found: int
     computed: int
     times: Counter[str] = field(default_factory=Counter)
@@ -92,7 +95,7 @@ class Summary:
         return Summary(self.rows, *counts, earlier.times + self.times, made=computed)
 
     @property
-    def by_key(self) -> dict[str, dict]:
+    def by_key(self) -> dict[str, Row]:
         """The rows by the keys of their runs."""
         return {row["run_key"]: row for row in self.rows}
 
@@ -101,7 +104,7 @@ class Summary:
 class Plan:
     """How to run: where, with which functions, and on what. Functions go to workers (importable, or by cloudpickle).
 
-    how             `how.out` is None in the plan that a worker gets which does not see the folder
+    how             `out` is None in the plan that a worker gets which does not see the folder
     simulate        simulate(scene, periods=, duration_s=) -> Trajectory
     describe        describe(trajectory) -> row; with `judge`: describe(trajectory, judgement)
     columns         of the table, among them run_key, status and message
@@ -120,7 +123,7 @@ class Plan:
     how: Running
     simulate: Callable
     describe: Callable
-    columns: tuple[Column, ...]
+    columns: Columns
     row_maker: str = ""
     judge: Callable | None = None
     simulate_each: Callable | None = None
@@ -129,11 +132,16 @@ class Plan:
     on_row: Callable[[dict], None] | None = None
     spare: list = field(default_factory=list)
 
+    @property
+    def out(self) -> Path | None:
+        """The folder of the campaign."""
+        return self.how.out
+
     def within(self, folder: Path | None, **changes: object) -> "Plan":
         """The plan for another folder, with further changes."""
         return replace(self, how=replace(self.how, out=folder), **changes)
 
 
-def name_of(task: Sequence[Job]) -> str:
+def name_of(task: Jobs) -> str:
     """The name of the file in which a worker says how far it is with these jobs."""
     return f"{len(task)}-{task[0].key}"

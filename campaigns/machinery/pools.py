@@ -12,6 +12,7 @@ finished runs are on disk, and the same command goes on.
 
 import contextlib
 import logging
+import operator
 import os
 import platform
 import signal
@@ -75,7 +76,7 @@ def _joblib_results(
             handed_out[number] = task
             yield delayed(_numbered)(call, number, task)
         while spare and handed_out:
-            yield delayed(_numbered)(_called, -1, spare.pop(0))
+            yield delayed(_numbered)(operator.call, -1, spare.pop(0))
 
     options = {"backend": backend, "n_jobs": jobs}
     if backend == "loky":
@@ -100,10 +101,6 @@ def _joblib_results(
 
 def _numbered(call: Callable, number: int, task: object) -> tuple[int, object]:
     return number, call(task)
-
-
-def _called(function: Callable) -> object:
-    return function()
 
 
 def _prepare_worker(campaign: int) -> None:
@@ -144,14 +141,14 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
         if address is None:
             # A run whose worker dies is not tried again by dask: the runner does that, one run at a time.
             stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 0}))
-            options = {
-                "n_workers": jobs,
-                "threads_per_worker": 1,
-                "dashboard_address": None,
-                "silence_logs": "CRITICAL",
-            }
-            options["preload"] = __name__  # see `dask_setup`
-            address = stack.enter_context(LocalCluster(**options))
+            cluster = LocalCluster(
+                n_workers=jobs,
+                threads_per_worker=1,
+                dashboard_address=None,
+                silence_logs="CRITICAL",
+                preload=__name__,  # see `dask_setup`
+            )
+            address = stack.enter_context(cluster)
         # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
         stack.callback(logging.disable, logging.root.manager.disable)
         logging.disable(logging.CRITICAL)

@@ -117,46 +117,54 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     start, how = time.perf_counter(), order.how
     fault = key = ""
     answer: list[str] = []
+    if order.simulate is None:
+        key = order.key
     with claimed(how.out), stage(study.name):
-        if order.key and order.simulate is None:
-            key = order.key
-            summary = finished(how.out, key)
-            if summary is not None:
-                summary.times["total_s"] = time.perf_counter() - start
-                answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
-                code = printed(partial(print_summary, how, summary, answer, fault))
-                return EXIT_FAILED if study.strict and _failures(summary) else code
-            if not order.cases:
-                raise CampaignStopped(f"{how.out} has just been changed; run the same command again")
-        record = begun(how.out, study.name, command_line(study.called, argv), parameters)
-        summary = study.work(order)
-        failures = _failures(summary)
-        if summary.computed or not ended(how.out):
-            counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
-            rounded = {name: round(summary.times[name], 3) for name in TIMES}
-            record |= {"runs": counts | {"failed": failures.total()}, "finished_utc": _now_utc(), "timing": rounded}
-            write_json(how.out / PROVENANCE, record)
-        if study.answer is not None:
-            answer = write_answer(how.out, study.answer(order, summary.rows))
-        start_of_report = time.perf_counter()
-        if how.report and summary.rows and not summary.whole:
-            try:
-                from reports import build
-
-                with stage("figures and pages of the report"):
-                    build(how.out)
-            except OSError:
-                raise
-            except Exception as error:  # the results stand without a report
-                fault = f"{type(error).__name__}: {error}"
-        if key and not fault:
-            keep_finished(how.out, key, summary)
-        now = time.perf_counter()
-        summary.times.update(report_s=now - start_of_report, total_s=now - start)
+        summary = finished(how.out, key)
+        if summary is not None:
+            answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
+        elif key and not order.cases:
+            raise CampaignStopped(f"{how.out} has just been changed; run the same command again")
+        else:
+            record = begun(how.out, study.name, command_line(study.called, argv), parameters)
+            summary = study.work(order)
+            if summary.computed or not ended(how.out):
+                write_json(how.out / PROVENANCE, record | _outcome(summary))
+            if study.answer is not None:
+                answer = write_answer(how.out, study.answer(order, summary.rows))
+            start_of_report = time.perf_counter()
+            if how.report and summary.rows and not summary.whole:
+                fault = _fault_of_report(how.out)
+            if key and not fault:
+                keep_finished(how.out, key, summary)
+            summary.times["report_s"] = time.perf_counter() - start_of_report
+        summary.times["total_s"] = time.perf_counter() - start
     code = printed(partial(print_summary, how, summary, answer, fault))
-    if study.strict and failures:
+    if study.strict and _failures(summary):
         return EXIT_FAILED
     return code
+
+
+def _outcome(summary: Summary) -> dict[str, object]:
+    """What the provenance says of a campaign that has ended."""
+    counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
+    counts["failed"] = _failures(summary).total()
+    rounded = {name: round(summary.times[name], 3) for name in TIMES}
+    return {"runs": counts, "finished_utc": _now_utc(), "timing": rounded}
+
+
+def _fault_of_report(out: Path) -> str:
+    """Build the report; returns why there is none, because the results stand without it. Raises OSError."""
+    try:
+        from reports import build
+
+        with stage("figures and pages of the report"):
+            build(out)
+    except OSError:
+        raise
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    return ""
 
 
 def _failures(summary: Summary) -> collections.Counter[str]:
@@ -214,17 +222,13 @@ def _now_utc() -> str:
 
 def versions() -> dict[str, str | None]:
     """Of Python and of the libraries that shape results and reports."""
-    versions = {"python": platform.python_version()}
-    for package in _PACKAGES:
-        versions[package] = _version(package)
-    return versions
-
-
-def _version(package: str) -> str | None:
     from importlib import metadata  # 30 ms, which a refusal does not need
 
-    with contextlib.suppress(metadata.PackageNotFoundError):
-        return metadata.version(package)
+    versions = {"python": platform.python_version(), **dict.fromkeys(_PACKAGES)}
+    for package in _PACKAGES:
+        with contextlib.suppress(metadata.PackageNotFoundError):
+            versions[package] = metadata.version(package)
+    return versions
 
 
 def git_state(directory: Path) -> dict[str, object]:

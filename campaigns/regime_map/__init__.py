@@ -21,11 +21,12 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
 from campaigns.explore.sweep import BUDGET
 from campaigns.machinery import cli, session
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents, in_regular_waves
+from tables import Rows
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40"
 STARTS, MOST_CELLS = 3, 100_000
@@ -126,7 +127,7 @@ def measures(order: Order) -> Measures:
     return replace(measures, row=cell_row, sources=sources)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
     from campaigns.regime_map.maps import Map
 
@@ -153,7 +154,7 @@ def parameters(order: Order) -> dict:
     return parameters | {"refine": options.refine, "screen": options.screen}
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The findings of the map (`answer.sentences`)."""
     from campaigns.regime_map.answer import sentences
 

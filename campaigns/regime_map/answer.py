@@ -4,17 +4,28 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
-from operator import itemgetter
 
 from campaigns.answers import greatest, kilonewton, line, numbers_of
 from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO, TENSION
-from tables import CHAOTIC, EMPTY, FAILED, OPEN, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
+from tables import (
+    CHAOTIC,
+    EMPTY,
+    FAILED,
+    OPEN,
+    PERIODIC,
+    QUASI,
+    SCREENED,
+    Columns,
+    Row,
+    Rows,
+    listed,
+    number_of,
+    of_kicks,
+)
 
 
-def sentences(
-    cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]
-) -> Iterator[str]:
+def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv and table.csv.
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
@@ -40,7 +51,7 @@ def sentences(
     screened = len(coarse) - len(computed)
     if screened:
         yield line("OPEN", f"{screened} of {len(coarse)} cells were only screened with a massless tether.")
-    failed = list(map(itemgetter("source"), cells)).count(FAILED)
+    failed = sum(cell["source"] == FAILED for cell in cells)
     if failed:
         yield line("OPEN", f"{failed} cells have no result; the column message of cells/table.csv says why.")
 
@@ -49,14 +60,14 @@ def _is_coarse(row: Row) -> bool:
     return number_of(row, "level") == 0.0
 
 
-def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
+def _of_the_screen(cells: Rows, keys: Columns) -> Iterator[str]:
     yield f"Preview only: a massless tether was run in {len(cells)} cells; the cable itself was not."
     peak = greatest(cells, RATIO.name)
     if peak is not None:
         yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
 
 
-def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
+def _regimes(computed: Rows, motions: Rows, keys: Columns) -> Iterator[str]:
     """The shares of the map on which the motion from rest, or some motion, is chaotic, quasi-periodic or periodic."""
     counts, periodic, undecided = Counter(), 0, 0
     for cell in computed:
@@ -72,7 +83,7 @@ def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Col
         yield f"Some motion is chaotic on {_share(len(chaotic), computed)} of the map."
 
 
-def _peak(peak: Row, motions: Sequence[Row], keys: Sequence[Column]) -> str:
+def _peak(peak: Row, motions: Rows, keys: Columns) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
     pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
     sentence = f"largest tension {pull}, at {_at(peak, keys)}"
@@ -83,7 +94,7 @@ def _peak(peak: Row, motions: Sequence[Row], keys: Sequence[Column]) -> str:
     return f"{sentence}."
 
 
-def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
+def _use(motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
     if not motions:
         return
@@ -101,11 +112,11 @@ def _share(count: int, cells: Sequence) -> str:
     return f"{100.0 * count / len(cells):.3g} %"
 
 
-def _place(row: Row, keys: Sequence[Column]) -> tuple:
+def _place(row: Row, keys: Columns) -> tuple:
     return tuple(row[key.name] for key in keys)
 
 
-def _at(row: Row, keys: Sequence[Column]) -> str:
+def _at(row: Row, keys: Columns) -> str:
     words = []
     for key, value in zip(keys, _place(row, keys), strict=True):
         text = value

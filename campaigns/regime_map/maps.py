@@ -7,7 +7,6 @@ after --budget wave periods. A cut goes on with it. What is known of the cells i
 import contextlib
 import math
 import time
-from collections.abc import Sequence
 from dataclasses import replace
 
 from analysis.evidence import read_evidence
@@ -16,7 +15,7 @@ from campaigns.explore.motions import Motion, Motions, Search
 from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
 from campaigns.explore.stages import explore
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Jobs, Plan, Summary
 from campaigns.machinery.progress import print_line
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Quadtree
@@ -60,7 +59,7 @@ class Map(Motions):
         self.screen: list[list[dict]] = []
         self.drawn_s = time.monotonic()
 
-    def run_screen(self, coarse: Sequence[Job]) -> None:
+    def run_screen(self, coarse: Jobs) -> None:
         """Let a massless tether do the coarse grid, of which these are the runs from rest. Raises OSError."""
         options, start_s = self.order.options, time.perf_counter()
         self.screen = screened(self.plan, [job.scene for job in coarse], options.kick_speed, options.seed)
@@ -68,7 +67,7 @@ class Map(Motions):
         tables.write_screen(self.plan, self.grid, coarse, self.screen)
         self._show()
 
-    def compute(self, cells: list[Cell], jobs: list[Job]) -> Summary:
+    def compute(self, cells: list[Cell], jobs: Jobs) -> Summary:
         """Compute the motions of cells, whose runs from rest these are. Raises as `runner.run`."""
         options = self.order.options
         search = Search(self.order, options.starts - 1, options.kick_speed, options.seed, options.budget)
@@ -142,7 +141,7 @@ class Map(Motions):
 
     def _show(self) -> None:
         """Write what is known of the cells, and draw it where reports can."""
-        out = self.plan.how.out
+        out = self.plan.out
         tables.write_cells(self)
         with contextlib.suppress(ImportError):
             from reports.regime_map import draw

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.explore.motions import Motion, subfolder
+from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
 from campaigns.explore.sweep import columns_of
 from campaigns.machinery.plan import Plan
@@ -24,8 +24,9 @@ from tables import (
     STATUS,
     WALL_S,
     Column,
+    Columns,
     Row,
-    write_table,
+    number_of,
 )
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ OF_A_CELL = (
 OF_THE_SCREEN = (COUNT, OF_REST, RATIO, SHARE)
 
 
-def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+def motion_columns(keys: Columns) -> Columns:
     """Those of table.csv, behind those of the keys: a row is a motion of a computed cell."""
     columns = [column for column in columns_of(keys) if column.name != "confirmed"]
     columns.insert(columns.index(REGIME) + 1, VERDICT)
@@ -80,7 +81,7 @@ def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
 def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
-    write_table(subfolder(plan, "screen") / "table.csv", (*grid.columns, *OF_THE_SCREEN), rows)
+    write_part(plan, "screen", (*grid.columns, *OF_THE_SCREEN), rows)
 
 
 def screen_row(motions: list[dict]) -> Row:
@@ -108,7 +109,7 @@ def write_cells(map_: "Map") -> None:
     for key in map_.grid.axes:
         unit, symbol = key.column.unit, f"Δ{key.column.symbol}"
         widths.append(Column(f"width_{key.key}", unit, symbol, "size of the cell", 5))
-    write_table(subfolder(map_.plan, "cells") / "table.csv", (*map_.grid.columns, *widths, *OF_A_CELL), [*_cells(map_)])
+    write_part(map_.plan, "cells", (*map_.grid.columns, *widths, *OF_A_CELL), _cells(map_))
 
 
 def _cells(map_: "Map") -> Iterator[dict]:
@@ -157,7 +158,7 @@ def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
 
 
 def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
-    return any((row.get(column.name) or 0.0) > 0.0 for row in rows)
+    return any(number_of(row, column.name) > 0.0 for row in rows)
 
 
 def write_strobes(map_: "Map") -> None:
@@ -176,4 +177,4 @@ def write_strobes(map_: "Map") -> None:
         letters.append(motion.branch.letter)
     content, words = io.BytesIO(), {"run_key": np.array(keys, "U64"), "motion": np.array(letters, "U8")}
     np.savez_compressed(content, **words, radius_m=radius, tension_N=tension)
-    write_atomic(map_.plan.how.out / "strobes.npz", content.getvalue())
+    write_atomic(map_.plan.out / "strobes.npz", content.getvalue())

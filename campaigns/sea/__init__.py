@@ -24,11 +24,11 @@ from campaigns.explore.sweep import kick_speed, table_of
 from campaigns.finer import finer
 from campaigns.machinery import cli
 from campaigns.machinery.long_runs import TANGENTS
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import LARGE
+from tables import LARGE, Rows
 
 HEIGHT = "waves.jonswap.significant_height_m"
 HEIGHTS = (
@@ -175,7 +175,7 @@ def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], 
                 yield Job({**of_run, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: a state whose exponent has no clear sign gets twice as many seas, again and again."""
     from campaigns.sea.rows import unclear_places
 
@@ -228,7 +228,7 @@ def parameters(order: Order) -> dict:
     return {"sea_keys": [key.key for key in options.grid.keys], **values}
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.sea.answer import sentences
     from campaigns.sea.cells import FOLDER

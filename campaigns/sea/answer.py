@@ -2,17 +2,17 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from campaigns.answers import greatest, kilonewton, line
 from campaigns.sea.cells import WELL_ABOVE
-from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row
+from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows
 
 SCATTERED = 0.05  # of the largest tension
 FAILED = "No run ended, so there is nothing to say of this sea."
 
 
-def sentences(cells: Sequence[Row], options) -> Iterator[str]:
+def sentences(cells: Rows, options) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv. options: of the campaign."""
     known = [cell for cell in cells if cell["status"] == "ok"]
     if not known:
@@ -155,7 +155,7 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         )
 
 
-def _of_map(cells: Sequence[Row], count: int, options) -> Iterator[str]:
+def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
     signs = Counter(str(cell["sign"] or "open") for cell in cells)
     yield (
         f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and "

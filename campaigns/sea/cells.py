@@ -25,7 +25,7 @@ from analysis import (
 )
 from analysis.seas import Responses, standard_error
 from analysis.tangent_growth import turned
-from campaigns.explore.motions import subfolder
+from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
 from campaigns.explore.sweep import table_of
 from campaigns.machinery.folder import run_of
@@ -37,7 +37,7 @@ from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
 from engine.physics.sea import elevation_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, names, number_of, write_table
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
@@ -161,24 +161,24 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
             cell = dict(zip(names(keys), place, strict=True))
             digests = []
             for row in rows:
-                run = run_of(plan.how.out, row)
+                run = run_of(plan.out, row)
                 if run is not None:
                     digests.append(digest(run, row, order.options.transient, folds))
                     cell["significant_height_m"] = significant_height_m(run.scene)
             cells.append(cell | cell_row(rows, digests, order.options, folds))
-            for name, height in (("regular_N", 1.0), ("regular_high_N", DESIGN)):
+            for name, height in (("regular", 1.0), ("regular_high", DESIGN)):
                 loads = design_loads(regular_rows, 0.5 * height * cell.get("significant_height_m", 0.0))
                 if loads:
                     motions = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
-                    cells[-1] |= {name: loads[-1][1], f"{name.removesuffix('_N')}_motions": motions}
-    write_table(subfolder(plan, FOLDER) / "table.csv", (*keys, *COLUMNS), cells)
+                    cells[-1] |= {f"{name}_N": loads[-1][1], f"{name}_motions": motions}
+    write_part(plan, FOLDER, (*keys, *COLUMNS), cells)
     if not keys:
         drawn = [run for run in digests if run.row["sea"] <= order.options.seeds]
-        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(drawn, order.options))
+        write_part(plan, HISTORY, HISTORY_COLUMNS, history(drawn, order.options))
     return time.perf_counter() - began
 
 
-def cell_row(rows: Sequence[Row], digests: Sequence[Digest], options, folds: Folds | None) -> Row:
+def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None) -> Row:
     """The columns of one sea state. rows: of all its runs; digests: of those that reached their end."""
     if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}

@@ -19,7 +19,7 @@ from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan, Summary
 from campaigns.study import Order
 from engine.views import carries_tangents
-from tables import PEAK, Row, number_of
+from tables import PEAK, Rows, number_of
 
 FOLDER, KEY = "regular", "waves.amplitude_m"
 DESIGN, SAME_ENERGY = 1.86, 1.0 / math.sqrt(2.0)  # heights of regular waves over the significant height
@@ -124,7 +124,7 @@ class Folds:
         return float(ramp_m[np.argmax(jumped)]) if jumped.any() else math.nan
 
 
-def folds_of(rows: Sequence[Row], ends: Sequence[Row]) -> Folds | None:
+def folds_of(rows: Rows, ends: Rows) -> Folds | None:
     """The folds of a sweep of regular waves, from the rows of its tables; None where no wave has two unlike motions."""
     waves: dict[float, list[float]] = {}
     motions: dict[str, dict[float, float]] = {}
@@ -149,7 +149,7 @@ def folds_of(rows: Sequence[Row], ends: Sequence[Row]) -> Folds | None:
     return Folds(np.array(ranges), known_m, known_N, np.array([*border]), np.array([*border.values()]))
 
 
-def _end(letter: str, which: str, known: Mapping[float, float], ends: Sequence[Row], waves: Sequence[float]) -> float:
+def _end(letter: str, which: str, known: Mapping[float, float], ends: Rows, waves: Sequence[float]) -> float:
     """Where a motion ends: as orbit or bisection say, else half-way to the next wave; beyond the sweep never."""
     last, step = (min(known), -1) if which == "lower" else (max(known), 1)
     place = waves.index(last) + step
@@ -163,7 +163,7 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Sequence[R
     return 0.5 * (last + waves[place])
 
 
-def design_loads(rows: Sequence[Row], amplitude_m: float) -> list[tuple[str, float]]:
+def design_loads(rows: Rows, amplitude_m: float) -> list[tuple[str, float]]:
     """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
 
     Of the sweep, the nearest wave within NEAR counts; an empty list where there is none.

@@ -32,7 +32,7 @@ from campaigns.machinery.folder import write_new
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
+from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, Rows, counted, names, read_columns, read_table
 
 if TYPE_CHECKING:
     import pandas
@@ -53,12 +53,8 @@ class Options(motions.Starts):
         self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
 
-def cases(order: Order) -> list[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    return motions.with_kicks(order, _jobs(order))
-
-
-def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
     grid.refuse_set(order)
     first = {key.name: key.values[0] for key in grid.keys if key.index is None}
@@ -169,7 +165,7 @@ def beside(order: Order) -> Iterator[Callable]:
         yield errors
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load.
 
     In a sea the statistics of its runs (`seas.sentences`).
@@ -267,7 +263,7 @@ STUDY = Study(
     scene="tethered_buoy",
     lengths=Lengths(periods=120, transient=40, budget=700),
     options=Options,
-    cases=cases,
+    cases=partial(motions.with_kicks, cases),
     measures=measures,
     parameters=parameters,
     runs=motions.runs,
