@@ -12,7 +12,6 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 --budget. Cells at borders are bisected with --refine. Kicks are drawn by --seed; nothing else is random.
 """
 
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -25,7 +24,7 @@ from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
-from engine.views import carries_tangents, in_regular_waves
+from engine.views import carries_tangents
 from tables import Rows
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40"
@@ -97,7 +96,7 @@ def cases(order: Order) -> Iterator[Job]:
     base = order.base(tell=True)
     if base is None:
         return
-    if not (in_regular_waves(base) and carries_tangents(base)):
+    if not carries_tangents(base):
         order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
         return
     from engine.massless import why_not_covered
@@ -150,8 +149,10 @@ def parameters(order: Order) -> dict:
         "seed": options.seed,
         "budget": options.budget,
         "curves": options.curves,
+        "refine": options.refine,
+        "screen": options.screen,
     }
-    return parameters | {"refine": options.refine, "screen": options.screen}
+    return parameters
 
 
 def answer(order: Order, rows: Rows) -> list[str]:
@@ -165,8 +166,7 @@ def answer(order: Order, rows: Rows) -> list[str]:
     def scene(row: dict) -> object:
         values = tuple(row[column.name] for column in of_buoy.columns)
         if values not in scenes:
-            changes, faults = of_buoy.changes(row, order.base())
-            order.tell(faults)
+            changes, _ = of_buoy.changes(row, order.base())
             scenes[values] = order.scene(changes)
         return scenes[values]
 
@@ -190,12 +190,10 @@ read_order = STUDY.read_order
 
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
-    if argv is None:
-        argv = sys.argv[1:]
 
     def work(order: Order, words: list[str]) -> int:
         if order.options.cut:
             return cuts.cut(order, words, simulate)
         return STUDY.conduct(order, words, simulate)
 
-    return session.command(STUDY.called, list(argv), read_order, work)
+    return session.command(STUDY.called, argv, read_order, work)

@@ -28,7 +28,7 @@ from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import LARGE, Rows
+from tables import LARGE, Row, Rows, names
 
 HEIGHT = "waves.jonswap.significant_height_m"
 HEIGHTS = (
@@ -96,16 +96,13 @@ def kicks(options: Options) -> list[tuple[float, float]]:
 
 def usual_sea(order: Order) -> dict:
     """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
-    given = {*order.changes, *(key.key for key in order.options.grid.keys)}
-    usual = {}
     if order.name != STUDY.scene:
-        return usual
-    for key, value in (("buoy.submergence", "spherical-cap"), ("waves.above_still_water", "wheeler")):
-        if key not in given:
-            usual[key] = value
-    if not any(key.startswith(HEIGHTS) for key in given):
+        return {}
+    usual = {"buoy.submergence": "spherical-cap", "waves.above_still_water": "wheeler"}
+    keys = *order.changes, *names(order.options.grid.columns)
+    if not any(key.startswith(HEIGHTS) for key in keys):
         usual[HEIGHT] = 1.0  # other keys of the spectrum may be given without it
-        base = order.base(usual)
+        base = order.base(usual | order.changes)
         if base is not None:
             from engine.physics.waves import wave_number
 
@@ -135,12 +132,11 @@ def cases(order: Order) -> Iterator[Job]:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
             order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
             return
-        drawn = _seed_key(scene) is not None
-        if not drawn and options.seeds > 1 and scene.waves.significant_steepness is None:
+        listed = _seed_key(scene) is None and scene.waves.significant_steepness is None
+        if listed and options.seeds > 1:
             order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
             return
-        seeds = options.seeds if drawn else 1
-        yield from _runs(order, place, changes, scene, range(1, seeds + 1), options.starts)
+        yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 
 
 def _seed_key(scene) -> str | None:
@@ -152,16 +148,20 @@ def _seed_key(scene) -> str | None:
     return "waves.seed"
 
 
-def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], starts: int) -> Iterator[Job]:
-    """The runs of one sea state: its first starts in the seas of these seeds."""
+def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
+    """The runs of one sea state: its first starts in the seas of these seeds; waves that are not drawn are one sea."""
     options: Options = order.options
+    changes, _ = options.grid.changes(place, order.base())
+    base = order.base(changes)
+    seed_key = _seed_key(base)
     duration_s = options.transient * base.waves.period_s + options.hours * 3600.0
-    labels = {**place, "solver": AS_GIVEN}
     for seed in seeds:
+        if seed_key is None and seed > 1:
+            return
         for start, (x_mps, z_mps) in enumerate(kicks(options)[:starts]):
             further = {}
-            if _seed_key(base) is not None:
-                further[_seed_key(base)] = seed
+            if seed_key is not None:
+                further[seed_key] = seed
             if start > 0:
                 further["start.buoy_velocity_mps"] = [x_mps, 0.0, z_mps]
             elif carries_tangents(base):
@@ -169,10 +169,11 @@ def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], 
             scene = order.scene({**changes, **further}, duration_s)
             if scene is None:
                 return
-            of_run = {**labels, "sea": seed, "start": start, "kick_x_mps": x_mps, "kick_z_mps": z_mps}
-            yield Job(of_run, scene, duration_s=duration_s)
+            labels = {**place, "solver": AS_GIVEN, "sea": seed, "start": start}
+            labels |= {"kick_x_mps": x_mps, "kick_z_mps": z_mps}
+            yield Job(labels, scene, duration_s=duration_s)
             if seed == 1 and start == 0 and not options.grid.keys:
-                yield Job({**of_run, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
+                yield Job({**labels, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
 
 
 def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
@@ -187,12 +188,8 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
         further = range(seeds + 1, min(2 * seeds, most) + 1)
         more: list[Job] = []
         for place in options.grid.places():
-            if tuple(place.values()) not in unclear:
-                continue
-            changes, _ = options.grid.changes(place, order.base())
-            scene = order.base(changes)
-            if _seed_key(scene) is not None:
-                more += _runs(order, place, changes, scene, further, 1)
+            if tuple(place.values()) in unclear:
+                more += _runs(order, place, further, 1)
         if not more:
             break
         jobs = [*jobs, *more]
