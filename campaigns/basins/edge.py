@@ -148,8 +148,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     """
     edge = Edge(exploration, first, second)
     runs, distances_so_far, doublings = [], [], 0.0
-    row = {"motion": first.branch.letter, "other": second.branch.letter}
-    row["status"] = "lost"
+    row = {"motion": first.branch.letter, "other": second.branch.letter, "status": "lost"}
     while len(distances_so_far) < MOST:
         distances = edge.narrow()
         if distances is None:
@@ -160,7 +159,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
         if trajectory is None:
             break
         runs.append(trajectory)
-        distances_so_far += [*map(float, distances[:periods])]
+        distances_so_far += map(float, distances[:periods])
         doublings += math.log2(distances[periods] / distances[0])
     else:
         row["status"] = "ok"

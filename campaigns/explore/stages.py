@@ -35,14 +35,10 @@ def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable[[], N
     """
     places = range(len(motions.jobs), len(motions.jobs) + len(jobs))
 
-    def judge_and_name() -> None:
-        judge(motions, search)
-        name(motions)
-
     parts = [partial(run_from_rest, motions, jobs)]
     if motions.plan.simulate is engine.simulate:
         parts += parts_beside_rest(motions, places, search)
-    in_parts([*parts, judge_and_name, *later])
+    in_parts([*parts, partial(judge, motions, search), partial(name, motions), *later])
 
 
 def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable[[], object]]:

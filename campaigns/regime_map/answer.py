@@ -4,15 +4,17 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
+from operator import itemgetter
 
 from campaigns.answers import greatest, kilonewton, line, numbers_of
 from campaigns.explore.load import reasons, use_of
-from campaigns.regime_map.tables import RATIO, TENSION
+from campaigns.regime_map.tables import RATIO
 from tables import (
     CHAOTIC,
     EMPTY,
     FAILED,
     OPEN,
+    PEAK,
     PERIODIC,
     QUASI,
     SCREENED,
@@ -35,10 +37,10 @@ def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable[[Row], 
     if not computed:
         yield from _of_the_screen(coarse, keys)
         return
-    peak = greatest(cells, TENSION.name)
+    peak = greatest(cells, PEAK)
     if peak is not None:
         loads = [_peak(peak, motions, keys)]
-        loads += _use([row for row in motions if number_of(row, TENSION.name) > 0.0], keys, scene)
+        loads += _use([row for row in motions if number_of(row, PEAK) > 0.0], keys, scene)
         yield line("LOAD", " ".join(loads))
     yield line("MOTIONS", " ".join(_regimes(computed, motions, keys)))
     several = [count for count in numbers_of(computed, "motions") if count > 1]
@@ -64,7 +66,7 @@ def _of_the_screen(cells: Rows, keys: Columns) -> Iterator[str]:
     yield f"Preview only: a massless tether was run in {len(cells)} cells; the cable itself was not."
     peak = greatest(cells, RATIO.name)
     if peak is not None:
-        yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
+        yield f"Largest tension there: {peak[RATIO.name]:.3g} times that at rest, at {_at(peak, keys)}."
 
 
 def _regimes(computed: Rows, motions: Rows, keys: Columns) -> Iterator[str]:
@@ -85,10 +87,10 @@ def _regimes(computed: Rows, motions: Rows, keys: Columns) -> Iterator[str]:
 
 def _peak(peak: Row, motions: Rows, keys: Columns) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
-    pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
+    pull = f"{kilonewton(peak[PEAK])}, {peak[RATIO.name]:.3g} times that at rest"
     sentence = f"largest tension {pull}, at {_at(peak, keys)}"
     motions_of_cell = [row for row in motions if _place(row, keys) == _place(peak, keys)]
-    kicks = of_kicks(greatest(motions_of_cell, TENSION.name) or {})
+    kicks = of_kicks(greatest(motions_of_cell, PEAK) or {})
     if kicks != EMPTY:
         sentence += f"; {kicks} kicks there end in it"
     return f"{sentence}."
@@ -98,12 +100,12 @@ def _use(motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterat
     """Whether the largest tension may be used, and the largest that may."""
     if not motions:
         return
-    by_tension = sorted(motions, key=lambda row: -number_of(row, TENSION.name))
+    by_tension = sorted(motions, key=itemgetter(PEAK), reverse=True)
     peak = by_tension[0]
     usable = next(filterfalse(lambda row: [*reasons(row, scene(row))], by_tension), None)
     sentence = use_of(peak, scene(peak), searched=math.isfinite(number_of(peak, "share")))
     if usable is not None and usable is not peak:
-        pull = kilonewton(number_of(usable, TENSION.name))
+        pull = kilonewton(usable[PEAK])
         sentence += f" Largest without these faults: {pull}, at {_at(usable, keys)}."
     yield sentence
 

@@ -75,10 +75,17 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
         "buoy.submergence": scene.buoy.submergence,  # whose default is another one in a sea
     }
     key = replace(varied([KEY, "0", "1", "2"], []), values=tuple(sorted(amplitudes)))
-    options = {"grid": Grid((key,)), "starts": KICKS if carries_tangents(scene) else REST, "budget": BUDGET}
-    options |= {"kick_speed": order.options.kick_speed, "seed": order.options.seed}
     how = replace(order.how, out=order.how.out / FOLDER, report=False)
-    waves = sweep.STUDY.order(how, order.name, changes, **options)
+    waves = sweep.STUDY.order(
+        how,
+        order.name,
+        changes,
+        grid=Grid((key,)),
+        starts=KICKS if carries_tangents(scene) else REST,
+        budget=BUDGET,
+        kick_speed=order.options.kick_speed,
+        seed=order.options.seed,
+    )
     if waves.faults:
         raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")
     (how.out / "trajectories").mkdir(parents=True, exist_ok=True)

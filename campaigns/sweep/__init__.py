@@ -221,7 +221,8 @@ def sweep(
 
     values, faults, words = list(values) if isinstance(values, Iterable) else [values], [], ["--out", str(out)]
     given = {"periods": periods, "transient": transient, "duration": duration, "starts": starts, "seed": seed}
-    for name, value in {**given, "jobs": jobs}.items():
+    given["jobs"] = jobs
+    for name, value in given.items():
         if value is not None:
             words += [f"--{name}", str(value)]
     if not report:
