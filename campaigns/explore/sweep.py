@@ -184,15 +184,16 @@ def answer(order: Order, rows: Rows, symbol: str, *folders: str) -> list[str]:
     return sentences(rows, key, symbol, order.cases[0].scene, **tables_of(order.how.out, *folders))
 
 
-def measures_of(order: Order, columns: Columns) -> Measures:
-    """The rows of a buoy in regular waves."""
+def measures_of(order: Order, columns: Columns, row: Callable | None = None, *sources: str) -> Measures:
+    """The rows of a buoy in regular waves; row: in place of `rows.buoy_row`, with what else shapes it."""
     from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row
 
     settings = {"transient_periods": order.transient, "full": None}
     if getattr(order.options, "evidence", "") == FULL:
         settings["full"] = order.periods
-    return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
+    judge = partial(judgement_of, **settings)
+    return Measures(columns, row or buoy_row, (*ROW_SOURCES, *sources), settings, judge)
 
 
 def columns_of(keys: Columns) -> Columns:

@@ -13,7 +13,7 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
@@ -121,9 +121,7 @@ def measures(order: Order) -> Measures:
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
-    sources = (*motions.ROW_SOURCES, "campaigns/regime_map")
-    measures = motions.measures_of(order, motion_columns(order.options.grid.columns))
-    return replace(measures, row=cell_row, sources=sources)
+    return motions.measures_of(order, motion_columns(order.options.grid.columns), cell_row, "campaigns/regime_map")
 
 
 def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:

@@ -102,8 +102,7 @@ def measures(order: Order) -> Measures:
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
     row = partial(sweep_row, transient_periods=order.transient)
-    sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
-    return replace(motions.measures_of(order, columns), row=row, sources=sources)
+    return motions.measures_of(order, columns, row, "campaigns/sweep")
 
 
 def in_sea(scene) -> bool:
