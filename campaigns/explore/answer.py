@@ -114,7 +114,7 @@ def snaps(rows: Rows, key: str, symbol: str) -> str:
             words += f" from {symbol} = {snapping[0][key]:.4g} on"
         largest = greatest(snapping, "snap_peak_max_N")
         if largest is not None:
-            words += f", up to {kilonewton(number_of(largest, 'snap_peak_max_N'))}"
+            words += f", up to {kilonewton(largest['snap_peak_max_N'])}"
         motions.append(f"{letter}: {words}" if letter else words)
     if not motions:
         return "none: the tension never comes back from slack."
@@ -290,7 +290,7 @@ def starts(rows: Rows, key: str, symbol: str, scene) -> str:
             pairs.append((greatest(members, PEAK), usual))
     if not pairs:
         kicks = greatest(rows, "kicks")
-        number_of_kicks = f"{number_of(kicks, 'kicks'):.0f} kicks" if kicks else "the kicks"
+        number_of_kicks = f"{kicks['kicks']:.0f} kicks" if kicks else "the kicks"
         return f"{number_of_kicks} at each value led to no motion but the one from rest."
     place = ranges([*values], [len(members) > 1 for members in values.values()], 2)
     sentence = f"at {symbol} = {place} the start decides"
