@@ -121,6 +121,7 @@ MESSAGE = Column(
 )
 PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0, REGIMES)
 DEPTH = Column("depth_m", "m", "H", "depth of the water", 1)
+NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 STIFFNESS = Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2)
 TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
 MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4, SHEET)

@@ -13,7 +13,7 @@ from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import MOTION, Motion, write_part
 from campaigns.explore.starts import KICKS
 from campaigns.finer import finer
-from tables import MESSAGE, STATUS, Column, Row
+from tables import MESSAGE, NODES, STATUS, Column, Row
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not
 Polar = tuple[float, float]  # turn and size of a start
@@ -25,7 +25,7 @@ LEAST_TURN = 0.02  # rad between rays below which no better one is looked for
 _size = attrgetter("size")
 COLUMNS = (
     MOTION,
-    Column("nodes", "", "nodes", "nodes of the line", 0),
+    NODES,
     *KICKS,
     Column("size", "m/s or m", "size", "size of the smallest start that leads to the motion, as of its kick", 3),
     Column("size_without", "m/s or m", "without", "largest size known below it, in its direction, that does not", 3),

@@ -26,6 +26,7 @@ from tables import (
     CAPPED,
     LOOPS,
     MESSAGE,
+    NODES,
     PEAK,
     PERIODS_RUN,
     RUN_KEY,
@@ -41,7 +42,6 @@ from tables import (
 )
 
 ROLE = Column("role", "", "role", "what was changed in the run of table.csv")
-NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
 COMPANIONS = (ROLE, STEEPNESS, MOTION, NODES, *OF_A_RUN)
