@@ -53,7 +53,7 @@ def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable[[Row], 
     screened = len(coarse) - len(computed)
     if screened:
         yield line("OPEN", f"{screened} of {len(coarse)} cells were only screened with a massless tether.")
-    failed = sum(cell["source"] == FAILED for cell in cells)
+    failed = list(map(itemgetter("source"), cells)).count(FAILED)
     if failed:
         yield line("OPEN", f"{failed} cells have no result; the column message of cells/table.csv says why.")
 
