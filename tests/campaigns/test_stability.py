@@ -93,7 +93,7 @@ def test_a_process_that_died_is_tried_again_with_the_next_call(three_cases, tmp_
     ok = {"verdict": "ok", "run_status": "ok"}
     for way, verdict in ((partial(os._exit, 1), "unexplained"), (ok.copy, "ok"), (partial(os._exit, 1), "ok")):
         monkeypatch.setattr(cases, "_judged", lambda *_, way=way: way())
-        _, summary = tasks.judge_cases(order)
+        summary = tasks.judge_cases(order)
         assert [row["verdict"] for row in summary.rows] == [verdict]
 
 
