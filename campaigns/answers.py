@@ -6,25 +6,27 @@ prints them and keeps them as answer.txt, where its report finds them.
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 from operator import itemgetter
 from pathlib import Path
 
-from tables import FAILS, STATEMENTS, VERDICTS, Row, any_rows, listed, number_of
+from tables import FAILS, PEAK, STATEMENTS, VERDICTS, Row, Rows, any_rows, listed, number_of
+
+NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
 
 
-def greatest(rows: Sequence[Row], name: str) -> Row | None:
+def greatest(rows: Rows, name: str) -> Row | None:
     """The row in which a column is greatest; None where no row knows it."""
     return max(known_rows(rows, name), key=partial(number_of, name=name), default=None)
 
 
-def known_rows(rows: Sequence[Row], name: str) -> list[Row]:
+def known_rows(rows: Rows, name: str) -> list[Row]:
     """The rows that know a number of a column."""
     return [row for row in rows if math.isfinite(number_of(row, name))]
 
 
-def numbers_of(rows: Sequence[Row], name: str) -> list[float]:
+def numbers_of(rows: Rows, name: str) -> list[float]:
     """The numbers of a column, nan where a row has none."""
     return [number_of(row, name) for row in rows]
 
@@ -32,6 +34,16 @@ def numbers_of(rows: Sequence[Row], name: str) -> list[float]:
 def line(word: str, text: str) -> str:
     """A line of an answer, with its word in front; the texts of all lines stand below each other."""
     return f"{word:<8} {text}"
+
+
+def lasting(rows: Rows) -> list[Row]:
+    """The rows of runs that reached their end and have a largest tension after their transient."""
+    return [row for row in known_rows(rows, PEAK) if row["status"] == "ok"]
+
+
+def lines(texts: Mapping[str, str]) -> list[str]:
+    """The lines of an answer of texts by their words; without those that have no text."""
+    return [line(word, text) for word, text in texts.items() if text]
 
 
 def kilonewton(force_N: float) -> str:

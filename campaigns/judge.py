@@ -8,6 +8,7 @@ from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tang
 
 LEAST_JUDGED = 40  # wave periods after the transient; a shorter record is not judged, and has no exponents
 LATERAL = "output.lateral_growth"
+UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # changes of a scene: without perturbations
 
 
 def periods_of(scene, columns) -> float:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from engine.atomic import write_atomic
+from campaigns.machinery.folder import write_new
 from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS, STATEMENTS, csv_of, listed
 
 NOT_SHOWN = "No run shows it."
@@ -83,9 +83,7 @@ def judge(claim: Claim, results: object) -> Statement:
 def write_statements(folder: Path, claims: Iterable[Claim], results: object) -> None:
     """Judge the claims and write statements.csv; a file that says the same already stays as it is. Raises OSError."""
     statements = [judge(claim, results) for claim in claims]
-    path, content = folder / STATEMENTS, as_csv(statements)
-    if not path.exists() or path.read_bytes() != content:
-        write_atomic(path, content)
+    write_new(folder / STATEMENTS, as_csv(statements))
 
 
 def as_csv(statements: Sequence[Statement]) -> bytes:

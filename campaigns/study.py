@@ -15,10 +15,10 @@ import engine
 from campaigns.machinery import cli, session
 from campaigns.machinery.finished import finished, order_key
 from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.progress import stage
 from campaigns.machinery.runner import run, write_scene
-from tables import Column
+from tables import Columns, Rows
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Measures:
     judge: computes what a row reads beside its run (`Plan.judge`); then row(trajectory, judgement).
     """
 
-    columns: tuple[Column, ...]
+    columns: Columns
     row: Callable
     sources: tuple[str, ...] = ()
     settings: Mapping[str, object] = field(default_factory=dict)
@@ -156,7 +156,7 @@ def nothing_after(order: Order) -> Iterable[Callable[[Plan, Summary], float]]:
     return ()
 
 
-def usual_runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def usual_runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """`runner.run`: every run of the order, as its scene begins."""
     return run(plan, jobs)
 
@@ -172,10 +172,10 @@ class Study:
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
     parameters: Callable[[Order], Mapping[str, object]] = no_parameters  # in its provenance, beside those of scenes
-    answer: Callable[[Order, list[dict]], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
+    answer: Callable[[Order, Rows], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
-    perform: Callable[[Order], tuple[dict[str, float], Summary]] | None = None  # does them; returns times and summary
+    perform: Callable[[Order], Summary] | None = None  # does them
 
     # runs of scenes
     scene: str = ""  # it starts from this one
@@ -220,14 +220,16 @@ class Study:
         order = Order(how, cli.options_of(self.options, values), faults=faults)
         if self.lengths is not None:
             self.lengths.read(values, order)
-        if values.mistyped and self._scene_as_shipped(values):
+        # such a scene has no faults to tell
+        as_shipped = not self.scene or (not values.set and values.scene == self.scene)
+        if values.mistyped and as_shipped:
             return order  # answered before anything heavy is loaded
         order.options.read(how.out, faults)
-        if self.cases is None or (faults and self._scene_as_shipped(values)):
+        if self.cases is None or (faults and as_shipped):
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
-        unsound = not self._scene_as_shipped(values) and order.base() is None
+        unsound = not as_shipped and order.base() is None
         if unsound:  # the cases tell why, before the key of the order loads anything heavy
             self._add_cases(order)
         if faults:
@@ -242,11 +244,7 @@ class Study:
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
 
-    def _scene_as_shipped(self, values: Namespace) -> bool:
-        """Whether a command line leaves the scene as it is, so that the scene has no faults to tell."""
-        return not self.scene or (not values.set and values.scene == self.scene)
-
-    def order(self, how: cli.Running, scene: str, changes: dict[str, object], **options: object) -> Order:
+    def order(self, how: cli.Running, scene: str, changes: dict[str, object], /, **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
 
         options: of this study by name, as `read` leaves them; the others have their usual values.
@@ -273,11 +271,10 @@ class Study:
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
 
-    def work(self, order: Order) -> tuple[dict[str, float], Summary]:
+    def work(self, order: Order) -> Summary:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
 
-        Returns times, with compile_s, run_s and analysis_s among them, and summary. Raises CampaignStopped, OSError,
-        KeyboardInterrupt.
+        Raises CampaignStopped, OSError, KeyboardInterrupt.
         """
         if self.perform is not None:
             return self.perform(order)
@@ -295,13 +292,13 @@ class Study:
         further_steps = list(self.beside(order))
         steps = 1 + len(further_steps)
         with stage(f"step 1 of {steps}"):
-            timing, summary = self.runs(order, plan, order.cases)
+            summary = self.runs(order, plan, order.cases)
         began = time.perf_counter()
         for number, step in enumerate(further_steps, 2):
             with stage(f"step {number} of {steps}"):
-                timing["analysis_s"] += step(plan, summary)
-        timing["run_s"] += time.perf_counter() - began
-        return timing, summary
+                summary.times["analysis_s"] += step(plan, summary)
+        summary.times["run_s"] += time.perf_counter() - began
+        return summary
 
     def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""

@@ -7,7 +7,7 @@ a column is printed, so that a column that is declared reaches every report.
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tables.words import EMPTY, decimals, number, sub
@@ -61,6 +61,9 @@ class Column:
         if value != 0.0 and abs(value) < 0.5 * 10.0**-self.digits:
             return number(value, 2)
         return decimals(value, self.digits)
+
+
+Columns = Sequence[Column]  # of a table
 
 
 def of_words(name: str, meaning: str, symbol: str = "") -> Column:
@@ -118,6 +121,7 @@ MESSAGE = Column(
 )
 PERIODS_RUN = Column("periods", "", "periods", "length of the run in wave periods", 0, REGIMES)
 DEPTH = Column("depth_m", "m", "H", "depth of the water", 1)
+NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 STIFFNESS = Column("bending_stiffness_Nm2", "N m²", "EI", "bending stiffness of the line", 2)
 TURN = Column("max_turn_rad", "rad", "turn", "largest turn of the line within one element, over the whole run", 2)
 MIN_STRAIN = Column("min_strain", "", "ε_min", "smallest strain of any element, over the whole run", 4, SHEET)

@@ -14,6 +14,7 @@ from engine.atomic import write_atomic
 from tables.columns import Column, names
 
 Row = dict[str, object]  # of a table, by column
+Rows = Sequence[Row]
 _NEEDED = ("name", "unit", "symbol", "meaning", "digits")  # of a dictionary; an older one has no page
 
 

@@ -10,7 +10,6 @@ reported. Run time is that of stepping alone, without compilation, statics, inpu
 against their own refined runs and against ours; what is not installed is a row that says so. Nothing is random.
 """
 
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import isfinite
@@ -57,7 +56,7 @@ def perform(order: Order):
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
     from campaigns.machinery.folder import made_by
-    from campaigns.machinery.plan import Plan
+    from campaigns.machinery.plan import Plan, Summary
     from campaigns.machinery.runner import run, write_scene
     from tables import write_table
 
@@ -68,17 +67,15 @@ def perform(order: Order):
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     plans = plan, plan, plan, one_at_a_time
     phases = jobs.phases(out, options.effort, options.quick, of_engine and not options.no_peers)
-    timing, jobs_so_far, computed = Counter(compile_s=0.0, run_s=0.0, analysis_s=0.0), [], set()
+    summary, jobs_so_far = Summary([], 0, 0), []
     for number, (phase_plan, phase) in enumerate(zip(plans, phases, strict=True), 1):
         if phase and not jobs_so_far:
             write_scene(out, STUDY.name, phase)
         jobs_so_far += phase
         with stage(f"step {number} of {len(plans)}"):
-            phase_timing, summary = run(phase_plan, jobs_so_far)
-        computed |= summary.made
-        timing.update(phase_timing)
+            summary = run(phase_plan, jobs_so_far).joined_to(summary)
     write_table(out / "orders.csv", ORDER_COLUMNS, orders(out, summary.rows))
-    return dict(timing), replace(summary, computed=len(computed), found=len(summary.rows) - len(computed))
+    return summary
 
 
 def parameters(order: Order) -> dict[str, object]:

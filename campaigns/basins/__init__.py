@@ -21,10 +21,10 @@ from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import write_table
+from tables import Rows
 
 COUNT, MOVED_M = 15, 2.0
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -87,28 +87,23 @@ def measures(order: Order) -> Measures:
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
     from campaigns.basins.edge import edge_state
-    from campaigns.basins.exploration import COLUMNS, Exploration
+    from campaigns.basins.exploration import Exploration
     from campaigns.basins.shocks import shocks
     from campaigns.explore.ends import confirm
     from campaigns.explore.motions import Search
 
-    search = Search(order, 0, order.options.kick_speed, order.options.seed)
-    exploration = Exploration(plan, jobs[0], order.options.grid, search)
-    exploration.find()
+    exploration = Exploration(plan, order.options.grid)
+    exploration.find(jobs[0], Search(order, 0, order.options.kick_speed, order.options.seed))
     rest, *kicked = exploration.motions or [None]
     if kicked:
         worst = max(kicked, key=lambda motion: motion.tension_N)
         shocks(exploration, worst)
         edge_state(exploration, rest, worst)
-    confirm(exploration.places)
-    exploration.places.write()
-    rows = exploration.rows()
-    write_table(plan.how.out / "table.csv", COLUMNS, rows)
-    computed, timing = exploration.computed, exploration.places.timing()
-    return timing, Summary(rows, len(rows) - computed, computed, timing["analysis_s"])
+    confirm(exploration)
+    return exploration.write()
 
 
 def parameters(order: Order) -> dict:
@@ -121,7 +116,7 @@ def parameters(order: Order) -> dict:
     }
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.basins.answer import sentences
 
@@ -142,4 +137,4 @@ STUDY = Study(
     runs=runs,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

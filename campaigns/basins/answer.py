@@ -8,13 +8,13 @@ from campaigns.answers import greatest, kilonewton
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.explore.load import use_of
 from campaigns.explore.motions import from_rest
-from tables import PEAK, UNSETTLED, Row, listed, number_of, ranges
+from tables import PEAK, UNSETTLED, Row, Rows, listed, number_of, ranges
 
 NONE_FOUND = "No start has settled, so there is no motion to name."
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
 
-def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows]) -> Iterator[str]:
     """At most eight, of the rows of table.csv and those of the tables in its folders motions, shock and edge (parts).
 
     across: as `Grid.across`; scene: from rest.
@@ -27,13 +27,13 @@ def sentences(rows: Sequence[Row], across: Sequence[str], scene, parts: Mapping[
     count = "One motion"
     if len(motions) > 1:
         count = f"{len(motions)} motions"
-    at = f"kA = {number_of(motions[0], 'steepness'):.4g} and H = {scene.water.depth_m:g} m"
+    at = f"kA = {motions[0]['steepness']:.4g} and H = {scene.water.depth_m:g} m"
     yield f"{count} at {at}: {listed(map(_of_motion, motions))}."
     yield _shares(rows, motions)
     if worst is motions[0] and len(motions) > 1:
         yield f"Motion {worst['motion']} pulls hardest: no start of the grid leads to more."
     elif parts["shock"]:
-        times = number_of(worst, PEAK) / number_of(motions[0], PEAK)
+        times = worst[PEAK] / motions[0][PEAK]
         yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as A."
     used = use_of(worst, scene, searched=True)
     yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
@@ -58,10 +58,10 @@ def _of_motion(row: Row) -> str:
     name = row["motion"]
     if from_rest(row):
         name = f"{name} from rest"
-    return f"{name} ({row.get('regime') or row['status']}, {kilonewton(number_of(row, PEAK))})"
+    return f"{name} ({row.get('regime') or row['status']}, {kilonewton(row[PEAK])})"
 
 
-def _shares(rows: Sequence[Row], motions: Sequence[Row]) -> str:
+def _shares(rows: Rows, motions: Rows) -> str:
     counts, unsettled, failed = Counter(), 0, 0
     for row in rows:
         counts[row["motion"]] += 1
@@ -92,19 +92,17 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     return f"{ahead}, {angle:.0f} degrees {upright}"
 
 
-def _shock(rows: Sequence[Row], across: Sequence[str]) -> str:
+def _shock(rows: Rows, across: Sequence[str]) -> str:
     unit = ("m/s", "m")["x" in across]
     good = [row for row in rows if row["status"] == "ok"]
     if not good:
         return f"No smallest start was found: {rows[0]['message']}."
     first, *finer = good
-    if number_of(first, "size") == 0.0:
+    if first["size"] == 0.0:
         return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
-    words = (
-        f"{number_of(first, 'size'):.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
-    )
+    words = f"{first['size']:.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
     for row in finer:
-        words += f"; on {number_of(row, 'nodes'):.0f} nodes {number_of(row, 'size'):.2g} {unit} {_way(row, across)}"
+        words += f"; on {row['nodes']:.0f} nodes {row['size']:.2g} {unit} {_way(row, across)}"
     if not finer:
         words += f"; on a finer grid of the line {rows[-1]['message']}"
     return f"{words}."
@@ -115,7 +113,7 @@ def _phase(row: Row) -> float:
     return number_of(row, COLUMNS[PHASE]) / (2.0 * math.pi)
 
 
-def _when(rows: Sequence[Row], across: Sequence[str], letter: str) -> str:
+def _when(rows: Rows, across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
     least = dict.fromkeys(sorted(map(_phase, rows)), math.inf)  # by phase
     for row in rows:
@@ -138,11 +136,11 @@ def _edge(edge: Row) -> Iterator[str]:
     if edge["status"] != "ok":
         yield f"No edge state between {edge['motion']} and {edge['other']} could be followed: the border was lost."
         return
-    period = number_of(edge, "strobed_period")
+    period = edge["strobed_period"]
     kind = "a motion without a period up to 16"
     if math.isfinite(period):
         kind = f"a motion of period {period:.0f}"
-    pull, growth = kilonewton(number_of(edge, PEAK)), number_of(edge, "growth_bits_per_period")
+    pull, growth = kilonewton(edge[PEAK]), edge["growth_bits_per_period"]
     yield (
         f"Between {edge['motion']} and {edge['other']} lies {kind} that no start keeps ({pull}): runs leave it by "
         f"{growth:.2g} bits a period."

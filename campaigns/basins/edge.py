@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from campaigns.basins.exploration import Exploration
-from campaigns.explore.motions import Motion, subfolder
+from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
@@ -120,10 +120,10 @@ class Edge:
         # with the output step of the runs that told them apart: with another one a state would begin a moment later
         scene = _start(self.states[0]).scene(self.exploration.scene)
         jobs = [job_from({}, scene, periods, state) for state in self.states]
-        plan, places = self.exploration.plan, self.exploration.places
-        folder = plan.how.out / FOLDER
-        timing, summary = run_within(plan, folder, jobs, title="along the edge")
-        places.times.update(timing)
+        plan = self.exploration.plan
+        folder = plan.out / FOLDER
+        summary = run_within(plan, folder, jobs, title="along the edge")
+        self.exploration.times.update(summary.times)
         runs = [run_of(folder, summary.by_key[job.key]) for job in jobs]
         if None in runs:
             return None, ""
@@ -148,8 +148,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     """
     edge = Edge(exploration, first, second)
     runs, distances_so_far, doublings = [], [], 0.0
-    row = {"motion": first.branch.letter, "other": second.branch.letter}
-    row["status"] = "lost"
+    row = {"motion": first.branch.letter, "other": second.branch.letter, "status": "lost"}
     while len(distances_so_far) < MOST:
         distances = edge.narrow()
         if distances is None:
@@ -160,7 +159,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
         if trajectory is None:
             break
         runs.append(trajectory)
-        distances_so_far += [*map(float, distances[:periods])]
+        distances_so_far += map(float, distances[:periods])
         doublings += math.log2(distances[periods] / distances[0])
     else:
         row["status"] = "ok"
@@ -171,8 +170,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
         for trajectory in runs:
             strobed += [*_strobed(trajectory)[:-1]]
         row |= _later_extremes(runs) | {"strobed_period": _repeats(np.array(strobed) / edge.scale)}
-    folder = subfolder(exploration.plan, FOLDER)
-    write_table(folder / "table.csv", COLUMNS, [row])
+    folder = write_part(exploration.plan, FOLDER, COLUMNS, [row])
     orbit = []
     for period, state in enumerate(strobed):
         orbit.append(dict(zip(names(ORBIT), (period, *state, distances_so_far[period]), strict=True)))

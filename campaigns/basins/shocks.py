@@ -10,10 +10,10 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from campaigns.basins.exploration import Exploration
-from campaigns.explore.motions import MOTION, Motion, subfolder
+from campaigns.explore.motions import MOTION, Motion, write_part
 from campaigns.explore.starts import KICKS
 from campaigns.finer import finer
-from tables import MESSAGE, STATUS, Column, Row, write_table
+from tables import MESSAGE, NODES, STATUS, Column, Row
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not
 Polar = tuple[float, float]  # turn and size of a start
@@ -25,7 +25,7 @@ LEAST_TURN = 0.02  # rad between rays below which no better one is looked for
 _size = attrgetter("size")
 COLUMNS = (
     MOTION,
-    Column("nodes", "", "nodes", "nodes of the line", 0),
+    NODES,
     *KICKS,
     Column("size", "m/s or m", "size", "size of the smallest start that leads to the motion, as of its kick", 3),
     Column("size_without", "m/s or m", "without", "largest size known below it, in its direction, that does not", 3),
@@ -44,7 +44,7 @@ def shocks(exploration: Exploration, target: Motion) -> list[Row]:
     rows = []
     for scene in (exploration.scene, finer(exploration.scene, elements=2)):
         rows.append(_row(exploration, target, scene, candidates))
-    write_table(subfolder(exploration.plan, FOLDER) / "table.csv", COLUMNS, rows)
+    write_part(exploration.plan, FOLDER, COLUMNS, rows)
     return rows
 
 

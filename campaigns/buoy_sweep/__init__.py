@@ -24,9 +24,10 @@ from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
+from tables import Rows
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
@@ -68,12 +69,8 @@ def grid_of(values) -> Grid:
     return Grid((Varied(SWEPT, SWEPT, None, tuple(values), COLUMN),))
 
 
-def cases(order: Order) -> list[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
-    return motions.with_kicks(order, _jobs(order))
-
-
-def _jobs(order: Order) -> Iterator[Job]:
     dimensions, base = dimensions_of(order), order.base()
     for place in order.options.grid.places():
         changes, _ = order.options.grid.changes(place, base)
@@ -106,7 +103,7 @@ def dimensions_of(order: Order) -> str:
     return str(scene.motion.dimensions)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """The runs in a plane, in space where needed, or of every motion."""
     if has_between(order):
         from campaigns.explore.batches import between_ahead
@@ -162,17 +159,11 @@ def beside(order: Order) -> Iterator[Callable]:
     yield partial(batches.close_up, periods=order.periods)
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The findings of the sweep (`campaigns.explore.answer`)."""
-    from campaigns.explore.answer import sentences
-
-    folders = []
-    if not order.options.no_accuracy:
-        folders.append("companions")
-    if motions.kicks_of(order) is not None:
-        folders.append("ends")
-    tables = motions.tables_of(order.how.out, *folders)
-    return sentences(rows, "steepness", "kA", order.cases[0].scene, **tables)
+    if order.options.no_accuracy:
+        return motions.answer(order, rows, COLUMN.symbol)
+    return motions.answer(order, rows, COLUMN.symbol, "companions")
 
 
 STUDY = Study(
@@ -187,11 +178,11 @@ STUDY = Study(
         "motion.dimensions": "use --dimensions",
     },
     options=Options,
-    cases=cases,
+    cases=partial(motions.with_kicks, cases),
     measures=measures,
     parameters=parameters,
     runs=runs,
     beside=beside,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

@@ -20,7 +20,7 @@ from itertools import groupby, pairwise
 from operator import itemgetter
 from statistics import median
 
-from campaigns.answers import greatest, kilonewton, known_rows, line, numbers_of
+from campaigns.answers import NOTHING_LASTS, greatest, kilonewton, known_rows, lasting, lines, numbers_of
 from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
 from engine.views import carries_tangents, in_regular_waves
@@ -37,6 +37,7 @@ from tables import (
     WOLF_ERROR,
     WOLF_EXPONENT,
     Row,
+    Rows,
     count,
     listed,
     number,
@@ -57,18 +58,15 @@ BESIDE_A_PERIOD = f"chaos stands beside a period and may be a long transient ({L
 ANOTHER_ON_A_FINER_GRID = "smaller elements and steps give another motion (more tether.nodes decide)"
 
 
-def sentences(
-    rows: Sequence[Row], key: str, symbol: str, scene, companions: Sequence[Row] = (), ends: Sequence[Row] = ()
-) -> list[str]:
+def sentences(rows: Rows, key: str, symbol: str, scene, companions: Rows = (), ends: Rows = ()) -> list[str]:
     """The lines, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs.
 
     companions, ends: rows of its folders of these names.
     """
-    good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
+    good = sorted(lasting(rows), key=partial(number_of, name=key))
     if not good:
-        return [line("LOAD", "not known, because no run lasts beyond the transient.")]
-    good.sort(key=partial(number_of, name=key))
-    lines = {
+        return lines(NOTHING_LASTS)
+    texts = {
         "LOAD": load(good, {key: symbol}, scene, companions),
         "SNAPS": snaps(good, key, symbol),
         "JUMP": jump(good, key, symbol, ends),
@@ -77,10 +75,10 @@ def sentences(
         "CHAOS": chaos(good, key, symbol),
         "OPEN": undecided(rows, key, symbol, scene),
     }
-    return [line(word, text) for word, text in lines.items() if text]
+    return lines(texts)
 
 
-def by_motion(rows: Sequence[Row]) -> dict[str, list[Row]]:
+def by_motion(rows: Rows) -> dict[str, list[Row]]:
     """The rows of each motion by its letter, in the order of letters; "" where motions have none."""
     motions: dict[str, list[Row]] = {}
     for row in sorted(rows, key=_letter):
@@ -88,7 +86,7 @@ def by_motion(rows: Sequence[Row]) -> dict[str, list[Row]]:
     return motions
 
 
-def by_value(rows: Sequence[Row], key: str) -> dict[float, list[Row]]:
+def by_value(rows: Rows, key: str) -> dict[float, list[Row]]:
     """The rows at each value."""
     values: dict[float, list[Row]] = {}
     for row in rows:
@@ -100,7 +98,7 @@ def _letter(row: Row) -> str:
     return str(row.get("motion") or "")
 
 
-def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
+def snaps(rows: Rows, key: str, symbol: str) -> str:
     """Snaps a wave of each motion, the peaks where they are largest, the speed and the slack; "" where not counted."""
     counted = known_rows(rows, "snaps_per_wave")
     if not counted:
@@ -116,7 +114,7 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
             words += f" from {symbol} = {snapping[0][key]:.4g} on"
         largest = greatest(snapping, "snap_peak_max_N")
         if largest is not None:
-            words += f", up to {kilonewton(number_of(largest, 'snap_peak_max_N'))}"
+            words += f", up to {kilonewton(largest['snap_peak_max_N'])}"
         motions.append(f"{letter}: {words}" if letter else words)
     if not motions:
         return "none: the tension never comes back from slack."
@@ -127,7 +125,7 @@ def snaps(rows: Sequence[Row], key: str, symbol: str) -> str:
     return " ".join(parts)
 
 
-def snap_peaks(rows: Sequence[Row], keys: Mapping[str, str]) -> str:
+def snap_peaks(rows: Rows, keys: Mapping[str, str]) -> str:
     """The peaks where they are largest, the speed and the slack; keys: what is varied, by column, with its symbol."""
     parts, hardest = [], greatest(rows, "snap_peak_max_N")
     if hardest is not None:
@@ -153,7 +151,7 @@ def span(values: Sequence[float], places: int = 2) -> str:
     return low if low == high else f"{low} to {high}"
 
 
-def jump(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> str:
+def jump(rows: Rows, key: str, symbol: str, ends: Rows) -> str:
     """The motion that follows where one ends, as the key rises and as it falls; then from rest. "" for one value."""
     if len(by_value(rows, key)) < 2:
         return ""
@@ -169,7 +167,7 @@ def jump(rows: Sequence[Row], key: str, symbol: str, ends: Sequence[Row]) -> str
     return " ".join(filter(None, parts))
 
 
-def _end(end: Row, rows: Sequence[Row], key: str, relation: str) -> str:
+def _end(end: Row, rows: Rows, key: str, relation: str) -> str:
     """ "A becomes C above 0.118 (4.4 -> 9.4 kN)"."""
     exact, inside, outside = (number_of(end, f"{key}_{name}") for name in ("end", "with", "without"))
     place, change = f"{0.5 * (inside + outside):.3g}", "by bisection"
@@ -183,7 +181,7 @@ def _end(end: Row, rows: Sequence[Row], key: str, relation: str) -> str:
     return f"{end['motion']} becomes {end['leads_to']} {relation} {place} ({change})"
 
 
-def _from_rest(rows: Sequence[Row], key: str, symbol: str, ended: bool) -> str:
+def _from_rest(rows: Rows, key: str, symbol: str, ended: bool) -> str:
     """The jumps of runs from rest; ended: whether the ends of motions are known, so that only earlier ones are told."""
     letters = {value: set(map(_letter, members)) for value, members in by_value(rows, key).items()}
     pairs = []
@@ -227,7 +225,7 @@ def _change(before: Row, after: Row) -> str:
     return f"{before[PEAK] / 1e3:.2g} -> {after[PEAK] / 1e3:.2g} kN"
 
 
-def motions(rows: Sequence[Row], key: str, symbol: str) -> str:
+def motions(rows: Rows, key: str, symbol: str) -> str:
     """Each motion with its range and its regimes; "" where no run has one."""
     if not any(row.get("regime") for row in rows):
         return _repeating(rows, key, symbol)
@@ -268,7 +266,7 @@ def _stretches(values: Sequence[float], words: Sequence[str]) -> str:
     return ", ".join(parts)
 
 
-def _repeating(rows: Sequence[Row], key: str, symbol: str) -> str:
+def _repeating(rows: Rows, key: str, symbol: str) -> str:
     """Where motions repeat of runs that have no verdict."""
     periods = numbers_of(rows, "strobed_period")
     known = list(map(math.isfinite, periods))
@@ -278,9 +276,9 @@ def _repeating(rows: Sequence[Row], key: str, symbol: str) -> str:
     return f"repeat after 1 to {longest:g} wave periods at {symbol} = {ranges(numbers_of(rows, key), known, 2)}."
 
 
-def starts(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
+def starts(rows: Rows, key: str, symbol: str, scene) -> str:
     """Where one value has several motions, and how many kicks end in the one that pulls most beyond the usual one."""
-    if not any(map(math.isfinite, numbers_of(rows, "share"))):
+    if not known_rows(rows, "share"):
         if scene is None or not in_regular_waves(scene):
             return ""
         return "each value has one run, so other motions may exist: --starts N kicks the buoy N times at each value."
@@ -292,7 +290,7 @@ def starts(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
             pairs.append((greatest(members, PEAK), usual))
     if not pairs:
         kicks = greatest(rows, "kicks")
-        number_of_kicks = f"{number_of(kicks, 'kicks'):.0f} kicks" if kicks else "the kicks"
+        number_of_kicks = f"{kicks['kicks']:.0f} kicks" if kicks else "the kicks"
         return f"{number_of_kicks} at each value led to no motion but the one from rest."
     place = ranges([*values], [len(members) > 1 for members in values.values()], 2)
     sentence = f"at {symbol} = {place} the start decides"
@@ -309,7 +307,7 @@ def starts(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
     )
 
 
-def chaos(rows: Sequence[Row], key: str, symbol: str) -> str:
+def chaos(rows: Rows, key: str, symbol: str) -> str:
     """The exponents of chaotic motions, from tangent dynamics where they carry some, else by Wolf's method."""
     judged = [row for row in rows if row.get("regime")]
     if not judged:
@@ -340,14 +338,14 @@ def chaos(rows: Sequence[Row], key: str, symbol: str) -> str:
     return " ".join(sentences) or f"none: no run of {len(judged)} is chaotic."
 
 
-def _at(chosen: Sequence[Row], rows: Sequence[Row], key: str) -> str:
+def _at(chosen: Rows, rows: Rows, key: str) -> str:
     """The values of some of the rows."""
     values = sorted(by_value(rows, key))
     wanted = set(numbers_of(chosen, key))
     return ranges(values, [value in wanted for value in values], 2)
 
 
-def undecided(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
+def undecided(rows: Rows, key: str, symbol: str, scene) -> str:
     """What has no verdict or no result, and what is less sure than its word; each with what would decide it."""
     rows = sorted(rows, key=partial(number_of, name=key))
     good, failed = [], []
@@ -370,7 +368,7 @@ def undecided(rows: Sequence[Row], key: str, symbol: str, scene) -> str:
     return f"{'; '.join(filter(None, parts)) or 'nothing: every run has a verdict'}."
 
 
-def _chaos_beside_period(rows: Sequence[Row]) -> list[Row]:
+def _chaos_beside_period(rows: Rows) -> list[Row]:
     """Chaotic rows beside a periodic one of the same motion: the period may come late there too."""
     doubtful = []
     for members in by_motion(rows).values():
@@ -381,7 +379,7 @@ def _chaos_beside_period(rows: Sequence[Row]) -> list[Row]:
     return doubtful
 
 
-def _unjudged(rows: Sequence[Row], scene) -> str:
+def _unjudged(rows: Rows, scene) -> str:
     """Why no run has a verdict, and what a verdict needs; "" where none exists for the scene."""
     if scene is None or scene.waves is None:
         return ""

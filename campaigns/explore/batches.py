@@ -15,40 +15,53 @@ import numpy as np
 from campaigns.answers import greatest
 from campaigns.explore.judgement import Judgement
 from campaigns.explore.motions import MOTION, from_rest
-from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, STEEPNESS, STROBED, TRANSIENT, buoy_row
+from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, SLACK, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.explore.starts import run_within
-from campaigns.judge import LATERAL, TANGENTS, job_from
+from campaigns.judge import UNFOLLOWED, job_from
 from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import shares_worker, spare_groups
 from engine.scene import scene_from_toml
-from tables import CAPPED, LOOPS, MESSAGE, PEAK, PERIODS_RUN, RUN_KEY, STATUS, WALL_S, Column, Row, counted, names
+from tables import (
+    CAPPED,
+    LOOPS,
+    MESSAGE,
+    NODES,
+    PEAK,
+    PERIODS_RUN,
+    RUN_KEY,
+    STATUS,
+    WALL_S,
+    Column,
+    Columns,
+    Row,
+    Rows,
+    counted,
+    names,
+    number_of,
+)
 
 ROLE = Column("role", "", "role", "what was changed in the run of table.csv")
-NODES = Column("nodes", "", "nodes", "nodes of the line", 0)
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
 COMPANIONS = (ROLE, STEEPNESS, MOTION, NODES, *OF_A_RUN)
 CLOSE_UP = (STEEPNESS, MOTION, STATUS, PERIODS_RUN, WALL_S, RUN_KEY, MESSAGE)
-UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # without perturbations
 LEAST_COLUMNS, LEAST_VALUES = 200, 9  # of the orbit diagram; judged values from which on there is something between
 BETWEEN_PERIODS, COMPANION_PERIODS = 42, 60  # of each the later third, or half, is measured
 PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
 
 
-def batch(
-    plan: Plan, folder: str, title: str, columns: tuple[Column, ...], row: Callable, jobs: list[Job], **changes
-) -> float:
+def batch(plan: Plan, folder: str, title: str, columns: Columns, row: Callable, jobs: Jobs, **changes) -> float:
     """Do the jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
 
     Without a job the table of an earlier batch in this folder is emptied. title: of the progress. changes: further ones
     of the plan. Returns seconds of analysis. Raises as `runner.run`.
     """
-    out = plan.how.out / folder
+    out = plan.out / folder
     if not jobs and not out.exists():
         return 0.0
-    _, summary = run_within(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
-    return summary.analysis_s
+    summary = run_within(plan, out, jobs, columns=columns, title=title, describe=row, judge=None, **changes)
+    return summary.times["analysis_s"]
 
 
 def unfollowed(scene, changes: dict):
@@ -56,7 +69,7 @@ def unfollowed(scene, changes: dict):
     return scene_from_toml(scene.to_toml(), UNFOLLOWED | changes)
 
 
-def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) -> Row:
+def unjudged(trajectory, transient_periods: int, columns: Columns) -> Row:
     """What a run fills of these columns without a verdict."""
     row = buoy_row(trajectory, Judgement(transient_periods)) | {"nodes": trajectory.scene.tether.nodes}
     return {name: row[name] for name in names(columns) if name in row}
@@ -65,19 +78,19 @@ def unjudged(trajectory, transient_periods: int, columns: tuple[Column, ...]) ->
 ROW_BETWEEN = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
 
 
-def between(plan: Plan, summary: Summary, key: str, cases: list[Job]) -> float:
+def between(plan: Plan, summary: Summary, key: str, cases: Jobs) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
     plan.spare.clear()  # what is left of `between_ahead` is done here
     return batch(plan, "between", "values between", BETWEEN, ROW_BETWEEN, jobs_between(plan, key, cases))
 
 
-def between_ahead(plan: Plan, key: str, cases: list[Job]) -> None:
+def between_ahead(plan: Plan, key: str, cases: Jobs) -> None:
     """Let workers that would wait do the runs of `between`, which depend on nothing that the sweep finds."""
     jobs, settings = jobs_between(plan, key, cases), {"columns": BETWEEN, "describe": ROW_BETWEEN, "judge": None}
-    plan.spare.extend(spare_groups(plan, plan.how.out / "between", jobs, **settings))
+    plan.spare.extend(spare_groups(plan, plan.out / "between", jobs, **settings))
 
 
-def jobs_between(plan: Plan, key: str, cases: list[Job]) -> list[Job]:
+def jobs_between(plan: Plan, key: str, cases: Jobs) -> list[Job]:
     """The runs of `between`; none where they cannot go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
     values, jobs = sorted(scenes), []
@@ -96,12 +109,11 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     """Every value whose sphere flies, with the wetted cap, where these can go side by side; else that of the peak."""
     length, jobs, largest = min(periods, COMPANION_PERIODS), [], []
     peak = of_largest_tension(summary.rows)
-    scene = peak and run_of(plan.how.out, peak).scene
+    scene = peak and run_of(plan.out, peak).scene
     if scene is not None and scene.buoy.submergence == "full":
         for row in summary.rows:
-            flies = (row.get(HEIGHT.name) or 0.0) > scene.buoy.diameter_m
-            if not flies:
-                continue
+            if not number_of(row, HEIGHT.name) > scene.buoy.diameter_m:
+                continue  # it does not fly
             labels = {"role": CAPPED, "steepness": row["steepness"], "motion": row.get("motion")}
             capped = unfollowed(scene, {key: row["steepness"], "buoy.submergence": "spherical-cap"})
             jobs.append(job_from(labels, capped, length, start_of(plan, row)))
@@ -117,10 +129,10 @@ def start_of(plan: Plan, row: dict):
     """The state in which a run begins that repeats that of a row: the last of a motion that is not found from rest."""
     if from_rest(row):
         return None
-    return run_of(plan.how.out, row).final_state.at_zero()
+    return run_of(plan.out, row).final_state.at_zero()
 
 
-def of_largest_tension(rows: list[dict]) -> dict | None:
+def of_largest_tension(rows: Rows) -> dict | None:
     """The row of the largest tension; None where no run ended as asked."""
     good = [row for row in rows if row["status"] == "ok" and row.get("run_key")]
     return greatest(good, PEAK) or next(iter(good), None)
@@ -129,9 +141,9 @@ def of_largest_tension(rows: list[dict]) -> dict | None:
 def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack. periods: those of the sweep."""
     jobs, length = [], min(periods, PERIODS)
-    row = of_largest_tension([row for row in summary.rows if (row.get("slack_fraction") or 0.0) > 0.0])
+    row = of_largest_tension([row for row in summary.rows if number_of(row, SLACK.name) > 0.0])
     if row is not None:
-        scene, start = run_of(plan.how.out, row).scene, start_of(plan, row)
+        scene, start = run_of(plan.out, row).scene, start_of(plan, row)
         profiles = {"output.profiles": True, "output.profiles_step_s": scene.waves.period_s / FRAMES}
         labels = {"steepness": row["steepness"], "motion": row.get("motion"), "periods": length}
         jobs.append(job_from(labels, unfollowed(scene, profiles), length, start))

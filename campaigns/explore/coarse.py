@@ -38,9 +38,12 @@ def coarse(scene):
 
 def coarse_endings(motions: Motions, title: str, starts: Sequence[tuple[int, Start]]) -> dict[int, Ending]:
     """How those of the starts end for which a coarse line can say it, by their number. Raises as `runner.run`."""
-    places = sorted({place for place, _ in starts})
-    scenes = {place: coarse(motions.jobs[place].scene) for place in places}
-    forms = coarse_forms(motions, [place for place in places if scenes[place] is not None], scenes)
+    scenes = {}
+    for place in sorted({place for place, _ in starts}):
+        scene = coarse(motions.jobs[place].scene)
+        if scene is not None:
+            scenes[place] = scene
+    forms = coarse_forms(motions, scenes)
     requests = {}
     for number, (place, start) in enumerate(starts):
         if place in forms:
@@ -57,25 +60,28 @@ def coarse_endings(motions: Motions, title: str, starts: Sequence[tuple[int, Sta
     return {number: ending for number, ending in joined.items() if starts[number][0] not in wrong}
 
 
-def coarse_forms(motions: Motions, places: Sequence[int], scenes: Mapping[int, object]) -> dict[int, list[Settled]]:
-    """What the motions of places are on the coarse line, by place; without places where one of them is not there."""
+def coarse_forms(motions: Motions, scenes: Mapping[int, object]) -> dict[int, list[Settled]]:
+    """What the motions of places are on the coarse line, by place; without places where one of them is not there.
+
+    scenes: with the coarse line, by place.
+    """
     from analysis import distance
 
     carried: list[Motion] = []
     requests = []
-    for place in places:
+    for place, scene in scenes.items():
         for motion in motions.at[place]:
             if motion.state is not None:
                 carried.append(motion)
                 start = Start(CARRIED, state=motion.state.at_zero())
-                requests.append(Request(motions.name_of(place), scenes[place], start))
+                requests.append(Request(motions.name_of(place), scene, start))
     endings = motions.starts.run("motions carried to a coarse line", requests, listed=False)
     form_of = {}
     for motion, ending in zip(carried, endings, strict=True):
         if ending.settled is not None and distance(motion.settled, ending.settled) < ALIKE:
             form_of[motion] = ending.settled
     forms = {}
-    for place in places:
+    for place in scenes:
         motions_here = motions.at[place]
         if motions_here and all(motion in form_of for motion in motions_here):
             forms[place] = [form_of[motion] for motion in motions_here]

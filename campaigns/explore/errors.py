@@ -35,12 +35,12 @@ from analysis import block_maxima, joins
 from analysis.approaches import NEARER
 from analysis.snaps import NEAR_ZERO
 from campaigns.answers import kilonewton
-from campaigns.explore.batches import UNFOLLOWED, batch
+from campaigns.explore.batches import batch
 from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
-from campaigns.judge import job_from, periods_of
+from campaigns.judge import UNFOLLOWED, job_from, periods_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.store import orbits_in
@@ -95,7 +95,7 @@ def errors(plan: Plan, summary: Summary) -> float:
     analysis_s = batch(plan, FOLDER, "errors of the largest tensions", COLUMNS, companion_row, jobs)
     if not jobs:
         return analysis_s
-    ended = {row["of_run"]: row for row in read_table(plan.how.out / FOLDER / "table.csv")}
+    ended = {row["of_run"]: row for row in read_table(plan.out / FOLDER / "table.csv")}
     for companion in compared:
         row, result = companion.row, ended.get(companion.row["run_key"])
         if result is not None:
@@ -104,7 +104,7 @@ def errors(plan: Plan, summary: Summary) -> float:
             error, words_of_slack = slack_error(companion.slack, result, companion.resolved)
             row[SLACK_ERROR.name] = finite(error)
             row["message"] = "; ".join(filter(None, (row.get("message"), *words, *words_of_slack))) or None
-    write_table(plan.how.out / "table.csv", plan.columns, summary.rows)
+    write_table(plan.out / "table.csv", plan.columns, summary.rows)
     return analysis_s
 
 
@@ -123,10 +123,10 @@ class _Companion(NamedTuple):
 
 def _companion(plan: Plan, row: dict) -> _Companion | None:
     """The companion of a row; None where there can be none."""
-    transient, run = row.get("transient_periods"), run_of(plan.how.out, row)
+    transient, run = row.get("transient_periods"), run_of(plan.out, row)
     if transient is None or run is None:
         return None
-    orbits = orbits_in(plan.how.out)
+    orbits = orbits_in(plan.out)
     without_ramp = UNFOLLOWED | {"waves.ramp_s": 0.0}  # the waves of the last state have grown
     scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=without_ramp), _period(row)
     if period and f"{NEARER}: " in (row.get("evidence") or ""):

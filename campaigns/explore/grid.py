@@ -14,7 +14,7 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
 from campaigns.machinery.plan import Job
 from campaigns.study import Order
-from tables import Column, Row, names
+from tables import Column, Columns, Row, names
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
 
@@ -126,7 +126,7 @@ class Grid:
     keys: tuple[Varied, ...] = ()
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> Columns:
         """Those that name a place."""
         return tuple(key.column for key in self.keys)
 
@@ -160,3 +160,16 @@ class Grid:
         if scene is None:
             return None
         return judged_job(order, {**place, **labels, "dimensions": scene.motion.dimensions}, scene, most=most)
+
+
+def grid_of(words: list[str], faults: list[str], least: int = 0, example: str = "") -> Grid:
+    """The grid over the keys in the words of --vary: KEY LO HI COUNT of each, at least so many times, at most twice."""
+    if len(words) not in range(4 * least, 9, 4):
+        allowed = f"once or twice KEY LO HI COUNT{example}"
+        faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
+        return Grid()
+    keys = [varied(words[first : first + 4], faults) for first in range(0, len(words), 4)]
+    grid = Grid(tuple(filter(None, keys)))
+    if len({key.key for key in grid.keys}) < len(grid.keys):
+        faults.append(f"--vary {grid.keys[0].key}: given twice; allowed: two different keys")
+    return grid

@@ -4,9 +4,9 @@ A tension is doubted where the model says more than it knows (`reasons`).
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
-from campaigns.answers import greatest, kilonewton, numbers_of
+from campaigns.answers import greatest, kilonewton, known_rows
 from engine.natural_frequencies import natural_frequencies
 from engine.views import in_regular_waves
 from tables import (
@@ -18,6 +18,7 @@ from tables import (
     PEAK,
     PEAK_ERROR,
     Row,
+    Rows,
     count,
     listed,
     number_of,
@@ -26,7 +27,7 @@ from tables import (
 FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
-def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequence[Row] = ()) -> str:
+def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
     """The largest tension, its use, that of the largest motion that stays in the water, and what was checked of it.
 
     keys: columns of what is varied, with their symbols.
@@ -42,13 +43,13 @@ def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequen
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:
         return sentences[0]
-    searched = any(map(math.isfinite, numbers_of(rows, "share")))
+    searched = bool(known_rows(rows, "share"))
     if not any(reasons(peak, scene)):
         return f"{sentences[0]} {use_of(peak, scene, searched)}"
     sentences.append(use_of(peak, scene, searched))
     capped = greatest([row for row in companions if row["status"] == "ok" and row["role"] == CAPPED], PEAK)
     if capped is not None:
-        sentences.append(f"With the {CAPPED} at most {kilonewton(number_of(capped, PEAK))}.")
+        sentences.append(f"With the {CAPPED} at most {kilonewton(capped[PEAK])}.")
     usable = greatest([row for row in rows if not any(reasons(row, scene))], PEAK)
     if usable is not None:
         place = ", ".join(filter(None, (largest(usable), of_motion(usable), place_of(usable, keys))))
@@ -61,7 +62,7 @@ def load(rows: Sequence[Row], keys: Mapping[str, str], scene, companions: Sequen
 
 def place_of(row: Row, keys: Mapping[str, str]) -> str:
     """ "kA = 0.1, H = 22": the values of the varied columns, which keys gives with their symbols."""
-    return ", ".join(f"{symbol} = {number_of(row, key):.4g}" for key, symbol in keys.items())
+    return ", ".join(f"{symbol} = {row[key]:.4g}" for key, symbol in keys.items())
 
 
 def of_motion(row: Row) -> str:
@@ -72,7 +73,7 @@ def of_motion(row: Row) -> str:
 
 def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN by grid and steps)", without the error where that is not known."""
-    text, error = kilonewton(number_of(row, PEAK)), number_of(row, PEAK_ERROR)
+    text, error = kilonewton(row[PEAK]), number_of(row, PEAK_ERROR)
     if math.isfinite(error):
         text += f" (± {error / 1e3:.2g} kN by grid and steps)"
     return text
@@ -86,7 +87,7 @@ def use_of(row: Row, scene, searched: bool) -> str:
     doubts = [*reasons(row, scene)]
     if doubts:
         return f"Not for design: {'; '.join(doubts)}."
-    error, waves = number_of(row, PEAK_ERROR) / number_of(row, PEAK), scene.waves
+    error, waves = number_of(row, PEAK_ERROR) / row[PEAK], scene.waves
     grid = "grid and steps"
     if math.isfinite(error):
         grid = f"{grid} (± {100.0 * error:.2g} %)"

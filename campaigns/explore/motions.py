@@ -11,14 +11,14 @@ from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
-from analysis import share_of
+from analysis import grouped, share_of
 from campaigns.explore.coarse import coarse_endings
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
 from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.store import orbits_in
 from campaigns.study import Order
-from tables import REGIMES, SHEET, Column, Row, write_table
+from tables import REGIMES, SHEET, Column, Columns, Row, write_table
 
 MOTION = Column("motion", "", "motion", "letter of the motion, the same along a branch over the values")
 MOTIONS = (
@@ -126,13 +126,13 @@ class Motions:
     def __init__(
         self,
         plan: Plan,
-        keys: Sequence[Column],
+        keys: Columns,
         neighbours: Callable[[int], dict[int, str]],
         match_distance: float = 0.0,
         folder: str = "",
     ):
         self.plan, self.keys, self.neighbours, self.match_distance = plan, tuple(keys), neighbours, match_distance
-        self.folder = plan.how.out / folder  # "" adds nothing
+        self.folder = plan.out / folder  # "" adds nothing
         self.orbits = orbits_in(self.folder)
         self.starts = Starts(plan, (*self.keys, MOTION))
         self.kicks = 0  # at each place
@@ -143,7 +143,7 @@ class Motions:
         self.times: Counter = Counter()
         self.computed: set[str] = set()  # keys of the judged runs that were computed, or went on
 
-    def add(self, jobs: Sequence[Job]) -> range:
+    def add(self, jobs: Jobs) -> range:
         """Add the places of these runs from rest; returns their numbers."""
         first = len(self.jobs)
         self.jobs += jobs
@@ -159,12 +159,12 @@ class Motions:
         labels = self.jobs[place].labels
         return {key.name: labels[key.name] for key in self.keys}
 
-    def judged_runs(self, title: str, jobs: Sequence[Job], ahead: Sequence[Job] = ()) -> None:
+    def judged_runs(self, title: str, jobs: Jobs, ahead: Jobs = ()) -> None:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
-        timing, summary = run_within(self.plan, self.folder, jobs, ahead, title=title)
-        self.times.update(timing)
+        summary = run_within(self.plan, self.folder, jobs, ahead, title=title)
+        self.times.update(summary.times)
         self.computed |= summary.made
         self.rows |= summary.by_key
 
@@ -222,12 +222,13 @@ class Motions:
 
     def known(self, place: int, ending: Ending) -> Motion | None:
         """The known motion in which a start at a place has ended; None where it has not settled, or on another one."""
-        number = ending.joins  # new motions stand behind those it may join
-        if number is None and ending.settled is not None:
-            number = ending.same_as(settled_in(self.at[place]))
-        if number is None:
+        motions = self.at[place]
+        if ending.joins is not None:
+            return motions[ending.joins]  # new motions stand behind those it may join
+        if ending.settled is None:
             return None
-        return self.at[place][number]
+        *labels, label = grouped([*settled_in(motions), ending.settled]).tolist()
+        return motions[labels.index(label)] if label in labels else None
 
     def branches(self) -> list[list[Motion]]:
         """The motions of each branch, by place."""
@@ -260,22 +261,27 @@ class Motions:
         return rows
 
     def write(self) -> Summary:
-        """Write table.csv, and that of the starts; returns the summary of the rows. Raises OSError."""
+        """Write table.csv, and that of the starts; returns the summary of the rows, with the times of all runs.
+
+        Raises OSError.
+        """
         rows = self.table()
         write_table(self.folder / "table.csv", self.plan.columns, rows)
         if self.starts.endings:
             self.starts.write()
         reused = sum(row.get("run_key") not in self.computed for row in rows)
-        return Summary(rows, reused, len(rows) - reused, self.times["analysis_s"])
-
-    def timing(self) -> dict[str, float]:
-        """Seconds of all runs, those of the starts among them."""
-        times = self.times + self.starts.times
-        return {name: times[name] for name in ("compile_s", "run_s", "analysis_s")}
+        return Summary(rows, reused, len(rows) - reused, self.times + self.starts.times)
 
 
 def subfolder(plan: Plan, name: str) -> Path:
     """A folder within that of a campaign. Raises OSError."""
-    folder = plan.how.out / name
+    folder = plan.out / name
     folder.mkdir(exist_ok=True)
+    return folder
+
+
+def write_part(plan: Plan, name: str, columns: Columns, rows: Iterable[Row]) -> Path:
+    """Write table.csv in a folder within that of a campaign; returns the folder. Raises OSError."""
+    folder = subfolder(plan, name)
+    write_table(folder / "table.csv", columns, rows)
     return folder

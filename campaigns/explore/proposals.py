@@ -47,7 +47,7 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     for scene in scenes:
         key = key_of(scene.key(), speed_mps, seed, engine.source_hash(), _maker())
         tasks.append(Task(key, partial(_motions, kicked, scene)))
-    store = Store(plan.how.out / "proposals")
+    store = Store(plan.out / "proposals")
     return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 

@@ -12,7 +12,8 @@ import math
 from dataclasses import replace
 
 import engine.scene
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.judge import UNFOLLOWED
+from campaigns.machinery.plan import Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 
 SEED_MPS = 1e-5  # size of the push
@@ -42,20 +43,19 @@ def in_space(scene):
     heading = scene.waves.direction_rad
     sine, cosine = math.sin(heading), math.cos(heading)
     vx, vy, vz = scene.start.buoy_velocity_mps
-    changes = {"motion.dimensions": 3, "output.tangent_vectors": 0, "output.lateral_growth": False}
+    changes = {"motion.dimensions": 3, **UNFOLLOWED}
     added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
     if added:
         changes["start.buoy_velocity_mps"] = [vx - SEED_MPS * sine, vy + SEED_MPS * cosine, vz]
     return engine.scene.scene_from_toml(scene.to_toml(), changes), added
 
 
-def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
+def run_where_needed(plan: Plan, jobs: Jobs) -> Summary:
     """Do the planar jobs, then the runs in three dimensions of the values whose planar run released loops.
 
-    table.csv has one row for each value. Returns the times and the summary of both halves together. Raises the same
-    errors as `runner.run`.
+    table.csv has one row for each value. Raises the same errors as `runner.run`.
     """
-    timing, summary = run(plan, jobs)
+    summary = run(plan, jobs)
     rows = summary.by_key
     jobs_of_rows, in_space_count = [], 0
     for job in jobs:
@@ -67,10 +67,9 @@ def run_where_needed(plan: Plan, jobs: list[Job]) -> tuple[dict, Summary]:
             in_space_count += 1
         jobs_of_rows.append(job)
     if not in_space_count:
-        return timing, summary
-    timing_in_space, final = run(plan, jobs_of_rows)
-    times = {name: timing[name] + timing_in_space[name] for name in timing}
+        return summary
+    final = run(plan, jobs_of_rows)
     # The second half finds the planar runs of the first half on disk; only its runs in space are new.
     found = summary.found + in_space_count - final.computed
     computed = summary.computed + final.computed
-    return times, replace(final, computed=computed, found=found, analysis_s=times["analysis_s"])
+    return replace(final, computed=computed, found=found, times=summary.times + final.times)

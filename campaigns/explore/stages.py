@@ -22,27 +22,23 @@ from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search
 from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
-from campaigns.machinery.plan import Job
+from campaigns.machinery.plan import Job, Jobs
 from campaigns.machinery.progress import in_parts
 
 TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 
 
-def explore(motions: Motions, jobs: Sequence[Job], search: Search, *later: Callable[[], None]) -> None:
+def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable[[], None]) -> None:
     """Find the motions of the places of these runs from rest; later: further parts of the same work.
 
     Raises as `runner.run`.
     """
     places = range(len(motions.jobs), len(motions.jobs) + len(jobs))
 
-    def judge_and_name() -> None:
-        judge(motions, search)
-        name(motions)
-
     parts = [partial(run_from_rest, motions, jobs)]
     if motions.plan.simulate is engine.simulate:
         parts += parts_beside_rest(motions, places, search)
-    in_parts([*parts, judge_and_name, *later])
+    in_parts([*parts, partial(judge, motions, search), partial(name, motions), *later])
 
 
 def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable[[], object]]:
@@ -55,7 +51,7 @@ def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -
     ]
 
 
-def run_from_rest(motions: Motions, jobs: Sequence[Job]) -> range:
+def run_from_rest(motions: Motions, jobs: Jobs) -> range:
     """Add the places of these runs from rest, with the motions to which they lead; returns their numbers."""
     places, scene = motions.add(jobs), jobs[0].scene
     ahead = []
@@ -248,9 +244,7 @@ def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[
                 branches[member] = branch
 
 
-def outlasting(
-    jobs: Sequence[Job], rows: Mapping[str, Mapping], neighbours: Callable[[int], Iterable[int]]
-) -> list[Job]:
+def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable[[int], Iterable[int]]) -> list[Job]:
     """The jobs whose chaos has not lasted long enough; they go on until it has.
 
     It may be a transient, because periodic motions beside it began as chaos, or because only a kick led to it.

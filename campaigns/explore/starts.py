@@ -20,12 +20,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analysis import Settled, grouped, joins, settled
+from analysis import Settled, joins, settled
 from campaigns.explore.multipliers import orbit_ahead
-from campaigns.judge import LATERAL, TANGENTS, periods_of
+from campaigns.judge import UNFOLLOWED, periods_of
 from campaigns.machinery.folder import claimed, made_by, run_of
 from campaigns.machinery.long_runs import until_settled
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.machinery.store import Store, orbits_in
 from engine.scene import scene_from_toml
@@ -41,6 +41,7 @@ from tables import (
     UNSETTLED,
     WALL_S,
     Column,
+    Columns,
     Row,
     counted,
     names,
@@ -81,7 +82,7 @@ class Start:
 
     def scene(self, scene):
         """The scene that begins so."""
-        changes = {TANGENTS: 0, LATERAL: False}
+        changes = dict(UNFOLLOWED)
         phase = scene.waves.phase_rad
         if self.phase is not None:
             phase = changes[PHASE] = self.phase
@@ -231,30 +232,21 @@ class Ending:
     state: object = None
     motion: object = None
 
-    def same_as(self, known: Sequence) -> int | None:
-        """Number of the motion among these `Settled` that is its own; None where none is."""
-        *labels, label = grouped([*known, self.settled]).tolist()
-        if label in labels:
-            return labels.index(label)
-        return None
 
-
-def run_within(
-    plan: Plan, folder: Path, jobs: Sequence[Job], ahead: Sequence[Job] = (), **changes
-) -> tuple[dict, Summary]:
+def run_within(plan: Plan, folder: Path, jobs: Jobs, ahead: Jobs = (), **changes) -> Summary:
     """Do runs in a folder of a campaign; changes: of its plan. Raises as `runner.run`."""
     claim = contextlib.nullcontext()
-    if folder != plan.how.out:
+    if folder != plan.out:
         claim = claimed(folder)
     with claim:
-        return run(replace(plan, how=replace(plan.how, out=folder), **changes), list(jobs), ahead)
+        return run(plan.within(folder, **changes), list(jobs), ahead)
 
 
 class Starts:
     """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
-    def __init__(self, plan: Plan, keys: tuple[Column, ...]):
-        self.folder, maker = plan.how.out / "starts", made_by({}, *SOURCES)
+    def __init__(self, plan: Plan, keys: Columns):
+        self.folder, maker = plan.out / "starts", made_by({}, *SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])
         self.endings: list[Ending] = []
@@ -269,8 +261,8 @@ class Starts:
         jobs = [start_job(request) for request in requests]
         if not jobs:
             return []
-        timing, summary = run_within(self.plan, self.folder, jobs, title=title)
-        self.times.update(timing)
+        summary = run_within(self.plan, self.folder, jobs, title=title)
+        self.times.update(summary.times)
         self.computed |= summary.made
         rows = summary.by_key
         endings = [self._ending({**rows[job.key], **job.labels}) for job in jobs]

@@ -9,11 +9,11 @@ from typing import Any
 
 import engine
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import Column, names, read_table
+from tables import Columns, Rows, names, read_table
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -83,9 +83,9 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def with_kicks(order: Order, jobs: Iterable[Job]) -> list[Job]:
-    """The cases of an order, whose starts they allow, or else that is told."""
-    order.cases = list(jobs)
+def with_kicks(cases: Callable[[Order], Iterable[Job]], order: Order) -> list[Job]:
+    """The cases of an order. It is a fault if they do not allow its starts."""
+    order.cases = list(cases(order))
     kicks_of(order)
     return order.cases
 
@@ -116,7 +116,7 @@ def parameters(order: Order) -> dict:
     return {"starts": kicks, "kick_speed_mps": options.kick_speed, "seed": options.seed}
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
     kicks = kicks_of(order)
     if kicks is None:
@@ -127,12 +127,12 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
 def every_motion(
     order: Order,
     plan: Plan,
-    jobs: list[Job],
+    jobs: Jobs,
     kicks: int,
     speed_mps: float,
     seed: int,
     named: Callable[[], None] = lambda: None,
-) -> tuple[dict[str, float], Summary]:
+) -> Summary:
     """In place of `runner.run`: the motions of each value of the only key, with the ends of their ranges.
 
     kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`. named: called when the motions have their letters
@@ -156,32 +156,47 @@ def every_motion(
             find_ends(motions, Scenes(jobs[0].scene, key))
 
     explore(motions, jobs, Search(order, kicks, speed_mps, seed), ends, partial(confirm, motions))
-    summary = motions.write()
-    return motions.timing(), summary
+    return motions.write()
 
 
-def tables_of(out: Path, *folders: str) -> dict[str, tuple[dict, ...]]:
-    """The rows of table.csv in these folders of a campaign; none where there is no table, or an empty one."""
-    tables: dict[str, tuple[dict, ...]] = {}
-    for folder in folders:
-        tables[folder] = ()
-        with contextlib.suppress(OSError, ValueError):
-            tables[folder] = read_table(out / folder / "table.csv")
-    return tables
+def table_of(folder: Path) -> Rows:
+    """The rows of table.csv in a folder; none where there is no table, or an empty one."""
+    with contextlib.suppress(OSError, ValueError):
+        return read_table(folder / "table.csv")
+    return ()
 
 
-def measures_of(order: Order, columns: tuple[Column, ...]) -> Measures:
-    """The rows of a buoy in regular waves."""
+def tables_of(out: Path, *folders: str) -> dict[str, Rows]:
+    """The rows of `table_of` in these folders of a campaign."""
+    return {folder: table_of(out / folder) for folder in folders}
+
+
+def answer(order: Order, rows: Rows, symbol: str, *folders: str) -> list[str]:
+    """The findings of a sweep over one key (`campaigns.explore.answer`), which is called `symbol` in words.
+
+    folders: within that of the sweep, whose tables count too; that of the ends of motions is one where there are some.
+    """
+    from campaigns.explore.answer import sentences
+
+    if kicks_of(order) is not None:
+        folders = *folders, "ends"
+    (key,) = names(order.options.grid.columns)
+    return sentences(rows, key, symbol, order.cases[0].scene, **tables_of(order.how.out, *folders))
+
+
+def measures_of(order: Order, columns: Columns, row: Callable | None = None, *sources: str) -> Measures:
+    """The rows of a buoy in regular waves; row: in place of `rows.buoy_row`, with what else shapes it."""
     from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row
 
     settings = {"transient_periods": order.transient, "full": None}
     if getattr(order.options, "evidence", "") == FULL:
         settings["full"] = order.periods
-    return Measures(columns, buoy_row, ROW_SOURCES, settings, judge=partial(judgement_of, **settings))
+    judge = partial(judgement_of, **settings)
+    return Measures(columns, row or buoy_row, (*ROW_SOURCES, *sources), settings, judge)
 
 
-def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+def columns_of(keys: Columns) -> Columns:
     """Those of the places of a grid, then those of the rows of a buoy in a plane."""
     from campaigns.explore.rows import COLUMNS, STEEPNESS
 

@@ -185,6 +185,15 @@ class Running:
     dask_address: str | None = None
     report: bool = True
 
+    @property
+    def sends(self) -> bool:
+        """Whether workers send what they computed, because they need not see the folder."""
+        return self.backend == "dask"
+
+    def seen(self, folder: Path) -> Path | None:
+        """The folder as workers see it, which may stand in another one than this process; None: they need not."""
+        return None if self.sends else folder.absolute()
+
 
 PLACES = {  # options that say where runs are done
     "jobs": Option(
@@ -249,7 +258,7 @@ def running(values: argparse.Namespace, places: tuple[str, ...], campaign: str, 
     how = Running(values.out, **where, report=not values.no_report)
     if how.dask_address is not None and how.backend != "dask":
         faults.append(f"--dask-address: given with --backend {how.backend}; allowed: with --backend dask only")
-    if how.backend == "dask":
+    if how.sends:
         from importlib.util import find_spec
 
         if find_spec("distributed") is None:

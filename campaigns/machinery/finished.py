@@ -10,12 +10,11 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from campaigns.machinery.folder import made_by, of_the_page, read_json, write_json
+from campaigns.machinery.folder import PACKAGES, made_by, of_the_page, read_json, write_json
 from campaigns.machinery.plan import Summary
 
 FILE = "finished.json"
-_BESIDE = (FILE, ".lock")  # files of the folder that say nothing of its results
-_PACKAGES = "machine_code", "tables", "engine", "analysis", "campaigns", "reports"
+_BESIDE = {FILE, ".lock"}  # files of the folder that say nothing of its results
 _DATA = "engine/scenes/*.toml", "campaigns/**/*.toml", "campaigns/**/*.csv"
 _COMPUTED_AGAIN = {"error", "worker-died", "analysis-failed", "lost"}  # statuses of rows that another attempt may mend
 
@@ -31,7 +30,7 @@ def order_key(called: str, asked: Mapping[str, object], versions: Mapping[str, s
     content = {
         "order": [called, words],
         "files": [hashlib.sha256(path.read_bytes()).hexdigest() for path in _files_in(asked.values())],
-        "code": made_by({}, *_PACKAGES, *of_the_page(), *data),
+        "code": made_by({}, *PACKAGES, *of_the_page(), *data),
         "versions": dict(versions),
     }
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
@@ -55,7 +54,7 @@ def finished(out: Path, key: str) -> Summary | None:
     if not isinstance(record, dict) or record.get("key") != key or record.get("files") != _listing(out):
         return None
     rows = [{"status": status} for status in record["statuses"]]
-    return Summary(rows, record["runs"], 0, 0.0)
+    return Summary(rows, record["runs"], 0)
 
 
 def keep_finished(out: Path, key: str, summary: Summary) -> None:
@@ -68,14 +67,11 @@ def keep_finished(out: Path, key: str, summary: Summary) -> None:
 
 def _listing(out: Path) -> str:
     """Hash of names, sizes and times of all files in a folder."""
-    digest, folders = hashlib.sha256(), [str(out)]
-    while folders:
-        with os.scandir(folders.pop()) as entries:
-            for entry in sorted(entries, key=lambda entry: entry.name):
-                if entry.is_dir(follow_symlinks=False):
-                    folders.append(entry.path)
-                elif entry.name not in _BESIDE:
-                    status = entry.stat()
-                    name = os.path.relpath(entry.path, out)
-                    digest.update(f"{name} {status.st_size} {status.st_mtime_ns}\n".encode())
+    digest = hashlib.sha256()
+    for folder, folders, files in os.walk(out):
+        folders.sort()
+        for name in sorted({*files} - _BESIDE):
+            path = Path(folder, name)
+            status = path.stat()
+            digest.update(f"{path.relative_to(out)} {status.st_size} {status.st_mtime_ns}\n".encode())
     return digest.hexdigest()

@@ -20,8 +20,9 @@ from pathlib import Path
 
 import engine
 from engine.atomic import write_atomic
-from tables import Column, Row, names, write_table
+from tables import Columns, Row, names, write_table
 
+PACKAGES = "machine_code", "tables", "engine", "analysis", "campaigns", "reports"  # of this project
 PROGRESS = ".progress-"  # begins the names of folders in which workers say how far they are
 SEAL = b"sha256:" + 64 * b"0"  # stands in a content that `write_sealed` is given
 _SEALED = re.compile(rb"sha256:[0-9a-f]{64}")
@@ -104,12 +105,12 @@ class Table:
     dictionary of its columns (columns.csv) is written before the table is.
     """
 
-    def __init__(self, path: Path, columns: tuple[Column, ...], keys: list[str]):
+    def __init__(self, path: Path, columns: Columns, keys: list[str]):
         self.path, self.columns, self.keys = path, columns, keys
-        self.rows: dict[str, dict[str, object]] = {}
+        self.rows: dict[str, Row] = {}
         self._written_s = -math.inf
 
-    def add(self, key: str, row: dict[str, object]) -> None:
+    def add(self, key: str, row: Row) -> None:
         """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
         unknown = set(row) - set(names(self.columns))
         if unknown:
@@ -118,7 +119,7 @@ class Table:
         if time.monotonic() - self._written_s > 0.5:
             self.write()
 
-    def in_order(self) -> list[dict[str, object]]:
+    def in_order(self) -> list[Row]:
         """The rows there are, in the order of the campaign."""
         return [self.rows[key] for key in self.keys if key in self.rows]
 
@@ -141,6 +142,12 @@ def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
     except ValueError:  # TrajectoryError
         pass
     return None
+
+
+def write_new(path: Path, content: bytes) -> None:
+    """Write a file, unless it has this content already. Raises OSError."""
+    if not path.exists() or path.read_bytes() != content:
+        write_atomic(path, content)
 
 
 def read_json(path: Path) -> object:

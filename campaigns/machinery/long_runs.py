@@ -19,9 +19,8 @@ from typing import NamedTuple
 import engine.scene
 from campaigns.finer import finer
 from engine.views import carried, carries_tangents
+from tables import OPEN, UNSETTLED
 
-OPEN = ("undecided", "transient")  # regimes that decide nothing
-UNSETTLED = "unsettled"  # outcome of a start that has not settled yet
 LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS = "output.tangent_vectors"
 EARLY = 60  # wave periods of the first part of a run that lasts until it is judged

@@ -6,14 +6,17 @@ lost at no cost: its rows come from these files, or from the copies of rows besi
 
 import hashlib
 import json
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
 import engine
 from campaigns.machinery.cli import Running
-from tables import Column
+from tables import Columns, Row
+
+TIMES = "compile_s", "run_s", "analysis_s"
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,9 @@ class Job:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
+Jobs = Sequence[Job]
+
+
 @dataclass(frozen=True)
 class Outcome:
     """What a worker hands back: the row of a run, but for its labels and key, and the seconds that it took to make.
@@ -59,7 +65,7 @@ class Outcome:
     """
 
     key: str
-    row: dict[str, object]
+    row: Row
     analysis_s: float = 0.0
     content: bytes = b""
     orbits: Mapping[str, dict] = field(default_factory=dict)
@@ -67,21 +73,29 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Summary:
-    """A campaign's rows in order, how many were found or computed, and the analysis time summed over workers.
+    """A campaign's rows in order, and how many were found or computed.
 
+    times    seconds by TIMES, and of the report and of all together; 0 where there is no entry. Those of analysis are
+             summed over workers
     whole    whether nothing was done, and the report that is there stays as it is
     made     keys of the runs that were computed, or went on
     """
 
-    rows: list[dict[str, object]]
+    rows: list[Row]
     found: int
     computed: int
-    analysis_s: float
+    times: Counter[str] = field(default_factory=Counter)
     whole: bool = False
     made: frozenset[str] = frozenset()
 
+    def joined_to(self, earlier: "Summary") -> "Summary":
+        """The summary of both, where this is of all runs of the earlier one and of further runs."""
+        computed = earlier.made | self.made
+        counts = len(self.rows) - len(computed), len(computed)
+        return Summary(self.rows, *counts, earlier.times + self.times, made=computed)
+
     @property
-    def by_key(self) -> dict[str, dict]:
+    def by_key(self) -> dict[str, Row]:
         """The rows by the keys of their runs."""
         return {row["run_key"]: row for row in self.rows}
 
@@ -90,7 +104,7 @@ class Summary:
 class Plan:
     """How to run: where, with which functions, and on what. Functions go to workers (importable, or by cloudpickle).
 
-    how             `how.out` is None in the plan that a worker gets which does not see the folder
+    how             `out` is None in the plan that a worker gets which does not see the folder
     simulate        simulate(scene, periods=, duration_s=) -> Trajectory
     describe        describe(trajectory) -> row; with `judge`: describe(trajectory, judgement)
     columns         of the table, among them run_key, status and message
@@ -109,7 +123,7 @@ class Plan:
     how: Running
     simulate: Callable
     describe: Callable
-    columns: tuple[Column, ...]
+    columns: Columns
     row_maker: str = ""
     judge: Callable | None = None
     simulate_each: Callable | None = None
@@ -119,11 +133,15 @@ class Plan:
     spare: list = field(default_factory=list)
 
     @property
-    def sends(self) -> bool:
-        """Whether workers send what they computed, because they need not see the folder."""
-        return self.how.backend == "dask"
+    def out(self) -> Path | None:
+        """The folder of the campaign."""
+        return self.how.out
+
+    def within(self, folder: Path | None, **changes: object) -> "Plan":
+        """The plan for another folder, with further changes."""
+        return replace(self, how=replace(self.how, out=folder), **changes)
 
 
-def name_of(task: Sequence[Job]) -> str:
+def name_of(task: Jobs) -> str:
     """The name of the file in which a worker says how far it is with these jobs."""
     return f"{len(task)}-{task[0].key}"

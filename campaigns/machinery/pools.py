@@ -12,6 +12,7 @@ finished runs are on disk, and the same command goes on.
 
 import contextlib
 import logging
+import operator
 import os
 import platform
 import signal
@@ -24,14 +25,13 @@ from concurrent.futures import CancelledError
 from functools import cache, partial
 from importlib import metadata
 
-from campaigns.machinery.folder import CampaignStopped, made_by
+from campaigns.machinery.folder import PACKAGES, CampaignStopped, made_by
 
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
 ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
-_PARTS = ("machine_code", "engine", "analysis", "campaigns", "reports", "tables")
 _GO_ON = "finished runs are kept; mend the cluster and run the same command again"
 _REFUSED = "refused, not the same version as here: {}; install there what is installed here, and start it again"
 
@@ -76,7 +76,7 @@ def _joblib_results(
             handed_out[number] = task
             yield delayed(_numbered)(call, number, task)
         while spare and handed_out:
-            yield delayed(_numbered)(_called, -1, spare.pop(0))
+            yield delayed(_numbered)(operator.call, -1, spare.pop(0))
 
     options = {"backend": backend, "n_jobs": jobs}
     if backend == "loky":
@@ -101,10 +101,6 @@ def _joblib_results(
 
 def _numbered(call: Callable, number: int, task: object) -> tuple[int, object]:
     return number, call(task)
-
-
-def _called(function: Callable) -> object:
-    return function()
 
 
 def _prepare_worker(campaign: int) -> None:
@@ -145,14 +141,14 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
         if address is None:
             # A run whose worker dies is not tried again by dask: the runner does that, one run at a time.
             stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 0}))
-            options = {
-                "n_workers": jobs,
-                "threads_per_worker": 1,
-                "dashboard_address": None,
-                "silence_logs": "CRITICAL",
-            }
-            options["preload"] = __name__  # see `dask_setup`
-            address = stack.enter_context(LocalCluster(**options))
+            cluster = LocalCluster(
+                n_workers=jobs,
+                threads_per_worker=1,
+                dashboard_address=None,
+                silence_logs="CRITICAL",
+                preload=__name__,  # see `dask_setup`
+            )
+            address = stack.enter_context(cluster)
         # A lost connection ends the campaign in one line of its own; dask adds a page, from threads of its own.
         stack.callback(logging.disable, logging.root.manager.disable)
         logging.disable(logging.CRITICAL)
@@ -178,7 +174,7 @@ def dask_client(jobs: int, address: str | None) -> Iterator:
 def facts() -> dict[str, str]:
     """What decides the numbers that this process computes: versions, and a hash of the sources of each package."""
     versions = {name: metadata.version(name) for name in _NUMBERS}
-    sources = {f"sources of {part}": made_by({}, part)[:12] for part in _PARTS}
+    sources = {f"sources of {part}": made_by({}, part)[:12] for part in PACKAGES}
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
 
 

@@ -8,8 +8,8 @@ import contextlib
 import math
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import chain
 from pathlib import Path
@@ -17,13 +17,14 @@ from pathlib import Path
 import engine
 from campaigns.machinery.folder import PROGRESS, Table, trajectory_path
 from campaigns.machinery.long_runs import LongRun
-from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
+from campaigns.machinery.plan import Job, Jobs, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import print_line, reports, stage
 from campaigns.machinery.store import orbits_in
 from campaigns.machinery.tasks import as_completed
 from campaigns.machinery.worker import Spare, failed, keep_row, reuse, run_jobs
 from engine.atomic import write_atomic
+from tables import Row
 
 ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
@@ -33,30 +34,30 @@ FEWEST = 3  # jobs for each worker below which they go alone: eight lanes cost a
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
-def run(plan: Plan, jobs: list[Job], ahead: Sequence[Job] = ()) -> tuple[dict[str, float], Summary]:
-    """Compile and do the runs; returns the times of both and the summary. ahead: of these what they need is compiled
-    too, because they come next and two processes are done sooner with all of it.
+def run(plan: Plan, jobs: Jobs, ahead: Jobs = ()) -> Summary:
+    """Compile and do the runs. ahead: of these what they need is compiled too, because they come next and two processes
+    are done sooner with all of it.
     """
-    missing = [job for job in jobs if not trajectory_path(plan.how.out, job.key).exists()]
+    missing = _missing(plan.out, jobs)
     start = time.perf_counter()
-    if missing and plan.sends and plan.how.dask_address is not None:
+    if missing and plan.how.sends and plan.how.dask_address is not None:
         print_line("each worker compiles the engine in its first run, unless it has done so before")
     elif missing:
         later = chain.from_iterable(spare.jobs for spare in plan.spare)
         _compile(plan, [*missing, *ahead, *later])
     compiled = time.perf_counter()
     summary = run_campaign(plan, jobs)
-    run_s = time.perf_counter() - compiled
-    return {"compile_s": compiled - start, "run_s": run_s, "analysis_s": summary.analysis_s}, summary
+    summary.times.update(compile_s=compiled - start, run_s=time.perf_counter() - compiled)
+    return summary
 
 
-def write_scene(directory: Path, campaign: str, jobs: list[Job]) -> None:
+def write_scene(directory: Path, campaign: str, jobs: Jobs) -> None:
     """Write scene.toml. Raises OSError."""
     head = f"# the scene of the first run of {campaign}; what varies over the runs is listed in provenance.json\n"
     write_atomic(directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
 
 
-def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
+def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
     """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
     Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
@@ -67,7 +68,7 @@ def groups_of(plan: Plan, jobs: list[Job]) -> list[tuple[Job, ...]]:
             alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
     groups, workers = [], plan.how.jobs
     most = MOST
-    if plan.sends:
+    if plan.how.sends:
         most = MOST_SENT
     for members in alike.values():
         if len(members) < FEWEST * workers:
@@ -84,25 +85,29 @@ def shares_worker(plan: Plan, job: Job) -> bool:
     return plan.simulate_each is not None and plan.how.backend != "threading" and engine.goes_in_lanes(job.scene)
 
 
-def spare_groups(plan: Plan, folder: Path, jobs: Sequence[Job], **changes) -> list[Spare]:
+def spare_groups(plan: Plan, folder: Path, jobs: Jobs, **changes) -> list[Spare]:
     """Runs of a later step in a folder of a campaign, for `Plan.spare`; none where workers do not see the folder.
 
     changes: of the plan in that step. Raises OSError.
     """
-    missing = [job for job in jobs if not trajectory_path(folder, job.key).exists()]
-    if not missing or plan.sends:
+    missing = _missing(folder, jobs)
+    if not missing or plan.how.sends:
         return []
     trajectory_path(folder, "").parent.mkdir(parents=True, exist_ok=True)
-    later = replace(plan, how=replace(plan.how, out=folder.absolute()), spare=[], **changes)
+    later = plan.within(folder.absolute(), spare=[], **changes)
     firsts = range(0, len(missing), MOST_SENT)
     return [Spare(later, missing[first : first + MOST_SENT]) for first in firsts]
+
+
+def _missing(folder: Path, jobs: Jobs) -> list[Job]:
+    return [job for job in jobs if not trajectory_path(folder, job.key).exists()]
 
 
 def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
     return {job.key for job in chain.from_iterable(groups)}
 
 
-def _mixed(jobs: list[Job]) -> list[Job]:
+def _mixed(jobs: Jobs) -> list[Job]:
     """The jobs in an order in which any part of them is like the whole.
 
     The slow ones of a sweep are neighbours; if they began last, they would end alone. The first one, which is often the
@@ -112,7 +117,7 @@ def _mixed(jobs: list[Job]) -> list[Job]:
     return [jobs[place] for place in order]
 
 
-def _compile(plan: Plan, missing: list[Job]) -> None:
+def _compile(plan: Plan, missing: Jobs) -> None:
     """Compile what the runs may call: what has kernels in common in one process, the rest in others meanwhile."""
     if plan.simulate is not engine.simulate:
         return
@@ -150,31 +155,31 @@ def _compiled(pieces: dict) -> None:
             engine.compile_piece(key, scene)
 
 
-def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
+def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     """Do every run that is not there yet; keep table.csv up to date while results come.
 
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
     """
     by_key = {job.key: job for job in jobs}
-    table = Table(plan.how.out / "table.csv", plan.columns, list(by_key))
+    table = Table(plan.out / "table.csv", plan.columns, list(by_key))
     finished: set[str] = set()
-    analysis_s = 0.0
+    times: Counter[str] = Counter()
     with stage("looking for finished runs"):
         for key, job in by_key.items():
             outcome = reuse(plan, job, print_line)
             if outcome is not None and _ended(job, outcome):
                 finished.add(key)
-                analysis_s += outcome.analysis_s
+                times["analysis_s"] += outcome.analysis_s
                 table.rows[key] = _row(job, outcome)
     table.write()
     missing = [job for key, job in by_key.items() if key not in finished]
     try:
         for key, outcome in _computed(plan, missing, len(finished)):
             if outcome.content:
-                write_atomic(trajectory_path(plan.how.out, key), outcome.content)
+                write_atomic(trajectory_path(plan.out, key), outcome.content)
                 keep_row(plan, outcome, outcome.content)
-                orbits_in(plan.how.out).add(outcome.orbits)
-            analysis_s += outcome.analysis_s
+                orbits_in(plan.out).add(outcome.orbits)
+            times["analysis_s"] += outcome.analysis_s
             row = _row(by_key[key], outcome)
             table.add(key, row)
             if plan.on_row is not None:
@@ -184,29 +189,25 @@ def run_campaign(plan: Plan, jobs: list[Job]) -> Summary:
             table.write()
         raise
     table.write()
-    return Summary(table.in_order(), len(finished), len(missing), analysis_s, made=frozenset(_keys([missing])))
+    return Summary(table.in_order(), len(finished), len(missing), times, made=frozenset(_keys([missing])))
 
 
 def _ended(job: Job, outcome: Outcome) -> bool:
     return LongRun(job, row=outcome.row).next_part() is None
 
 
-def _row(job: Job, outcome: Outcome) -> dict[str, object]:
+def _row(job: Job, outcome: Outcome) -> Row:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[str, Outcome]]:
+def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple[str, Outcome]]:
     """Key and outcome of the jobs, as they come: those that can share a worker first, then what these leave undone.
 
     A run that kills its worker twice, the second time alone, is given up. reused: runs that were there before.
     """
     if not jobs:
         return
-    # Workers that send their results need not see the campaign's folder: theirs is a temporary one.
-    out = None
-    if not plan.sends:
-        # a worker kept from an earlier campaign of this process may stand in another folder
-        out = plan.how.out.absolute()
+    out = plan.how.seen(plan.out)
     groups = groups_of(plan, jobs)
     total = reused + len(jobs)
     unfinished = _keys([jobs])
@@ -235,8 +236,7 @@ def _computed(plan: Plan, jobs: Sequence[Job], reused: int) -> Iterator[tuple[st
     # workers say there how far they are; a campaign drops what a kill leaves of it
     folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)
     with folder as place, stage(plan.title, total, "runs", count, simulated):
-        of_workers = {"how": replace(plan.how, out=out), "reports": Path(place), "on_row": None, "spare": []}
-        call = partial(run_jobs, replace(plan, **of_workers))
+        call = partial(run_jobs, plan.within(out, reports=Path(place), on_row=None, spare=[]))
         for key, outcome in as_completed(plan.how, groups, call, _given_up, plan.spare):
             unfinished.discard(key)
             yield key, outcome

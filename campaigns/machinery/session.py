@@ -26,10 +26,9 @@ from pathlib import Path
 import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.finished import finished, keep_finished
-from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json
-from campaigns.machinery.plan import Summary
+from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json, write_new
+from campaigns.machinery.plan import TIMES, Summary
 from campaigns.machinery.progress import stage
-from engine.atomic import write_atomic
 from engine.streams import open_streams, printed
 from tables import ANSWER, PROVENANCE
 
@@ -118,47 +117,54 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     start, how = time.perf_counter(), order.how
     fault = key = ""
     answer: list[str] = []
+    if order.simulate is None:
+        key = order.key
     with claimed(how.out), stage(study.name):
-        if order.key and order.simulate is None:
-            key = order.key
-            summary = finished(how.out, key)
-            if summary is not None:
-                timing = dict.fromkeys(("compile_s", "run_s", "analysis_s", "report_s"), 0.0)
-                timing["total_s"] = time.perf_counter() - start
-                answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
-                code = printed(partial(print_summary, how, summary, answer, timing, fault))
-                return EXIT_FAILED if study.strict and _failures(summary) else code
-            if not order.cases:
-                raise CampaignStopped(f"{how.out} has just been changed; run the same command again")
-        record = begun(how.out, study.name, command_line(study.called, argv), parameters)
-        timing, summary = study.work(order)
-        failures = _failures(summary)
-        if summary.computed or not ended(how.out):
-            counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
-            rounded = {name: round(seconds, 3) for name, seconds in timing.items()}
-            record |= {"runs": counts | {"failed": failures.total()}, "finished_utc": _now_utc(), "timing": rounded}
-            write_json(how.out / PROVENANCE, record)
-        if study.answer is not None:
-            answer = write_answer(how.out, study.answer(order, summary.rows))
-        start_of_report = time.perf_counter()
-        if how.report and summary.rows and not summary.whole:
-            try:
-                from reports import build
-
-                with stage("figures and pages of the report"):
-                    build(how.out)
-            except OSError:
-                raise
-            except Exception as error:  # the results stand without a report
-                fault = f"{type(error).__name__}: {error}"
-        if key and not fault:
-            keep_finished(how.out, key, summary)
-        now = time.perf_counter()
-        timing |= {"report_s": now - start_of_report, "total_s": now - start}
-    code = printed(partial(print_summary, how, summary, answer, timing, fault))
-    if study.strict and failures:
+        summary = finished(how.out, key)
+        if summary is not None:
+            answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
+        elif key and not order.cases:
+            raise CampaignStopped(f"{how.out} has just been changed; run the same command again")
+        else:
+            record = begun(how.out, study.name, command_line(study.called, argv), parameters)
+            summary = study.work(order)
+            if summary.computed or not ended(how.out):
+                write_json(how.out / PROVENANCE, record | _outcome(summary))
+            if study.answer is not None:
+                answer = write_answer(how.out, study.answer(order, summary.rows))
+            start_of_report = time.perf_counter()
+            if how.report and summary.rows and not summary.whole:
+                fault = _fault_of_report(how.out)
+            if key and not fault:
+                keep_finished(how.out, key, summary)
+            summary.times["report_s"] = time.perf_counter() - start_of_report
+        summary.times["total_s"] = time.perf_counter() - start
+    code = printed(partial(print_summary, how, summary, answer, fault))
+    if study.strict and _failures(summary):
         return EXIT_FAILED
     return code
+
+
+def _outcome(summary: Summary) -> dict[str, object]:
+    """What the provenance says of a campaign that has ended."""
+    counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
+    counts["failed"] = _failures(summary).total()
+    rounded = {name: round(summary.times[name], 3) for name in TIMES}
+    return {"runs": counts, "finished_utc": _now_utc(), "timing": rounded}
+
+
+def _fault_of_report(out: Path) -> str:
+    """Build the report; returns why there is none, because the results stand without it. Raises OSError."""
+    try:
+        from reports import build
+
+        with stage("figures and pages of the report"):
+            build(out)
+    except OSError:
+        raise
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
+    return ""
 
 
 def _failures(summary: Summary) -> collections.Counter[str]:
@@ -171,9 +177,7 @@ def _failures(summary: Summary) -> collections.Counter[str]:
 def write_answer(out: Path, sentences: Iterable[str]) -> list[str]:
     """Write the first MOST_LINES sentences to answer.txt, a line each, where they are new; returns them."""
     lines = list(sentences)[:MOST_LINES]
-    path, content = out / ANSWER, "\n".join([*lines, ""]).encode()
-    if not path.exists() or path.read_bytes() != content:
-        write_atomic(path, content)
+    write_new(out / ANSWER, "\n".join([*lines, ""]).encode())
     return lines
 
 
@@ -218,17 +222,13 @@ def _now_utc() -> str:
 
 def versions() -> dict[str, str | None]:
     """Of Python and of the libraries that shape results and reports."""
-    versions = {"python": platform.python_version()}
-    for package in _PACKAGES:
-        versions[package] = _version(package)
-    return versions
-
-
-def _version(package: str) -> str | None:
     from importlib import metadata  # 30 ms, which a refusal does not need
 
-    with contextlib.suppress(metadata.PackageNotFoundError):
-        return metadata.version(package)
+    versions = {"python": platform.python_version(), **dict.fromkeys(_PACKAGES)}
+    for package in _PACKAGES:
+        with contextlib.suppress(metadata.PackageNotFoundError):
+            versions[package] = metadata.version(package)
+    return versions
 
 
 def git_state(directory: Path) -> dict[str, object]:
@@ -258,12 +258,12 @@ def machine() -> dict[str, object]:
     return {"processor": processor, "cores": cores}
 
 
-def print_summary(how: Running, summary: Summary, answer: list[str], timing: dict[str, float], fault: str) -> int:
+def print_summary(how: Running, summary: Summary, answer: list[str], fault: str) -> int:
     """Print the answer, what was done, where it is and where the time went; returns the exit code.
 
     fault: why there is no report.
     """
-    out = how.out
+    out, times = how.out, summary.times
     for head, line in zip(["answer", *[""] * MOST_LINES], answer, strict=False):
         print(line if line[:4].isupper() else f"{head:<9}{line}")
     count = summary.computed + summary.found
@@ -278,8 +278,8 @@ def print_summary(how: Running, summary: Summary, answer: list[str], timing: dic
     elif how.report and not fault:
         print(f"report   {out / 'report.html'}\n         {out / 'report.pdf'}")
     print(
-        f"time     {timing['total_s']:.1f} s: compile {timing['compile_s']:.1f}, run {timing['run_s']:.1f}, "
-        f"report {timing['report_s']:.1f}; analysis took {timing['analysis_s']:.1f} s of the workers' time"
+        f"time     {times['total_s']:.1f} s: compile {times['compile_s']:.1f}, run {times['run_s']:.1f}, "
+        f"report {times['report_s']:.1f}; analysis took {times['analysis_s']:.1f} s of the workers' time"
     )
     if fault:
         retry = f"the runs are complete; try again: python -m reports {out}"

@@ -49,18 +49,14 @@ def results(
         else:
             finished[task.key] = result
             reused += 1
-    sends = how.backend == "dask"
     if missing:
-        store_of_worker = Store(None, store.suffix)
-        if not sends:
-            store_of_worker = Store(store.folder.absolute(), store.suffix)
-        compute = partial(_computed, store_of_worker)
+        compute = partial(_computed, Store(how.seen(store.folder), store.suffix))
         tasks_left = list(missing.values())
         groups = [tasks_left[first : first + size] for first in range(0, len(tasks_left), size)]
         with stage(title, len(tasks), "tasks", lambda: len(finished)):
             for key, result in as_completed(how, groups, compute, _stopped, spare):
                 finished[key] = result
-                if sends:
+                if how.sends:
                     store.put(key, result)
     return Results([finished[task.key] for task in tasks], reused)
 

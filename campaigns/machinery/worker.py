@@ -17,7 +17,7 @@ from typing import NamedTuple
 import engine
 from campaigns.machinery.folder import CampaignStopped, is_full, stored_run, trajectory_path, write_failure
 from campaigns.machinery.long_runs import LongRun, Part
-from campaigns.machinery.plan import Job, Outcome, Plan, name_of
+from campaigns.machinery.plan import Job, Jobs, Outcome, Plan, name_of
 from campaigns.machinery.progress import reporter, with_progress
 from campaigns.machinery.store import Store, orbits_in
 from engine.atomic import write_atomic
@@ -25,7 +25,7 @@ from engine.atomic import write_atomic
 SAVED_S = 10.0  # of work that a killed campaign may lose of a long run, beside the part that is under way
 
 
-def run_jobs(plan: Plan, jobs: Sequence[Job]) -> list[tuple[str, Outcome]]:
+def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple[str, Outcome]]:
     """Key and outcome of one job, whatever goes wrong in its run; of several jobs, of those that came to an end.
 
     Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
@@ -57,9 +57,7 @@ class Spare(NamedTuple):
             run_jobs(self.plan, self.jobs)
 
 
-def _run_side_by_side(
-    plan: Plan, jobs: Sequence[Job], outcomes: dict[str, Outcome], report: Callable[..., None]
-) -> None:
+def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
     """Runs of one part, or of as many as they need (`campaigns.machinery.long_runs`).
 
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
@@ -100,14 +98,9 @@ def _run_side_by_side(
         return part.scene, part.periods, part.start
 
     if plan.simulate_each is not None and under_way:
-        parts = [run.part for run in under_way]
-        first = {
-            "scenes": [part.scene for part in parts],
-            "periods": [part.periods for part in parts],
-            "starts": [part.start for part in parts],
-            "duration_s": parts[0].duration_s,
-        }
-        for _ in plan.simulate_each(**first, then=go_on, **with_progress(plan.simulate_each, progress)):
+        scenes, periods, starts, _, durations_s = zip(*(run.part for run in under_way), strict=True)
+        further = with_progress(plan.simulate_each, progress)
+        for _ in plan.simulate_each(scenes, periods, durations_s[0], starts=starts, then=go_on, **further):
             pass
         return
     for number, run in enumerate(under_way):
@@ -131,7 +124,7 @@ def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
         return LongRun(job), None
     trajectory = None
     if outcome.row.get("status") in ("ok", None):
-        trajectory = stored_run(plan.how.out, job.key)
+        trajectory = stored_run(plan.out, job.key)
     return LongRun(job, trajectory, outcome.row), outcome
 
 
@@ -139,13 +132,13 @@ def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome) -> Outcome:
     """Save a run that has been computed and its row, or get them ready to be sent."""
     try:
         content = trajectory.to_bytes({"run_key": job.key})
-        if plan.how.out is not None:
-            write_atomic(trajectory_path(plan.how.out, job.key), content)
+        if plan.out is not None:
+            write_atomic(trajectory_path(plan.out, job.key), content)
     except OSError as error:
         raise _stopped(plan, error) from error
     except Exception as error:
         return failed(job, "error", f"not saved: {_reason(error)}")
-    if plan.how.out is None:
+    if plan.out is None:
         return replace(outcome, content=content)
     keep_row(plan, outcome, content)
     return outcome
@@ -156,7 +149,7 @@ def reuse(plan: Plan, job: Job, report: Callable[[str], None] = lambda _: None) 
 
     A file that is damaged, or not of the run that its name and the order say, is as good as none; report(why).
     """
-    out = plan.how.out
+    out = plan.out
     if out is None:
         return None
     path = trajectory_path(out, job.key)
@@ -195,13 +188,13 @@ def kept_row(plan: Plan, key: str, content: bytes) -> dict | None:
 
 
 def _rows(plan: Plan) -> Store:
-    return Store(trajectory_path(plan.how.out, "").parent, ".row.json")
+    return Store(trajectory_path(plan.out, "").parent, ".row.json")
 
 
 def _described(plan: Plan, job: Job, trajectory, checks: dict | None) -> Outcome:
     """The row of a run. What a row needs beside its run is computed here, and kept (`Plan.judge`); a row reads it."""
     start_s = time.perf_counter()
-    orbits = orbits_in(plan.how.out)
+    orbits = orbits_in(plan.out)
     try:
         if job.describe is not None or plan.judge is None:
             row = (job.describe or plan.describe)(trajectory)
@@ -225,4 +218,4 @@ def failed(job: Job, status: str, message: str) -> Outcome:
 
 
 def _stopped(plan: Plan, error: BaseException) -> CampaignStopped:
-    return CampaignStopped(write_failure(plan.how.out or f"the worker on {socket.gethostname()}", error))
+    return CampaignStopped(write_failure(plan.out or f"the worker on {socket.gethostname()}", error))

@@ -16,8 +16,9 @@ or ends, its branch ends. Nothing is random.
 
 import re
 import time
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -166,7 +167,7 @@ def measures(order: Order) -> Measures:
     return motions.measures_of(order, motions.columns_of(order.options.grid.columns))
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: the motions, in a folder of their own, and the orbits under them."""
     from campaigns.explore.tracing import Line, Scenes
     from campaigns.orbits.tables import tables
@@ -174,15 +175,15 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
 
     options = order.options
     (key,) = options.grid.keys
-    timing = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
+    times: Counter[str] = Counter()
     if options.start_from is not None:
         starts = [*_under_file(order, jobs[0])]
     else:
-        how = replace(plan.how, out=plan.how.out / "motions")
-        named = partial(_check_letter, options.motion, how.out)
-        with claimed(how.out):
-            timing, _ = motions.every_motion(order, replace(plan, how=how), jobs, 0, motions.SPEED_MPS, 1, named)
-        starts = [*_under_motions(order, how.out)]
+        folder = plan.how.out / "motions"
+        named = partial(_check_letter, options.motion, folder)
+        with claimed(folder):
+            times = motions.every_motion(order, plan.within(folder), jobs, 0, motions.SPEED_MPS, 1, named).times
+        starts = [*_under_motions(order, folder)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
     _, value, _, state = [*starts, ("", low, 0, None)][0]
@@ -197,10 +198,10 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], S
     if options.second is not None:
         from campaigns.orbits.curves import FOLDER, Plane, write_curves
 
-        points = None if plan.how.backend == "dask" else plan.how.out.absolute() / FOLDER / "points"
+        points = plan.how.seen(plan.how.out / FOLDER / "points")
         write_curves(tree, Plane(line, options.second, options.second.of(line.scenes.base), points))
-    timing["run_s"] += time.perf_counter() - began
-    return timing, Summary(rows, tree.there, tree.computed, timing["analysis_s"])
+    times["run_s"] += time.perf_counter() - began
+    return Summary(rows, tree.there, tree.computed, times)
 
 
 def _check_letter(letter: str | None, folder: Path) -> None:

@@ -7,6 +7,7 @@ the file, so table.csv can be made again from the files.
 
 import json
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict
 from functools import partial
@@ -182,7 +183,7 @@ def parameters(options: Options) -> dict:
     }
 
 
-def perform(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> Summary:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary.
 
     Parts run beside each other in threads, because the compiled loops that they spend their time in hold no lock.
@@ -202,9 +203,9 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
         else:
             table.rows[key] = json.loads(row) | {"run_key": key}
     table.write()
-    timing = {"compile_s": 0.0}
+    times: Counter[str] = Counter()
     if missing:
-        timing["compile_s"] = _compile(oscillator)
+        times["compile_s"] = _compile(oscillator)
     begun = time.perf_counter()
     with stage("parts", len(PARTS), "parts", lambda: len(table.rows)), ThreadPoolExecutor(order.how.jobs) as threads:
         parts = {
@@ -218,8 +219,8 @@ def perform(order: Order) -> tuple[dict[str, float], Summary]:
         except BaseException:  # Ctrl-C, a full disk: what has not begun is left
             threads.shutdown(wait=False, cancel_futures=True)
             raise
-    timing |= {"run_s": time.perf_counter() - begun, "analysis_s": 0.0}
-    return timing, Summary(table.in_order(), len(PARTS) - len(missing), len(missing), 0.0)
+    times["run_s"] = time.perf_counter() - begun
+    return Summary(table.in_order(), len(PARTS) - len(missing), len(missing), times)
 
 
 def _key(part: str, options: Options) -> str:

@@ -37,19 +37,19 @@ class Options(cli.Options):
                 faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
 
 
-def perform(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> Summary:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
     from campaigns.machinery.progress import stage
     from campaigns.machinery.session import ended
     from campaigns.paper import parts, results
 
     out = order.how.out
-    timing, summary = parts.run(order)
+    summary = parts.run(order)
     complete = ended(out) and not summary.computed and results.is_there(out, order.how.report)
     if not complete:
         with stage("figures' data and statements"):
             results.write(out)
-    return timing, replace(summary, whole=complete)
+    return replace(summary, whole=complete)
 
 
 def parameters(order: Order) -> dict[str, object]:

@@ -95,7 +95,7 @@ def measures(order: Order) -> Measures:
     return measures_of(order, COLUMNS)
 
 
-def run(out: Path, jobs: int, quick: bool) -> tuple[dict[str, float], Summary]:
+def run(out: Path, jobs: int, quick: bool) -> Summary:
     """Do the runs that are not there yet; table.csv and trajectories in `out`. Raises as `Study.work`."""
     settings = parameters(quick)
     running = Running(out, jobs, "loky", None, report=False)

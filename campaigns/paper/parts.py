@@ -16,6 +16,7 @@ import hashlib
 import importlib
 import json
 import time
+from collections import Counter
 from pathlib import Path
 
 from campaigns.machinery import cli
@@ -83,8 +84,8 @@ CAMPAIGNS = {  # part -> its command; the words of its command line, those of --
 assert {*CAMPAIGNS, "dependence"} == set(PARTS)
 
 
-def run(order: Order) -> tuple[dict[str, float], Summary]:
-    """Do every part of the order; keep table.csv up to date. Returns times and the summary, its rows those of parts.
+def run(order: Order) -> Summary:
+    """Do every part of the order; keep table.csv up to date. Returns the summary, its rows those of parts.
 
     Raises CampaignStopped where a part stopped, KeyboardInterrupt where it was interrupted.
     """
@@ -99,7 +100,7 @@ def run(order: Order) -> tuple[dict[str, float], Summary]:
     for row in any_rows(out / "table.csv"):
         if row.keys() == known and row["part"] in PARTS:
             table.rows[row["part"]] = row
-    timing = dict.fromkeys(_TIMES, 0.0) | {"analysis_s": 0.0}
+    times: Counter[str] = Counter()
     todo = []
     for part in order.options.parts:
         if not _is_there(table.rows.get(part), keys[part], out / part, order):
@@ -110,9 +111,9 @@ def run(order: Order) -> tuple[dict[str, float], Summary]:
         table.add(part, {**row, "run_key": _ended(keys[part], out / part)})
         table.write()
         for name in _TIMES:
-            timing[name] += row[name]
+            times[name] += row[name]
     table.write()
-    return timing, Summary(table.in_order(), len(order.options.parts) - len(todo), len(todo), 0.0)
+    return Summary(table.in_order(), len(order.options.parts) - len(todo), len(todo), times)
 
 
 def _key(part: str, order: Order) -> str:
@@ -148,8 +149,8 @@ def _run_part(part: str, order: Order) -> dict[str, object]:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":
-        timing, summary = dependence.run(out, how.jobs, order.options.quick)
-        command = ""
+        summary = dependence.run(out, how.jobs, order.options.quick)
+        timing, command = summary.times, ""
         runs, failed = len(summary.rows), sum(row["status"] != "ok" for row in summary.rows)
     else:
         module, *chosen = CAMPAIGNS[part]

@@ -12,20 +12,20 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 --budget. Cells at borders are bisected with --refine. Kicks are drawn by --seed; nothing else is random.
 """
 
-import sys
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
 from campaigns.explore.sweep import BUDGET
 from campaigns.machinery import cli, session
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
-from engine.views import carries_tangents, in_regular_waves
+from engine.views import carries_tangents
+from tables import Rows
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40"
 STARTS, MOST_CELLS = 3, 100_000
@@ -96,7 +96,7 @@ def cases(order: Order) -> Iterator[Job]:
     base = order.base(tell=True)
     if base is None:
         return
-    if not (in_regular_waves(base) and carries_tangents(base)):
+    if not carries_tangents(base):
         order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
         return
     from engine.massless import why_not_covered
@@ -121,22 +121,19 @@ def measures(order: Order) -> Measures:
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
 
-    sources = (*motions.ROW_SOURCES, "campaigns/regime_map")
-    measures = motions.measures_of(order, motion_columns(order.options.grid.columns))
-    return replace(measures, row=cell_row, sources=sources)
+    return motions.measures_of(order, motion_columns(order.options.grid.columns), cell_row, "campaigns/regime_map")
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
     from campaigns.regime_map.maps import Map
 
     curves.take_over(order.options.curves, plan)
     regime_map = Map(plan, order)
     regime_map.run_screen(jobs)
-    summary = Summary([], 0, 0, 0.0)
-    if not order.options.screen:
-        summary = regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
-    return regime_map.motions.timing(), summary
+    if order.options.screen:
+        return Summary([], 0, 0, regime_map.times)
+    return regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
 
 
 def parameters(order: Order) -> dict:
@@ -150,11 +147,13 @@ def parameters(order: Order) -> dict:
         "seed": options.seed,
         "budget": options.budget,
         "curves": options.curves,
+        "refine": options.refine,
+        "screen": options.screen,
     }
-    return parameters | {"refine": options.refine, "screen": options.screen}
+    return parameters
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The findings of the map (`answer.sentences`)."""
     from campaigns.regime_map.answer import sentences
 
@@ -165,13 +164,11 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     def scene(row: dict) -> object:
         values = tuple(row[column.name] for column in of_buoy.columns)
         if values not in scenes:
-            changes, faults = of_buoy.changes(row, order.base())
-            order.tell(faults)
+            changes, _ = of_buoy.changes(row, order.base())
             scenes[values] = order.scene(changes)
         return scenes[values]
 
-    cells = motions.tables_of(order.how.out, "cells")["cells"]
-    return [*sentences(cells, rows, grid.columns, scene)]
+    return [*sentences(motions.table_of(order.how.out / "cells"), rows, grid.columns, scene)]
 
 
 STUDY = Study(
@@ -186,17 +183,15 @@ STUDY = Study(
     runs=runs,
     answer=answer,
 )
-parser, read_order = STUDY.parser, STUDY.read_order
+read_order = STUDY.read_order
 
 
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
-    if argv is None:
-        argv = sys.argv[1:]
 
     def work(order: Order, words: list[str]) -> int:
         if order.options.cut:
             return cuts.cut(order, words, simulate)
         return STUDY.conduct(order, words, simulate)
 
-    return session.command(STUDY.called, list(argv), read_order, work)
+    return session.command(STUDY.called, argv, read_order, work)

@@ -8,13 +8,26 @@ from operator import itemgetter
 
 from campaigns.answers import greatest, kilonewton, line, numbers_of
 from campaigns.explore.load import reasons, use_of
-from campaigns.regime_map.tables import RATIO, TENSION
-from tables import CHAOTIC, EMPTY, FAILED, OPEN, PERIODIC, QUASI, SCREENED, Column, Row, listed, number_of, of_kicks
+from campaigns.regime_map.tables import RATIO
+from tables import (
+    CHAOTIC,
+    EMPTY,
+    FAILED,
+    OPEN,
+    PEAK,
+    PERIODIC,
+    QUASI,
+    SCREENED,
+    Columns,
+    Row,
+    Rows,
+    listed,
+    number_of,
+    of_kicks,
+)
 
 
-def sentences(
-    cells: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]
-) -> Iterator[str]:
+def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv and table.csv.
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
@@ -24,10 +37,10 @@ def sentences(
     if not computed:
         yield from _of_the_screen(coarse, keys)
         return
-    peak = greatest(cells, TENSION.name)
+    peak = greatest(cells, PEAK)
     if peak is not None:
         loads = [_peak(peak, motions, keys)]
-        loads += _use([row for row in motions if number_of(row, TENSION.name) > 0.0], keys, scene)
+        loads += _use([row for row in motions if number_of(row, PEAK) > 0.0], keys, scene)
         yield line("LOAD", " ".join(loads))
     yield line("MOTIONS", " ".join(_regimes(computed, motions, keys)))
     several = [count for count in numbers_of(computed, "motions") if count > 1]
@@ -49,14 +62,14 @@ def _is_coarse(row: Row) -> bool:
     return number_of(row, "level") == 0.0
 
 
-def _of_the_screen(cells: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
+def _of_the_screen(cells: Rows, keys: Columns) -> Iterator[str]:
     yield f"Preview only: a massless tether was run in {len(cells)} cells; the cable itself was not."
     peak = greatest(cells, RATIO.name)
     if peak is not None:
-        yield f"Largest tension there: {number_of(peak, RATIO.name):.3g} times that at rest, at {_at(peak, keys)}."
+        yield f"Largest tension there: {peak[RATIO.name]:.3g} times that at rest, at {_at(peak, keys)}."
 
 
-def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Column]) -> Iterator[str]:
+def _regimes(computed: Rows, motions: Rows, keys: Columns) -> Iterator[str]:
     """The shares of the map on which the motion from rest, or some motion, is chaotic, quasi-periodic or periodic."""
     counts, periodic, undecided = Counter(), 0, 0
     for cell in computed:
@@ -72,27 +85,27 @@ def _regimes(computed: Sequence[Row], motions: Sequence[Row], keys: Sequence[Col
         yield f"Some motion is chaotic on {_share(len(chaotic), computed)} of the map."
 
 
-def _peak(peak: Row, motions: Sequence[Row], keys: Sequence[Column]) -> str:
+def _peak(peak: Row, motions: Rows, keys: Columns) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
-    pull = f"{kilonewton(number_of(peak, TENSION.name))}, {number_of(peak, RATIO.name):.3g} times that at rest"
+    pull = f"{kilonewton(peak[PEAK])}, {peak[RATIO.name]:.3g} times that at rest"
     sentence = f"largest tension {pull}, at {_at(peak, keys)}"
     motions_of_cell = [row for row in motions if _place(row, keys) == _place(peak, keys)]
-    kicks = of_kicks(greatest(motions_of_cell, TENSION.name) or {})
+    kicks = of_kicks(greatest(motions_of_cell, PEAK) or {})
     if kicks != EMPTY:
         sentence += f"; {kicks} kicks there end in it"
     return f"{sentence}."
 
 
-def _use(motions: Sequence[Row], keys: Sequence[Column], scene: Callable[[Row], object]) -> Iterator[str]:
+def _use(motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
     if not motions:
         return
-    by_tension = sorted(motions, key=lambda row: -number_of(row, TENSION.name))
+    by_tension = sorted(motions, key=itemgetter(PEAK), reverse=True)
     peak = by_tension[0]
     usable = next(filterfalse(lambda row: [*reasons(row, scene(row))], by_tension), None)
     sentence = use_of(peak, scene(peak), searched=math.isfinite(number_of(peak, "share")))
     if usable is not None and usable is not peak:
-        pull = kilonewton(number_of(usable, TENSION.name))
+        pull = kilonewton(usable[PEAK])
         sentence += f" Largest without these faults: {pull}, at {_at(usable, keys)}."
     yield sentence
 
@@ -101,11 +114,11 @@ def _share(count: int, cells: Sequence) -> str:
     return f"{100.0 * count / len(cells):.3g} %"
 
 
-def _place(row: Row, keys: Sequence[Column]) -> tuple:
+def _place(row: Row, keys: Columns) -> tuple:
     return tuple(row[key.name] for key in keys)
 
 
-def _at(row: Row, keys: Sequence[Column]) -> str:
+def _at(row: Row, keys: Columns) -> str:
     words = []
     for key, value in zip(keys, _place(row, keys), strict=True):
         text = value

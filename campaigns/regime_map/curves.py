@@ -58,7 +58,7 @@ def take_over(folder: str | None, plan: Plan) -> None:
     from campaigns.explore.motions import subfolder
 
     if folder is None:
-        shutil.rmtree(plan.how.out / FOLDER, ignore_errors=True)
+        shutil.rmtree(plan.out / FOLDER, ignore_errors=True)
         return
     for name in FILES:
         shutil.copyfile(Path(folder) / FOLDER / name, subfolder(plan, FOLDER) / name)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from campaigns.explore.grid import Grid, Varied
-from campaigns.explore.sweep import tables_of
+from campaigns.explore.sweep import table_of
 from campaigns.machinery.folder import CampaignStopped, claimed, trajectory_path
 from campaigns.study import Order, Study
 
@@ -72,7 +72,7 @@ def _share_runs(order: Order, out: Path) -> None:
     """Give the folder of a cut the judged runs of its cells."""
     chosen, folder = order.options.cut, order.how.out
     keys = {case.key for case in order.cases if chosen.items() <= case.labels.items()}
-    keys |= {row["run_key"] for row in tables_of(folder, ".")["."] if chosen.items() <= row.items()}
+    keys |= {row["run_key"] for row in table_of(folder) if chosen.items() <= row.items()}
     with claimed(out):
         for key in sorted(keys):
             source, target = trajectory_path(folder, key), trajectory_path(out, key)

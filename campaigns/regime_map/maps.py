@@ -7,7 +7,6 @@ after --budget wave periods. A cut goes on with it. What is known of the cells i
 import contextlib
 import math
 import time
-from collections.abc import Sequence
 from dataclasses import replace
 
 from analysis.evidence import read_evidence
@@ -16,7 +15,7 @@ from campaigns.explore.motions import Motion, Motions, Search
 from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
 from campaigns.explore.stages import explore
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.plan import Jobs, Plan, Summary
 from campaigns.machinery.progress import print_line
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Quadtree
@@ -50,32 +49,31 @@ def cell_row(trajectory, judgement) -> Row:
     return row
 
 
-class Map:
+class Map(Motions):
     """The cells of a map with their motions, both by number of the cell."""
 
     def __init__(self, plan: Plan, order: Order):
         self.order, self.grid, self.tree = order, order.options.grid, Quadtree()
         plan = replace(plan, on_row=self._hear)
-        self.motions = Motions(plan, self.grid.columns, self.tree.neighbours, MATCH_DISTANCE)
-        self.plan, self.rows = plan, self.motions.rows
+        super().__init__(plan, self.grid.columns, self.tree.neighbours, MATCH_DISTANCE)
         self.screen: list[list[dict]] = []
         self.drawn_s = time.monotonic()
 
-    def run_screen(self, coarse: Sequence[Job]) -> None:
+    def run_screen(self, coarse: Jobs) -> None:
         """Let a massless tether do the coarse grid, of which these are the runs from rest. Raises OSError."""
         options, start_s = self.order.options, time.perf_counter()
         self.screen = screened(self.plan, [job.scene for job in coarse], options.kick_speed, options.seed)
-        self.motions.times["run_s"] += time.perf_counter() - start_s
+        self.times["run_s"] += time.perf_counter() - start_s
         tables.write_screen(self.plan, self.grid, coarse, self.screen)
         self._show()
 
-    def compute(self, cells: list[Cell], jobs: list[Job]) -> Summary:
+    def compute(self, cells: list[Cell], jobs: Jobs) -> Summary:
         """Compute the motions of cells, whose runs from rest these are. Raises as `runner.run`."""
         options = self.order.options
         search = Search(self.order, options.starts - 1, options.kick_speed, options.seed, options.budget)
         self.tree.add(cells)
-        explore(self.motions, jobs, search)
-        summary = self.motions.write()
+        explore(self, jobs, search)
+        summary = self.write()
         tables.write_strobes(self)
         self._show()
         return summary
@@ -124,16 +122,16 @@ class Map:
     def kind(self, cell: Cell) -> tuple[object, int]:
         """Regime from rest and number of motions of a cell: where they differ, a border runs."""
         place = self.tree.number[cell]
-        rest = self.rows.get(self.motions.jobs[place].key, {})
-        return rest.get("regime"), len(self.motions.at[place])
+        rest = self.rows.get(self.jobs[place].key, {})
+        return rest.get("regime"), len(self.at[place])
 
     def largest_N(self, cell: Cell) -> float:
         """The largest tension of the motions of a cell."""
-        return max(map(self.tension_N, self.motions.at[self.tree.number[cell]]), default=0.0)
+        return max(map(self.tension_N, self.at[self.tree.number[cell]]), default=0.0)
 
     def tension_N(self, motion: Motion) -> float:
         """The largest tension of a motion, by its judged run where there is one."""
-        return self.motions.row_of(motion).get("tension_top_max_N") or motion.tension_N
+        return self.row_of(motion).get("tension_top_max_N") or motion.tension_N
 
     def _hear(self, row: dict) -> None:
         if "regime" in row or row.get("status") != "ok":
@@ -143,7 +141,7 @@ class Map:
 
     def _show(self) -> None:
         """Write what is known of the cells, and draw it where reports can."""
-        out = self.plan.how.out
+        out = self.plan.out
         tables.write_cells(self)
         with contextlib.suppress(ImportError):
             from reports.regime_map import draw

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.explore.motions import Motion, subfolder
+from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
 from campaigns.explore.sweep import columns_of
 from campaigns.machinery.plan import Plan
@@ -24,8 +24,9 @@ from tables import (
     STATUS,
     WALL_S,
     Column,
+    Columns,
     Row,
-    write_table,
+    number_of,
 )
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ OF_A_CELL = (
 OF_THE_SCREEN = (COUNT, OF_REST, RATIO, SHARE)
 
 
-def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+def motion_columns(keys: Columns) -> Columns:
     """Those of table.csv, behind those of the keys: a row is a motion of a computed cell."""
     columns = [column for column in columns_of(keys) if column.name != "confirmed"]
     columns.insert(columns.index(REGIME) + 1, VERDICT)
@@ -80,7 +81,7 @@ def motion_columns(keys: tuple[Column, ...]) -> tuple[Column, ...]:
 def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
-    write_table(subfolder(plan, "screen") / "table.csv", (*grid.columns, *OF_THE_SCREEN), rows)
+    write_part(plan, "screen", (*grid.columns, *OF_THE_SCREEN), rows)
 
 
 def screen_row(motions: list[dict]) -> Row:
@@ -108,25 +109,24 @@ def write_cells(map_: "Map") -> None:
     for key in map_.grid.axes:
         unit, symbol = key.column.unit, f"Δ{key.column.symbol}"
         widths.append(Column(f"width_{key.key}", unit, symbol, "size of the cell", 5))
-    write_table(subfolder(map_.plan, "cells") / "table.csv", (*map_.grid.columns, *widths, *OF_A_CELL), [*_cells(map_)])
+    write_part(map_.plan, "cells", (*map_.grid.columns, *widths, *OF_A_CELL), _cells(map_))
 
 
 def _cells(map_: "Map") -> Iterator[dict]:
-    grid, motions = map_.grid, map_.motions
-    rows = {}
+    grid, rows = map_.grid, {}
     for cell, screened in zip(grid.coarse(), map_.screen, strict=True):
         rows[cell] = {"source": SCREENED, **screen_row(screened)}
-    for job, motions_of_cell, cell in zip(motions.jobs, motions.at, map_.tree.cells, strict=False):
-        if job.key in motions.rows:  # the run from rest has ended
+    for job, motions_of_cell, cell in zip(map_.jobs, map_.at, map_.tree.cells, strict=False):
+        if job.key in map_.rows:  # the run from rest has ended
             rows.pop(cell, None)
-            rows[cell] = _cell(map_, motions_of_cell, motions.rows[job.key])
+            rows[cell] = _cell(map_, motions_of_cell, map_.rows[job.key])
     for cell, row in rows.items():
         yield {**grid.labels(cell), **grid.widths(cell), "level": cell.level, **row}
 
 
 def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
     """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
-    rows = list(filter(None, map(map_.motions.row_of, motions))) or [rest]
+    rows = list(filter(None, map(map_.row_of, motions))) or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
     largest = max(motions, key=map_.tension_N, default=None)
     tension_N, source = rest.get(TENSION.name), COMPUTED
@@ -152,13 +152,13 @@ def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
     }
     if tension_N and static_N:
         cell[RATIO.name] = tension_N / static_N
-    if largest is not None and map_.motions.kicks:
-        cell[SHARE.name] = largest.kicks / map_.motions.kicks
+    if largest is not None and map_.kicks:
+        cell[SHARE.name] = largest.kicks / map_.kicks
     return cell
 
 
 def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
-    return any((row.get(column.name) or 0.0) > 0.0 for row in rows)
+    return any(number_of(row, column.name) > 0.0 for row in rows)
 
 
 def write_strobes(map_: "Map") -> None:
@@ -166,15 +166,15 @@ def write_strobes(map_: "Map") -> None:
 
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.
     """
-    motions = [*map_.motions.all_motions()]
+    motions = [*map_.all_motions()]
     radius, tension = np.full((2, len(motions), STROBES), np.nan, np.float32)
     keys, letters = [], []
     for number, motion in enumerate(motions):
         points, measures = motion.settled.points[-STROBES:], motion.settled.measures[-STROBES:]
         radius[number, : len(points)] = np.hypot(points[:, 0], points[:, 1])
         tension[number, : len(measures)] = measures[:, 2]
-        keys.append(map_.motions.row_of(motion).get(RUN_KEY.name, ""))
+        keys.append(map_.row_of(motion).get(RUN_KEY.name, ""))
         letters.append(motion.branch.letter)
     content, words = io.BytesIO(), {"run_key": np.array(keys, "U64"), "motion": np.array(letters, "U8")}
     np.savez_compressed(content, **words, radius_m=radius, tension_N=tension)
-    write_atomic(map_.plan.how.out / "strobes.npz", content.getvalue())
+    write_atomic(map_.plan.out / "strobes.npz", content.getvalue())

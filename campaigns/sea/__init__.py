@@ -19,22 +19,23 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from campaigns.explore.grid import Grid, varied
-from campaigns.explore.sweep import kick_speed
+from campaigns.explore.grid import Grid, grid_of
+from campaigns.explore.sweep import kick_speed, table_of
 from campaigns.finer import finer
 from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery.long_runs import TANGENTS
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary
 from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import LARGE
+from tables import LARGE, Row, Rows, names
 
-MOST_KEYS = 2
 HEIGHT = "waves.jonswap.significant_height_m"
-HEIGHTS = ("waves.jonswap.significant", "waves.components", "waves.significant", "waves.record", "waves.steepness")
-HEIGHTS += ("waves.amplitude_m",)
+HEIGHTS = (
+    "waves.jonswap.significant", "waves.components", "waves.significant", "waves.record", "waves.steepness",
+    "waves.amplitude_m",
+)  # fmt: skip
 SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
-TANGENTS = "output.tangent_vectors"
 AS_GIVEN, FINER = "", "finer"
 SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
@@ -75,14 +76,7 @@ class Options(cli.Options):
         """The keys with their values in the words of --vary; thresholds that contradict each other."""
         if self.screen:
             self.starts = 1
-        words = self.vary or []
-        if len(words) % 4 or len(words) > 4 * MOST_KEYS:
-            faults.append(f"--vary: given {' '.join(words)}; allowed: once or twice KEY LO HI COUNT")
-            words = []
-        keys = [varied(words[first : first + 4], faults) for first in range(0, len(words), 4)]
-        self.grid = Grid(tuple(filter(None, keys)))
-        if len({key.key for key in self.grid.keys}) < len(self.grid.keys):
-            faults.append(f"--vary {self.grid.keys[0].key}: given twice; allowed: two different keys")
+        self.grid = grid_of(self.vary or [], faults)
         if not self.slack_share < self.snap_share:
             allowed = f"above --slack-share {self.slack_share:g}"
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
@@ -102,16 +96,13 @@ def kicks(options: Options) -> list[tuple[float, float]]:
 
 def usual_sea(order: Order) -> dict:
     """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
-    given = {*order.changes, *(key.key for key in order.options.grid.keys)}
-    usual = {}
     if order.name != STUDY.scene:
-        return usual
-    for key, value in (("buoy.submergence", "spherical-cap"), ("waves.above_still_water", "wheeler")):
-        if key not in given:
-            usual[key] = value
-    if not any(key.startswith(HEIGHTS) for key in given):
+        return {}
+    usual = {"buoy.submergence": "spherical-cap", "waves.above_still_water": "wheeler"}
+    keys = *order.changes, *names(order.options.grid.columns)
+    if not any(key.startswith(HEIGHTS) for key in keys):
         usual[HEIGHT] = 1.0  # other keys of the spectrum may be given without it
-        base = order.base(usual)
+        base = order.base(usual | order.changes)
         if base is not None:
             from engine.physics.waves import wave_number
 
@@ -132,11 +123,7 @@ def cases(order: Order) -> Iterator[Job]:
     if options.screen:
         order.changes["tether.nodes"] = SCREEN_NODES
     for place in options.grid.places():
-        base = order.base()
-        if base is None and not options.grid.keys:
-            order.base(tell=True)
-            return
-        changes, faults = options.grid.changes(place, base)
+        changes, faults = options.grid.changes(place, order.base())
         order.tell(faults)
         scene = order.base(changes, tell=True)
         if scene is None:
@@ -145,12 +132,11 @@ def cases(order: Order) -> Iterator[Job]:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
             order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
             return
-        drawn = _seed_key(scene) is not None
-        if not drawn and options.seeds > 1 and scene.waves.significant_steepness is None:
+        listed = _seed_key(scene) is None and scene.waves.significant_steepness is None
+        if listed and options.seeds > 1:
             order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
             return
-        seeds = options.seeds if drawn else 1
-        yield from _runs(order, place, changes, scene, range(1, seeds + 1), options.starts)
+        yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 
 
 def _seed_key(scene) -> str | None:
@@ -162,16 +148,20 @@ def _seed_key(scene) -> str | None:
     return "waves.seed"
 
 
-def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], starts: int) -> Iterator[Job]:
-    """The runs of one sea state: its first starts in the seas of these seeds."""
+def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
+    """The runs of one sea state: its first starts in the seas of these seeds; waves that are not drawn are one sea."""
     options: Options = order.options
+    changes, _ = options.grid.changes(place, order.base())
+    base = order.base(changes)
+    seed_key = _seed_key(base)
     duration_s = options.transient * base.waves.period_s + options.hours * 3600.0
-    labels = {**place, "solver": AS_GIVEN}
     for seed in seeds:
+        if seed_key is None and seed > 1:
+            return
         for start, (x_mps, z_mps) in enumerate(kicks(options)[:starts]):
             further = {}
-            if _seed_key(base) is not None:
-                further[_seed_key(base)] = seed
+            if seed_key is not None:
+                further[seed_key] = seed
             if start > 0:
                 further["start.buoy_velocity_mps"] = [x_mps, 0.0, z_mps]
             elif carries_tangents(base):
@@ -179,40 +169,33 @@ def _runs(order: Order, place: dict, changes: dict, base, seeds: Iterable[int], 
             scene = order.scene({**changes, **further}, duration_s)
             if scene is None:
                 return
-            of_run = {**labels, "sea": seed, "start": start, "kick_x_mps": x_mps, "kick_z_mps": z_mps}
-            yield Job(of_run, scene, duration_s=duration_s)
+            labels = {**place, "solver": AS_GIVEN, "sea": seed, "start": start}
+            labels |= {"kick_x_mps": x_mps, "kick_z_mps": z_mps}
+            yield Job(labels, scene, duration_s=duration_s)
             if seed == 1 and start == 0 and not options.grid.keys:
-                yield Job({**of_run, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
+                yield Job({**labels, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
 
 
-def runs(order: Order, plan: Plan, jobs: list[Job]) -> tuple[dict[str, float], Summary]:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: a state whose exponent has no clear sign gets twice as many seas, again and again."""
     from campaigns.sea.rows import unclear_places
 
     options: Options = order.options
-    timing, summary = run(plan, jobs)
+    summary = run(plan, jobs)
     seeds, most = options.seeds, int(options.most_hours / options.hours)
     while seeds < most:
         unclear = unclear_places(summary.rows, options.grid.columns)
         further = range(seeds + 1, min(2 * seeds, most) + 1)
         more: list[Job] = []
         for place in options.grid.places():
-            if tuple(place.values()) not in unclear:
-                continue
-            changes, _ = options.grid.changes(place, order.base())
-            scene = order.base(changes)
-            if _seed_key(scene) is not None:
-                more += _runs(order, place, changes, scene, further, 1)
+            if tuple(place.values()) in unclear:
+                more += _runs(order, place, further, 1)
         if not more:
             break
         jobs = [*jobs, *more]
-        before = summary
-        taken, summary = run(plan, jobs)
-        timing = {name: timing[name] + taken[name] for name in timing}
-        made = before.made | summary.made
-        summary = Summary(summary.rows, len(jobs) - len(made), len(made), timing["analysis_s"], made=made)
+        summary = run(plan, jobs).joined_to(summary)
         seeds = further[-1]
-    return timing, summary
+    return summary
 
 
 def measures(order: Order) -> Measures:
@@ -242,12 +225,12 @@ def parameters(order: Order) -> dict:
     return {"sea_keys": [key.key for key in options.grid.keys], **values}
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
-    from campaigns.explore.sweep import tables_of
     from campaigns.sea.answer import sentences
+    from campaigns.sea.cells import FOLDER
 
-    return sentences(tables_of(order.how.out, "cells")["cells"], order.options)
+    return sentences(table_of(order.how.out / FOLDER), order.options)
 
 
 STUDY = Study(
@@ -267,4 +250,4 @@ STUDY = Study(
     beside=beside,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

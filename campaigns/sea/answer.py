@@ -2,17 +2,17 @@
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from campaigns.answers import greatest, kilonewton, line
 from campaigns.sea.cells import WELL_ABOVE
-from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
+from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows
 
 SCATTERED = 0.05  # of the largest tension
 FAILED = "No run ended, so there is nothing to say of this sea."
 
 
-def sentences(cells: Sequence[Row], options) -> Iterator[str]:
+def sentences(cells: Rows, options) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv. options: of the campaign."""
     known = [cell for cell in cells if cell["status"] == "ok"]
     if not known:
@@ -29,7 +29,7 @@ def _of_sea(cell: Row, options) -> Iterator[str]:
     yield line("SNAPS", _snaps(cell))
     yield line("MOTIONS", _visits(cell, options))
     yield line("STARTS", _memory(cell, options))
-    if math.isfinite(number_of(cell, TANGENT_EXPONENT)):
+    if math.isfinite(cell[TANGENT_EXPONENT]):
         yield line("CHAOS", _exponent(cell, options))
     for doubt in _doubts(cell, options):
         yield line("CHECK", doubt)
@@ -37,12 +37,12 @@ def _of_sea(cell: Row, options) -> Iterator[str]:
 
 def _memory(cell: Row, options) -> str:
     """Whether the start is forgotten, and after how many periods."""
-    seas, apart = number_of(cell, "seas"), number_of(cell, "apart_seas")
-    sign, periods = cell.get("sign"), number_of(cell, "together_periods")
+    seas, apart = cell["seas"], cell["apart_seas"]
+    sign, periods = cell["sign"], cell["together_periods"]
     if sign == "+":
         words = "In this sea the buoy never forgets how it began: two starts stay apart however near they are"
         if math.isfinite(periods):
-            words += f", but for spells of {number_of(cell, 'together_mean_periods'):.0f} periods on average"
+            words += f", but for spells of {cell['together_mean_periods']:.0f} periods on average"
         return f"{words}."
     if not sign:
         words = "This scene carries no perturbation, so there is no exponent"
@@ -63,15 +63,15 @@ def _memory(cell: Row, options) -> str:
     words = f"In this sea the buoy forgets how it began after about {_rounded(periods)} periods"
     if apart > 0:
         words += f"; in {apart:.0f} of {seas:.0f} seas its starts were still apart at the end"
-    partings = number_of(cell, "partings_per_hour")
+    partings = cell["partings_per_hour"]
     if partings > 0.0:
         words += f"; then groups of waves part the starts again {partings:.2g} times an hour"
     return f"{words}."
 
 
 def _exponent(cell: Row, options) -> str:
-    value, error = number_of(cell, TANGENT_EXPONENT), number_of(cell, TANGENT_ERROR)
-    share = number_of(cell, "growing_share")
+    value, error = cell[TANGENT_EXPONENT], cell[TANGENT_ERROR]
+    share = cell["growing_share"]
     return (
         f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in {share:.0%} of the "
         f"windows of {options.window} periods."
@@ -80,47 +80,47 @@ def _exponent(cell: Row, options) -> str:
 
 def _visits(cell: Row, options) -> str:
     """The large motion, beside the forecast of a slow envelope."""
-    share = number_of(cell, "large_share")
+    share = cell["large_share"]
     if options.no_regular or not math.isfinite(share):
         if options.no_regular:
             return "Motions of regular waves were left out."
         return "The regular waves up to 1.86 H_s have one motion each, so there is no other motion to visit."
-    forecast = number_of(cell, "forecast_share")
+    forecast = cell["forecast_share"]
     words = f"It is in the large motion {_percent(share)} of the time"
     if share > 0.0:
-        words += f", for {number_of(cell, 'large_mean_periods'):.0f} periods on average"
+        words += f", for {cell['large_mean_periods']:.0f} periods on average"
     words += f"; a slow envelope would give {_percent(forecast)}"
     if forecast > 0.0:
-        words += f" and {number_of(cell, 'forecast_mean_periods'):.0f} periods"
+        words += f" and {cell['forecast_mean_periods']:.0f} periods"
     return f"{words}."
 
 
 def _snaps(cell: Row) -> str:
-    if not math.isfinite(number_of(cell, "snaps_per_hour")):
+    if not math.isfinite(cell["snaps_per_hour"]):
         return "not counted, because the line bears no tension at rest."
-    words = f"{number_of(cell, 'snaps_per_hour'):.0f} an hour"
-    error = number_of(cell, "snaps_per_hour_error")
+    words = f"{cell['snaps_per_hour']:.0f} an hour"
+    error = cell["snaps_per_hour_error"]
     if math.isfinite(error):
         words += f" (± {error:.0f})"
     return f"{words}."
 
 
 def _load(cell: Row) -> str:
-    storm_N = number_of(cell, "storm_maximum_N")
+    storm_N = cell["storm_maximum_N"]
     if not math.isfinite(storm_N):
-        return f"no three-hour maximum: {cell.get('storm_reason')}."
-    low_N, high_N = number_of(cell, "storm_low_N"), number_of(cell, "storm_high_N")
-    height_m = number_of(cell, "significant_height_m")
+        return f"no three-hour maximum: {cell['storm_reason']}."
+    low_N, high_N = cell["storm_low_N"], cell["storm_high_N"]
+    height_m = cell["significant_height_m"]
     words = (
         f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {low_N / 1e3:.3g} to "
         f"{high_N / 1e3:.3g}) in a sea of H_s = {height_m:.3g} m"
     )
-    regular_N, high_wave_N = number_of(cell, "regular_N"), number_of(cell, "regular_high_N")
+    regular_N, high_wave_N = cell["regular_N"], cell["regular_high_N"]
     if math.isfinite(regular_N):
         words += f", {storm_N / regular_N:.1f} times that of the regular design wave of H_s"
     if math.isfinite(high_wave_N):
         words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
-    used = number_of(cell, "utilisation")
+    used = cell["utilisation"]
     if math.isfinite(used):
         return f"{words}; with the factors of DNV-OS-E301, consequence class 1, the line is used to {used:.0%}."
     return f"{words}; tether.breaking_load_N gives the utilisation."
@@ -128,26 +128,26 @@ def _load(cell: Row) -> str:
 
 def _fatigue(cell: Row, options) -> str:
     return (
-        f"one cycle of {kilonewton(number_of(cell, 'equivalent_load_N'))} a peak period does the damage of the sea "
+        f"one cycle of {kilonewton(cell['equivalent_load_N'])} a peak period does the damage of the sea "
         f"(S-N slope {options.slope:g})."
     )
 
 
 def _doubts(cell: Row, options) -> Iterator[str]:
-    value, error = number_of(cell, TANGENT_EXPONENT), number_of(cell, TANGENT_ERROR)
-    finer, finer_error = number_of(cell, "finer_bits_per_period"), number_of(cell, "finer_error")
+    value, error = cell[TANGENT_EXPONENT], cell[TANGENT_ERROR]
+    finer, finer_error = cell["finer_bits_per_period"], cell["finer_error"]
     if math.isfinite(finer):
         agrees = "agrees"
         if abs(finer - value) > 2.0 * math.hypot(error, finer_error):
             agrees = "does NOT agree"
         yield f"The exponent of a finer run {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
-    scatter = number_of(cell, "load_scatter")
+    scatter = cell["load_scatter"]
     if scatter > SCATTERED:
         yield (
             f"Runs in the same waves, from other starts or with finer steps, differ by {scatter:.0%} in their largest "
             "tension; the interval of LOAD has only those from rest."
         )
-    noise = number_of(cell, "noise")
+    noise = cell["noise"]
     if noise * WELL_ABOVE > options.distance:
         yield (
             f"Starts that are together are still {noise:.2g} of the motion apart, by the steps of the solver: use a "
@@ -155,8 +155,8 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         )
 
 
-def _of_map(cells: Sequence[Row], count: int, options) -> Iterator[str]:
-    signs = Counter(str(cell.get("sign") or "open") for cell in cells)
+def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
+    signs = Counter(str(cell["sign"] or "open") for cell in cells)
     yield (
         f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and "
         f"{count - signs['−'] - signs['+']} are not decided."
@@ -169,10 +169,10 @@ def _of_map(cells: Sequence[Row], count: int, options) -> Iterator[str]:
         worst = greatest(cells, name)
         if worst is None:
             continue
-        place = " and ".join(f"{key} = {number_of(worst, key):.4g}" for key in keys)
-        size = _percent(number_of(worst, name)) if name == "large_share" else kilonewton(number_of(worst, name))
+        place = " and ".join(f"{key} = {worst[key]:.4g}" for key in keys)
+        size = _percent(worst[name]) if name == "large_share" else kilonewton(worst[name])
         yield f"{words} at {place}: {size}."
-    refused = sum(not math.isfinite(number_of(cell, "storm_maximum_N")) for cell in cells)
+    refused = sum(not math.isfinite(cell["storm_maximum_N"]) for cell in cells)
     if refused:
         yield f"{refused} states have no three-hour maximum; the column storm_reason says why."
 

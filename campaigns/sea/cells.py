@@ -25,25 +25,19 @@ from analysis import (
 )
 from analysis.seas import Responses, standard_error
 from analysis.tangent_growth import turned
-from campaigns.explore.motions import subfolder
+from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
+from campaigns.explore.sweep import table_of
 from campaigns.machinery.folder import run_of
 from campaigns.machinery.plan import Plan, Summary
 from campaigns.machinery.progress import stage
-from campaigns.sea.regular import (
-    DESIGN,
-    Folds,
-    design_loads,
-    folds_of,
-    one_set,
-    regular_tables,
-    significant_height_m,
-)
-from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS
+from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set, significant_height_m
+from campaigns.sea.regular import FOLDER as REGULAR
+from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
 from engine.physics.sea import elevation_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, finite, names, number_of, write_table
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
@@ -111,22 +105,19 @@ HISTORY_COLUMNS = (
 class Digest:
     """What is needed of a run in a sea.
 
-    row: of table.csv. period_s, step_s: peak period, and step of its samples. states (p, 4), scale (4,): once a peak
-    period, and what counts as 1. growth_nats (p,): of its perturbation; None: it carried none. high_N (n,): largest
-    tensions after the transient. large, forecast (m,): whether each piece is in the large motion, and by the forecast.
-    breaking_load_N: of the line, where the scene has it.
+    row: of table.csv. states (p, 4), scale (4,): once a peak period, and what counts as 1. growth_nats (p,): of its
+    perturbation; None: it carried none. high_N (n,): largest tensions after the transient. large, forecast (m,):
+    whether each piece is in the large motion, and by the forecast.
     """
 
     row: Row
-    period_s: float
-    step_s: float
+    scene: object
     states: np.ndarray
     scale: np.ndarray
     growth_nats: np.ndarray | None
     high_N: np.ndarray
     large: np.ndarray
     forecast: np.ndarray
-    breaking_load_N: float | None = None
 
 
 def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
@@ -149,8 +140,7 @@ def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
         large = folds.is_large(amplitude_m, np.array([high_N[piece].max() for piece in pieces]))
         forecast = folds.forecast(amplitude_m, bool(large[0]))
     late_N = high_N[round(transient * samples) :]
-    breaking_N = run.scene.tether.breaking_load_N
-    return Digest(row, period_s, step_s, states, np.array(scale), growth_nats, late_N, large, forecast, breaking_N)
+    return Digest(row, run.scene, states, np.array(scale), growth_nats, late_N, large, forecast)
 
 
 def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
@@ -158,8 +148,9 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     began = time.perf_counter()
     folds, regular_rows = None, ()
     if not order.options.no_regular and one_set(order):
-        regular_rows, ends = regular_tables(order)
-        folds = folds_of(regular_rows, ends)
+        folder = order.how.out / REGULAR
+        regular_rows = table_of(folder)
+        folds = folds_of(regular_rows, table_of(folder / "ends"))
     keys = order.options.grid.columns
     of_cell: dict[tuple, list[Row]] = {}
     for row in summary.rows:
@@ -170,24 +161,24 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
             cell = dict(zip(names(keys), place, strict=True))
             digests = []
             for row in rows:
-                run = run_of(plan.how.out, row)
+                run = run_of(plan.out, row)
                 if run is not None:
                     digests.append(digest(run, row, order.options.transient, folds))
                     cell["significant_height_m"] = significant_height_m(run.scene)
             cells.append(cell | cell_row(rows, digests, order.options, folds))
-            for name, height in (("regular_N", 1.0), ("regular_high_N", DESIGN)):
+            for name, height in (("regular", 1.0), ("regular_high", DESIGN)):
                 loads = design_loads(regular_rows, 0.5 * height * cell.get("significant_height_m", 0.0))
                 if loads:
                     motions = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
-                    cells[-1] |= {name: loads[-1][1], f"{name.removesuffix('_N')}_motions": motions}
-    write_table(subfolder(plan, FOLDER) / "table.csv", (*keys, *COLUMNS), cells)
+                    cells[-1] |= {f"{name}_N": loads[-1][1], f"{name}_motions": motions}
+    write_part(plan, FOLDER, (*keys, *COLUMNS), cells)
     if not keys:
         drawn = [run for run in digests if run.row["sea"] <= order.options.seeds]
-        write_table(subfolder(plan, HISTORY) / "table.csv", HISTORY_COLUMNS, history(drawn, order.options))
+        write_part(plan, HISTORY, HISTORY_COLUMNS, history(drawn, order.options))
     return time.perf_counter() - began
 
 
-def cell_row(rows: Sequence[Row], digests: Sequence[Digest], options, folds: Folds | None) -> Row:
+def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None) -> Row:
     """The columns of one sea state. rows: of all its runs; digests: of those that reached their end."""
     if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}
@@ -208,7 +199,7 @@ def cell_row(rows: Sequence[Row], digests: Sequence[Digest], options, folds: Fol
         cell |= _visits("forecast", [[run.forecast for run in sea] for sea in seas])
     if rest:
         cell |= _loads(rest, options) | {"load_scatter": _scatter(digests)}
-    return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in cell.items()}
+    return finite_row(cell)
 
 
 def seas_of(digests: Sequence[Digest]) -> Iterator[list[Digest]]:
@@ -251,11 +242,12 @@ def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
     row: Row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
     if met:
         periods = sum(len(answer.counts) - answer.together_at for answer in met)
+        duration_s = periods * seas[0][0].scene.waves.period_s
         row |= {
             "together_periods": float(np.median([answer.together_at for answer in met])),
             "together_share": np.mean([answer.together_share for answer in met]),
             "together_mean_periods": np.mean([answer.together_mean for answer in met]),
-            "partings_per_hour": 3600.0 * sum(answer.partings for answer in met) / (periods * seas[0][0].period_s),
+            "partings_per_hour": 3600.0 * sum(answer.partings for answer in met) / duration_s,
             "noise": float(np.median([answer.noise for answer in met])),
         }
     return row
@@ -305,12 +297,12 @@ def _loads(rest: Sequence[Digest], options) -> Row:
     }
     if len(rates) > 1:
         row["snaps_per_hour_error"] = standard_error(rates)
-    highs = [run.high_N for run in rest]
-    storm = storm_maximum(highs, rest[0].step_s, least_block_s=BLOCK_PERIODS * rest[0].period_s)
+    highs, scene = [run.high_N for run in rest], rest[0].scene
+    storm = storm_maximum(highs, scene.sample_step_s(), least_block_s=BLOCK_PERIODS * scene.waves.period_s)
     row["storm_reason"] = storm.reason
     if storm.found:
         row |= {"storm_maximum_N": storm.value, "storm_low_N": storm.low, "storm_high_N": storm.high}
-        breaking_N = options.breaking_load or rest[0].breaking_load_N
+        breaking_N = options.breaking_load or scene.tether.breaking_load_N
         if breaking_N is not None:
             row["utilisation"] = utilisation(mean_N, storm.value, breaking_N)
     return row

@@ -7,30 +7,32 @@ height. Where a wave has two motions, the largest tension says to which of them 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from operator import itemgetter
 
 import numpy as np
 
 from analysis import slow_forecast
+from campaigns.answers import lasting, numbers_of
 from campaigns.explore.grid import Grid, varied
-from campaigns.explore.sweep import REST, tables_of
+from campaigns.explore.sweep import REST
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan, Summary
 from campaigns.study import Order
 from engine.views import carries_tangents
-from tables import PEAK, Row, number_of
+from tables import PEAK, Rows, number_of
 
 FOLDER, KEY = "regular", "waves.amplitude_m"
 DESIGN, SAME_ENERGY = 1.86, 1.0 / math.sqrt(2.0)  # heights of regular waves over the significant height
 HEIGHTS, LOWEST = 9, 0.15  # waves of the sweep; the lowest over the highest
 BUDGET, KICKS = 300, 3  # wave periods of a run, and kicks at each height
-BELOW_BREAKING, NEAR = (
-    0.98,
-    0.06,
-)  # of the amplitude of a wave: the highest of the sweep; nearness at which a wave counts as it
+# of the amplitude of a wave: the highest of the sweep; nearness at which a wave counts as it
+BELOW_BREAKING, NEAR = 0.98, 0.06
 RAMP = 2000  # amplitudes of a slowly rising or falling wave
 APART = 1.2  # two motions of a wave are a small and a large one if their tensions differ by this factor
-SEA_KEYS = ("waves.jonswap", "waves.component", "waves.significant_steepness", "waves.relative_width", "waves.seed")
-SEA_KEYS += ("waves.record",)
+SEA_KEYS = (
+    "waves.jonswap", "waves.component", "waves.significant_steepness", "waves.relative_width", "waves.seed",
+    "waves.record",
+)  # fmt: skip
 
 
 def significant_height_m(scene) -> float:
@@ -73,16 +75,22 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
         "buoy.submergence": scene.buoy.submergence,  # whose default is another one in a sea
     }
     key = replace(varied([KEY, "0", "1", "2"], []), values=tuple(sorted(amplitudes)))
-    options = {"grid": Grid((key,)), "starts": KICKS if carries_tangents(scene) else REST, "budget": BUDGET}
-    options |= {"kick_speed": order.options.kick_speed, "seed": order.options.seed}
     how = replace(order.how, out=order.how.out / FOLDER, report=False)
-    waves = sweep.STUDY.order(how, order.name, changes, **options)
+    waves = sweep.STUDY.order(
+        how,
+        order.name,
+        changes,
+        grid=Grid((key,)),
+        starts=KICKS if carries_tangents(scene) else REST,
+        budget=BUDGET,
+        kick_speed=order.options.kick_speed,
+        seed=order.options.seed,
+    )
     if waves.faults:
         raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")
     (how.out / "trajectories").mkdir(parents=True, exist_ok=True)
     waves.simulate = None if plan.simulate_each is not None else order.simulate
-    timing, _ = sweep.STUDY.work(waves)
-    return timing["analysis_s"]
+    return sweep.STUDY.work(waves).times["analysis_s"]
 
 
 @dataclass(frozen=True)
@@ -123,13 +131,13 @@ class Folds:
         return float(ramp_m[np.argmax(jumped)]) if jumped.any() else math.nan
 
 
-def folds_of(rows: Sequence[Row], ends: Sequence[Row]) -> Folds | None:
+def folds_of(rows: Rows, ends: Rows) -> Folds | None:
     """The folds of a sweep of regular waves, from the rows of its tables; None where no wave has two unlike motions."""
     waves: dict[float, list[float]] = {}
     motions: dict[str, dict[float, float]] = {}
-    for row in rows:
-        amplitude_m, tension_N = number_of(row, KEY), number_of(row, PEAK)
-        if row.get("motion") and row["status"] == "ok" and math.isfinite(tension_N):
+    for row in lasting(rows):
+        amplitude_m, tension_N = row[KEY], row[PEAK]
+        if row.get("motion"):
             waves.setdefault(amplitude_m, []).append(tension_N)
             motions.setdefault(str(row["motion"]), {})[amplitude_m] = tension_N
     border = {}
@@ -148,7 +156,7 @@ def folds_of(rows: Sequence[Row], ends: Sequence[Row]) -> Folds | None:
     return Folds(np.array(ranges), known_m, known_N, np.array([*border]), np.array([*border.values()]))
 
 
-def _end(letter: str, which: str, known: Mapping[float, float], ends: Sequence[Row], waves: Sequence[float]) -> float:
+def _end(letter: str, which: str, known: Mapping[float, float], ends: Rows, waves: Sequence[float]) -> float:
     """Where a motion ends: as orbit or bisection say, else half-way to the next wave; beyond the sweep never."""
     last, step = (min(known), -1) if which == "lower" else (max(known), 1)
     place = waves.index(last) + step
@@ -162,22 +170,14 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Sequence[R
     return 0.5 * (last + waves[place])
 
 
-def design_loads(rows: Sequence[Row], amplitude_m: float) -> list[tuple[str, float]]:
+def design_loads(rows: Rows, amplitude_m: float) -> list[tuple[str, float]]:
     """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
 
     Of the sweep, the nearest wave within NEAR counts; an empty list where there is none.
     """
-    known = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
-    if not known:
-        return []
-    nearest = min((number_of(row, KEY) for row in known), key=lambda value: abs(value - amplitude_m))
-    loads = [(str(row["motion"]), number_of(row, PEAK)) for row in known if number_of(row, KEY) == nearest]
+    known = lasting(rows)
+    nearest = min(numbers_of(known, KEY), key=lambda value: abs(value - amplitude_m), default=math.inf)
     if abs(nearest - amplitude_m) > NEAR * amplitude_m:
         return []
-    return sorted(loads, key=lambda load: load[1])
-
-
-def regular_tables(order: Order) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
-    """The rows of the motions of regular waves, and of their ends; none where there are none."""
-    folder = order.how.out / FOLDER
-    return tables_of(folder, ".")["."], tables_of(folder, "ends")["ends"]
+    loads = [(str(row["motion"]), row[PEAK]) for row in known if row[KEY] == nearest]
+    return sorted(loads, key=itemgetter(1))

@@ -1,7 +1,6 @@
 """A run in one sea as a row: its exponent, its snaps and its loads after the transient."""
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -31,8 +30,11 @@ from tables import (
     STATISTICS,
     STATUS,
     Column,
+    Columns,
     Row,
+    Rows,
     counted,
+    finite,
     names,
     number_of,
 )
@@ -50,7 +52,7 @@ EQUIVALENT = Column(
     "equivalent_load_N", "N", "R_eq", "range that does the damage of the record in one cycle a peak period", 0
 )
 LARGEST = Column(PEAK, "N", "T_max", "largest tension at the top after the transient", 0)
-_OF_SNAPS = [column for column in SNAPS_OF_RUNS if column.name in ("snap_peak_median_N", "snap_speed_max_mps")]
+_, SNAP_PEAK, *_, SNAP_SPEED = SNAPS_OF_RUNS
 _MEASURED = (
     SEA,
     START,
@@ -62,7 +64,8 @@ _MEASURED = (
     *TANGENT,
     GROWING,
     SNAPS,
-    *_OF_SNAPS,
+    SNAP_PEAK,
+    SNAP_SPEED,
     SLACK,
     MEAN,
     LARGEST,
@@ -76,7 +79,7 @@ _MEASURED = (
 )
 
 
-def columns_of(keys: tuple[Column, ...]) -> tuple[Column, ...]:
+def columns_of(keys: Columns) -> Columns:
     """Those of the varied keys, then those of `run_row`."""
     return *keys, *(column for column in _MEASURED if column.name not in names(keys))
 
@@ -116,14 +119,17 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
         row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
         row[SLACK.name] = slack_fraction(tension, step_s, slack_share * static_N, transient_s).fraction
         if len(snaps):
-            row["snap_peak_median_N"] = float(np.median(snaps.peak_N))
-            row["snap_speed_max_mps"] = float(np.max(snaps.taut_speed_mps))
-    return {
-        name: None if isinstance(entry, float) and not math.isfinite(entry) else entry for name, entry in row.items()
-    }
+            row[SNAP_PEAK.name] = float(np.median(snaps.peak_N))
+            row[SNAP_SPEED.name] = float(np.max(snaps.taut_speed_mps))
+    return finite_row(row)
 
 
-def unclear_places(rows: Sequence[Row], keys: Sequence[Column]) -> set[tuple]:
+def finite_row(row: Row) -> Row:
+    """The row with None in place of numbers that are not finite."""
+    return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in row.items()}
+
+
+def unclear_places(rows: Rows, keys: Columns) -> set[tuple]:
     """The places (values of the keys) where the mean exponent of the runs from rest is within CLEAR errors of 0."""
     found: dict[tuple, list[tuple[float, float]]] = {}
     for row in rows:

@@ -42,7 +42,7 @@ class Options(cli.Options):
             faults.append(f"--drift-periods: given {self.drift_periods}; allowed: 0, or 1000 and above")
 
 
-def perform(order: Order) -> tuple[dict[str, float], Summary]:
+def perform(order: Order) -> Summary:
     """Tasks and table."""
     from campaigns.stability import tasks
 

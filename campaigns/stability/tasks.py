@@ -5,6 +5,7 @@ which cases start.
 """
 
 import time
+from collections import Counter
 from functools import partial
 from pathlib import Path
 
@@ -33,8 +34,8 @@ def planned(order) -> list[Case]:
     return cases
 
 
-def judge_cases(order) -> tuple[dict[str, float], Summary]:
-    """Judge every case that is not judged yet; write the table. Returns the times and the summary for the session.
+def judge_cases(order) -> Summary:
+    """Judge every case that is not judged yet; write the table.
 
     Raises CampaignStopped where a worker dies: cases have their own processes.
     """
@@ -52,13 +53,13 @@ def judge_cases(order) -> tuple[dict[str, float], Summary]:
     if any(not store.path(task.key).exists() for task in tasks):
         with stage(ENGINE):
             load_kernels()
-    timing = {"compile_s": time.perf_counter() - start_s}
+    times = Counter(compile_s=time.perf_counter() - start_s)
     start_s = time.perf_counter()
     finished = results(order.how, store, "cases", tasks)
     rows = [row | {"run_key": task.key} for task, row in zip(tasks, finished.results, strict=True)]
     write_table(out / "table.csv", COLUMNS, rows)
-    timing |= {"run_s": time.perf_counter() - start_s, "analysis_s": 0.0}
-    return timing, Summary(rows, finished.reused, len(tasks) - finished.reused, 0.0)
+    times["run_s"] = time.perf_counter() - start_s
+    return Summary(rows, finished.reused, len(tasks) - finished.reused, times)
 
 
 def judged(case: Case, path: Path) -> dict[str, object]:

@@ -25,21 +25,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from campaigns.explore import sweep as motions
-from campaigns.explore.grid import Grid, varied
+from campaigns.explore.grid import Grid, grid_of, varied
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import cli
+from campaigns.machinery.folder import write_new
 from campaigns.machinery.plan import Job
 from campaigns.study import Lengths, Measures, Order, Study
-from engine.atomic import write_atomic
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
+from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, Rows, counted, names, read_columns, read_table
 
 if TYPE_CHECKING:
     import pandas
 
     from engine.run.simulation import SceneOrName
-
-MOST_KEYS = 2
 
 
 @dataclass
@@ -52,26 +50,11 @@ class Options(motions.Starts):
 
     def read(self, out: Path, faults: list[str]) -> None:
         """The keys with their values in the words of --vary."""
-        words = self.vary or []
-        allowed = "once or twice KEY LO HI COUNT, for instance buoy.drag 0.1 0.8 8"
-        if not words or len(words) % 4 or len(words) > 4 * MOST_KEYS:
-            faults.append(f"--vary: given {' '.join(words) or 'nothing'}; allowed: {allowed}")
-            words = []
-        keys = []
-        while words:
-            keys.append(varied(words[:4], faults))
-            words = words[4:]
-        self.grid = Grid(tuple(filter(None, keys)))
-        if len(keys) == 2 and keys[0] and keys[1] and keys[0].key == keys[1].key:
-            faults.append(f"--vary {keys[0].key}: given twice; allowed: two different keys")
+        self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
 
-def cases(order: Order) -> list[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    return motions.with_kicks(order, _jobs(order))
-
-
-def _jobs(order: Order) -> Iterator[Job]:
     grid: Grid = order.options.grid
     grid.refuse_set(order)
     first = {key.name: key.values[0] for key in grid.keys if key.index is None}
@@ -119,8 +102,7 @@ def measures(order: Order) -> Measures:
         measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
     row = partial(sweep_row, transient_periods=order.transient)
-    sources = (*motions.ROW_SOURCES, "campaigns/sweep/__init__.py")
-    return replace(motions.measures_of(order, columns), row=row, sources=sources)
+    return motions.measures_of(order, columns, row, "campaigns/sweep")
 
 
 def in_sea(scene) -> bool:
@@ -182,13 +164,12 @@ def beside(order: Order) -> Iterator[Callable]:
         yield errors
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load.
 
     In a sea the statistics of its runs (`seas.sentences`).
     """
     from campaigns.answers import known_rows, line
-    from campaigns.explore.answer import sentences
     from campaigns.explore.load import load
     from campaigns.sweep import seas
     from tables import PEAK
@@ -198,11 +179,7 @@ def answer(order: Order, rows: list[dict]) -> list[str]:
     if in_sea(scene):
         return seas.sentences(rows, symbols, scene)
     if len(keys) == 1:
-        folders = []
-        if motions.kicks_of(order) is not None:
-            folders.append("ends")
-        tables = motions.tables_of(order.how.out, *folders)
-        return sentences(rows, keys[0], keys[0], scene, **tables)
+        return motions.answer(order, rows, keys[0])
     counts = Counter(str(row.get("regime") or row["status"]) for row in rows)
     regimes = ", ".join(f"{word} {count}" for word, count in counts.most_common())
     lines = [line("MOTIONS", f"{len(rows)} runs: {regimes}.")]
@@ -243,7 +220,8 @@ def sweep(
 
     values, faults, words = list(values) if isinstance(values, Iterable) else [values], [], ["--out", str(out)]
     given = {"periods": periods, "transient": transient, "duration": duration, "starts": starts, "seed": seed}
-    for name, value in {**given, "jobs": jobs}.items():
+    given["jobs"] = jobs
+    for name, value in given.items():
         if value is not None:
             words += [f"--{name}", str(value)]
     if not report:
@@ -260,10 +238,7 @@ def sweep(
     if isinstance(scene, Scene):
         name, content = str(how.out / "given.toml"), scene.to_toml().encode()
         how.out.mkdir(parents=True, exist_ok=True)
-        if not Path(name).exists() or Path(name).read_bytes() != content:
-            write_atomic(name, content)
-    for name_of_scene in ("scene", "set"):
-        delattr(options, name_of_scene)
+        write_new(Path(name), content)
     order = STUDY.order(how, name, {}, **vars(options) | {"grid": Grid((varied_key,))})
     if order.faults:
         if isinstance(scene, Scene):
@@ -288,11 +263,11 @@ STUDY = Study(
     scene="tethered_buoy",
     lengths=Lengths(periods=120, transient=40, budget=700),
     options=Options,
-    cases=cases,
+    cases=partial(motions.with_kicks, cases),
     measures=measures,
     parameters=parameters,
     runs=motions.runs,
     beside=beside,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

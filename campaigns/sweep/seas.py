@@ -1,17 +1,17 @@
 """A run in an irregular sea as a row of a sweep, and what all rows say: statistics in place of motions and regimes."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from operator import itemgetter
 
-from campaigns.answers import kilonewton, known_rows, line, numbers_of
+from campaigns.answers import NOTHING_LASTS, kilonewton, known_rows, lasting, lines, numbers_of
 from campaigns.explore.answer import snap_peaks, span
 from campaigns.explore.load import load, place_of
 from campaigns.sea.rows import MEAN, SNAPS
 from engine.physics.sea import elevation_m
 from engine.views import snaps_of
-from tables import PEAK, Column, Row, number_of
+from tables import Column, Row, Rows
 
 SURFACE = Column(
     "significant_elevation_m", "m", "4 σ_η", "four standard deviations of the surface at x = 0 after the transient", 2
@@ -35,32 +35,32 @@ def statistics(scene, columns, transient_s: float) -> Row:
     return row
 
 
-def sentences(rows: Sequence[Row], symbols: Mapping[str, str], scene) -> list[str]:
+def sentences(rows: Rows, symbols: Mapping[str, str], scene) -> list[str]:
     """The lines SEA, LOAD, TENSION, SNAPS and OPEN of a sweep.
 
     symbols: of what is varied, by column; scene: of one of the runs.
     """
-    good = [row for row in rows if row["status"] == "ok" and math.isfinite(number_of(row, PEAK))]
+    good = lasting(rows)
     if not good:
-        return [line("LOAD", "not known, because no run lasts beyond the transient.")]
-    lines = {
+        return lines(NOTHING_LASTS)
+    texts = {
         "SEA": _sea(good, scene),
         "LOAD": load(good, symbols, scene),
         "TENSION": _tension(good, symbols),
         "SNAPS": _snaps(good, symbols),
         "OPEN": _open(rows, scene),
     }
-    return [line(word, text) for word, text in lines.items() if text]
+    return lines(texts)
 
 
-def _sea(rows: Sequence[Row], scene) -> str:
+def _sea(rows: Rows, scene) -> str:
     return (
         f"significant elevation {span(numbers_of(rows, SURFACE.name))} m, peak period {scene.waves.period_s:.3g} s; "
         f"one run for each value, the first {rows[0]['transient_periods']:.3g} peak periods left out (--transient)."
     )
 
 
-def _tension(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:
+def _tension(rows: Rows, symbols: Mapping[str, str]) -> str:
     """The range of the mean, and where the standard deviation is least and largest."""
     ranked = sorted(rows, key=itemgetter(DEVIATION.name))
     ends = [f"{kilonewton(row[DEVIATION.name])} at {place_of(row, symbols)}" for row in (ranked[0], ranked[-1])]
@@ -69,14 +69,14 @@ def _tension(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:
     return f"mean {kilonewton(min(means_N))} to {kilonewton(max(means_N))}; standard deviation {deviations}."
 
 
-def _snaps(rows: Sequence[Row], symbols: Mapping[str, str]) -> str:
+def _snaps(rows: Rows, symbols: Mapping[str, str]) -> str:
     counted = known_rows(rows, SNAPS.name)
     if not counted:
         return ""
     return f"{span(numbers_of(counted, SNAPS.name), places=0)} an hour. {snap_peaks(counted, symbols)}"
 
 
-def _open(rows: Sequence[Row], scene) -> str:
+def _open(rows: Rows, scene) -> str:
     """Runs that ended early, and what one run in one sea cannot say."""
     parts = ["one run in one sea has its largest tension by chance"]
     failures = sum(row["status"] != "ok" for row in rows)

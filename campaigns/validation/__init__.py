@@ -39,7 +39,7 @@ class Options(cli.Options):
 
 
 def perform(order: Order):
-    """All runs, side by side; then each case beside its source. Returns times and summary."""
+    """All runs, side by side; then each case beside its source."""
     from campaigns.machinery.plan import Plan
     from campaigns.machinery.runner import run, write_scene
     from campaigns.validation import cases, judging
@@ -50,12 +50,12 @@ def perform(order: Order):
     plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
     jobs = cases.jobs(order.options.cases)
     write_scene(out, STUDY.name, jobs)
-    timing, summary = run(plan, jobs)
+    summary = run(plan, jobs)
     rows, points = judging.judged(out, order.options.cases)
     write_table(out / "cases.csv", JUDGED, rows)
     write_table(out / "curves.csv", judging.POINTS, points)
     write_atomic(out / "cases.md", judging.page(rows).encode())
-    return timing, summary
+    return summary
 
 
 def parameters(order: Order) -> dict[str, object]:

@@ -63,7 +63,7 @@ def nine(monkeypatch, tmp_path):
         for n in range(1, 10)
     ]
     cases = [Job({"steepness": row["steepness"]}, scene, 135) for row in rows]
-    return Plan(Running(tmp_path, 2), None, None, (), simulate_each=list), Summary(rows, 9, 0, 0.0), cases, jobs
+    return Plan(Running(tmp_path, 2), None, None, (), simulate_each=list), Summary(rows, 9, 0), cases, jobs
 
 
 def test_between_judged_values_there_are_about_as_many_in_each_gap_and_two_hundred_in_all(nine):

@@ -14,7 +14,7 @@ def folder_of(out, statuses=("ok", "newton-failed")):
     (out / "trajectories" / "a.nc").write_bytes(b"a run")
     (out / "table.csv").write_text("steepness\n0.1\n")
     rows = [{"status": status} for status in statuses]
-    finished.keep_finished(out, "key", Summary(rows, 1, 1, 2.0))
+    finished.keep_finished(out, "key", Summary(rows, 1, 1))
     return rows
 
 
@@ -75,7 +75,7 @@ def test_a_finished_map_is_printed_again_without_the_scenes_of_its_cells(tmp_pat
     order = regime_map.read_order(words, [])
     assert len(order.cases) == 4
     (tmp_path / "answer.txt").write_text("the answer\n")
-    finished.keep_finished(tmp_path, order.key, Summary([{"status": "ok"}], 4, 0, 0.0))
+    finished.keep_finished(tmp_path, order.key, Summary([{"status": "ok"}], 4, 0))
     monkeypatch.setattr(type(order), "scene", None)
     assert regime_map.main(words) == 0
     assert "the answer" in capsys.readouterr().out

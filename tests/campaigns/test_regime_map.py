@@ -93,8 +93,8 @@ def test_a_cell_has_the_largest_exponent_and_tension_of_its_motions():
     motions = [SimpleNamespace(number=number, kicks=number) for number in range(4)]
     rows = [{"lyapunov_tangent_bits_per_period": exponent, "loop_releases": 0} for exponent in exponents]
     known = SimpleNamespace(row_of=lambda motion: rows[motion.number], kicks=6)
-    shown = SimpleNamespace(motions=known, tension_N=lambda motion: tensions_N[motion.number])
-    cell = _cell(shown, motions, {"status": "ok", "run_key": "a", "regime": "period-1"})
+    known.tension_N = lambda motion: tensions_N[motion.number]
+    cell = _cell(known, motions, {"status": "ok", "run_key": "a", "regime": "period-1"})
     assert (cell["exponent_max_per_period"], cell["tension_top_max_N"], cell["share_of_largest"]) == (0.31, 9.0, 1 / 6)
 
 

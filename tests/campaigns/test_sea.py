@@ -6,6 +6,7 @@ import pytest
 from campaigns import sea
 from campaigns.sea import rows as sea_rows
 from campaigns.sea.answer import sentences
+from campaigns.sea.cells import COLUMNS
 from campaigns.sea.regular import design_loads, folds_of
 from reports import build
 from tables import Column
@@ -147,10 +148,13 @@ def test_waves_of_one_motion_have_no_folds():
     assert design_loads(FOLDED, 0.61) == [("A", 1600.0), ("B", 6400.0)]
 
 
+UNKNOWN = {column.name: "" if column.digits is None else np.nan for column in COLUMNS}  # as a table is read
+
+
 def cell(**entries):
     known = {"status": "ok", "seas": 8.0, "apart_seas": 0.0, "snaps_per_hour": 41.0, "equivalent_load_N": 1.0}
     known |= {"significant_height_m": 2.5}
-    return known | entries
+    return UNKNOWN | known | entries
 
 
 @pytest.mark.parametrize(

@@ -93,7 +93,7 @@ def test_a_process_that_died_is_tried_again_with_the_next_call(three_cases, tmp_
     ok = {"verdict": "ok", "run_status": "ok"}
     for way, verdict in ((partial(os._exit, 1), "unexplained"), (ok.copy, "ok"), (partial(os._exit, 1), "ok")):
         monkeypatch.setattr(cases, "_judged", lambda *_, way=way: way())
-        _, summary = tasks.judge_cases(order)
+        summary = tasks.judge_cases(order)
         assert [row["verdict"] for row in summary.rows] == [verdict]
 
 
@@ -173,8 +173,7 @@ def test_a_campaign_leaves_its_files_and_is_not_done_twice(three_cases, tmp_path
 @pytest.mark.parametrize(("verdict", "code"), [("ok", 0), ("unexplained", 1)])
 def test_an_unexplained_case_ends_the_campaign_with_one(tmp_path, monkeypatch, verdict, code):
     row = {"case": "x", "verdict": verdict, "status": verdict, "run_key": "key"}
-    times = dict.fromkeys(("compile_s", "run_s", "analysis_s"), 0.0)
-    monkeypatch.setattr(tasks, "judge_cases", lambda order: (times, Summary([row], 0, 1, 0.0)))
+    monkeypatch.setattr(tasks, "judge_cases", lambda order: Summary([row], 0, 1))
     assert stability.main([*WORDS, "--no-report", "--out", str(tmp_path / "out")]) == code
 
 

@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from itertools import product
 from pathlib import Path
 
@@ -38,7 +39,7 @@ def campaign(tmp_path, monkeypatch):
     def depends(folder, jobs, quick):
         begun.append("dependence")
         leave(folder)
-        return {"compile_s": 0.0, "run_s": 1.0}, Summary([{"status": "ok"}], 0, 1, 0.0)
+        return Summary([{"status": "ok"}], 0, 1, Counter(run_s=1.0))
 
     monkeypatch.setattr(parts, "_run_campaign", part)
     monkeypatch.setattr(dependence, "run", depends)
