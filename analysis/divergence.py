@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from analysis.embedding import choose_embedding, delay_vectors
 from analysis.exponents import Exponent, no_exponent
 from analysis.neighbours import nearest_outside
-from analysis.sampling import checked_positive, checked_series, locked, record_of_numbers
+from analysis.sampling import checked_positive, checked_series, locked, record_of_numbers, standard_error
 
 ROSENSTEIN = "Rosenstein, Collins & De Luca 1993"
 LEAST_SAMPLES = 200
@@ -115,8 +115,7 @@ def _slope_of(growth, step_s, period, details):
     slopes = []
     for block in np.array_split(growth, BLOCKS, axis=1):
         slopes.append(np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0])
-    scatter = np.std(slopes, ddof=1) / np.sqrt(BLOCKS)
-    error = np.hypot(region.error, scatter)
+    error = np.hypot(region.error, standard_error(slopes))
     return Exponent(region.slope, error, "nats/time", ROSENSTEIN, region.reason, details)
 
 

@@ -114,13 +114,13 @@ def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     return [period, Evidence("contraction", multiplier, 1.0, abs(multiplier) < 1.0, sentence)]
 
 
-def outlier_evidence(series: np.ndarray, name: str = "samples") -> list[Evidence]:
+def outlier_evidence(series: np.ndarray) -> list[Evidence]:
     """Samples far outside the rest, where there are any: no verdict can be given then."""
     far = outlying(series)
     if len(far) == 0:
         return []
     first = f"the first in row {far[0] + 1} ({np.ravel(series[far[0]])[0]:.6g})"
-    sentence = f"{len(far)} of {len(series)} {name} lie far outside the rest, {first}: cut or repair the record there"
+    sentence = f"{len(far)} of {len(series)} samples lie far outside the rest, {first}: cut or repair the record there"
     return [Evidence("outliers", float(len(far)), 0.0, False, sentence)]
 
 

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import NATS_PER_TIME, Exponent, no_exponent
-from analysis.sampling import checked_positive, checked_series, record
+from analysis.sampling import checked_positive, checked_series, record, standard_error
 
 METHOD = "straight part of the logarithm of the envelope"
 LEAST_SPAN_NATS = 3.0
@@ -128,7 +128,7 @@ def _straight_part(time, size, least_span):
                 continue
             straight = True
             if _separates(y, begin, end, slope):
-                error = max(error, np.std(quarters, ddof=1) / np.sqrt(QUARTERS))
+                error = max(error, standard_error(quarters))
                 best = span, slope, error, t[begin], t[end - 1]
     if best is not None:
         span, slope, error, begin, end = best

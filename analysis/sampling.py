@@ -93,6 +93,14 @@ def values_at(series: np.ndarray, step_s: float, time_s: ArrayLike) -> tuple[np.
     return CubicSpline(np.arange(len(series)), series)(position), True
 
 
+def standard_error(values: ArrayLike) -> np.ndarray:
+    """Standard error of the mean of independent values (n,) or (n, ...) over the first axis; NaN for fewer than two."""
+    values = np.asarray(values)
+    if len(values) < 2:
+        return np.full(values.shape[1:], np.nan)
+    return values.std(axis=0, ddof=1) / np.sqrt(len(values))
+
+
 def locked(array: ArrayLike) -> np.ndarray:
     """The same array, made read-only: a frozen record must not change through its arrays."""
     array = np.asarray(array)

@@ -18,7 +18,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analysis.exponents import BITS_PER_PERIOD, Exponent, no_exponent
-from analysis.sampling import checked_count, checked_positive, checked_series, record, record_of_numbers
+from analysis.sampling import (
+    checked_count,
+    checked_positive,
+    checked_series,
+    record,
+    record_of_numbers,
+    standard_error,
+)
 from analysis.tangent_growth import LEAST_PERIODS, METHOD, tangent_lyapunov, turned
 
 BLOCKS = 6  # of a record, whose scatter bounds the error of its mean
@@ -55,18 +62,13 @@ def mean_of_seas(values: Sequence[float], errors: Sequence[float]) -> tuple[floa
     """
     error = math.hypot(*errors) / len(values)
     if len(values) > 2:
-        error = max(error, standard_error(values))
+        error = max(error, float(standard_error(values)))
     return float(np.mean(values)), error
 
 
 def _error_of_blocks(values) -> float:
     length = len(values) // BLOCKS
-    return standard_error(values[: BLOCKS * length].reshape(BLOCKS, length).mean(axis=1))
-
-
-def standard_error(values: ArrayLike) -> float:
-    """Of the mean of independent values (n,), n above 1."""
-    return float(np.std(values, ddof=1)) / math.sqrt(len(values))
+    return float(standard_error(values[: BLOCKS * length].reshape(BLOCKS, length).mean(axis=1)))
 
 
 def growing_share(growth_nats: ArrayLike, window: int) -> float:

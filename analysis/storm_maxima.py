@@ -18,7 +18,7 @@ scipy optimises; `pyextremes` was weighed: it bootstraps, refuses several record
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 
 import numpy as np
@@ -82,27 +82,26 @@ def storm_maximum(
     records = [checked_columns(series)[:, 0] for series in records]
     shortest = min(map(len, records), default=0)
     lacking = f"fewer than {LEAST_BLOCKS} blocks"
-    per_record = max(MOST_BLOCKS // max(len(records), 1), 1)
-    while per_record >= 1 and len(records) * per_record >= LEAST_BLOCKS:
+    for per_record in _block_counts(len(records)):
         samples = shortest // per_record
         if samples < 1 or samples * step_s < least_block_s:
-            per_record = _fewer(per_record)
             continue
         maxima = np.stack([block_maxima(series[: samples * per_record], samples) for series in records])
-        if _alike(maxima):
-            lacking = "neighbouring blocks are alike"
-        else:
+        lacking = "neighbouring blocks are alike"
+        if not _alike(maxima):
             answer = _fitted(maxima.ravel(), samples * step_s, storm_s, confidence)
             if isinstance(answer, StormMaximum):
                 return answer
             lacking = answer
-        per_record = _fewer(per_record)
     return _by_order(records, round(storm_s / step_s), step_s, confidence, lacking)
 
 
-def _fewer(per_record: int) -> int:
-    """The next smaller number of blocks of a record."""
-    return min(per_record - 1, math.floor(per_record / 1.4))
+def _block_counts(records: int) -> Iterator[int]:
+    """Numbers of blocks of each record that are tried, falling, as long as so many records have enough blocks."""
+    per_record = max(MOST_BLOCKS // max(records, 1), 1)
+    while per_record >= 1 and records * per_record >= LEAST_BLOCKS:
+        yield per_record
+        per_record = min(per_record - 1, math.floor(per_record / 1.4))
 
 
 def _alike(maxima) -> bool:
@@ -133,7 +132,8 @@ def _fitted(maxima, block_s: float, storm_s: float, confidence: float) -> StormM
     first = np.array([-0.45 + 0.78 * math.log(blocks), math.log(0.78), 0.0])
     best = minimize(lambda p: misfit(*p), first, method="Nelder-Mead", options={"maxiter": 2000, "xatol": 1e-5})
     level, log_scale, shape = best.x
-    fit = _anderson_darling(_probabilities(scaled, blocks, level, math.exp(log_scale), shape))
+    reduced = _reduced(scaled, blocks, level, math.exp(log_scale), shape)
+    fit = _anderson_darling(np.exp(-np.exp(-reduced)))
     if fit > WORST_FIT:
         return f"maxima of blocks of {block_s:.0f} s do not follow one law (A² = {fit:.2g}), as those of two motions"
     allowed = best.fun + 0.5 * chi2.ppf(confidence, 1)
@@ -173,10 +173,6 @@ def _misfit(x, blocks: float, level: float, scale: float, shape: float) -> float
     if not np.isfinite(y).all() or abs(shape) > 1.0:
         return IMPOSSIBLE
     return float(len(x) * math.log(scale) + np.sum((1.0 + shape) * y + np.exp(-y))) + 0.5 * (shape / SPREAD) ** 2
-
-
-def _probabilities(x, *law):
-    return np.exp(-np.exp(-_reduced(x, *law)))
 
 
 def _anderson_darling(probabilities) -> float:

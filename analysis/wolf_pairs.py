@@ -26,7 +26,14 @@ from numpy.typing import ArrayLike
 
 from analysis.compiled import kernel
 from analysis.embedding import delay_vectors
-from analysis.sampling import checked_count, checked_not_negative, checked_positive, checked_series, record
+from analysis.sampling import (
+    checked_count,
+    checked_not_negative,
+    checked_positive,
+    checked_series,
+    record,
+    standard_error,
+)
 
 ANGLE = 0.3
 WIDENINGS = 5
@@ -153,8 +160,7 @@ def _mean_growth(growth, time, room, floor, size):
         return np.nan, np.nan, f"no neighbours: {followed}, {LEAST_STEPS} and half of all are needed"
     blocks = min(BLOCKS, len(finite) // 4)
     means = np.array([block.mean() for block in np.array_split(finite, blocks)]) / time
-    error = np.std(means, ddof=1) / np.sqrt(blocks)
-    return finite.mean() / time, error, f"{len(finite)} of {len(growth)} evolutions followed"
+    return finite.mean() / time, standard_error(means), f"{len(finite)} of {len(growth)} evolutions followed"
 
 
 @kernel

@@ -10,7 +10,7 @@ from analysis.oscillator.attractors import PAPER_BOX, settled_periods
 from analysis.oscillator.equation import SnapOscillator
 from analysis.oscillator.motions import checked_starts
 from analysis.oscillator.strobing import growth_over_values
-from analysis.sampling import checked_count, checked_series, record
+from analysis.sampling import checked_count, checked_series, record, standard_error
 
 METHOD = "tangent map of eq. (33), QR every period (Benettin et al. 1980)"
 PARAMETERS = ("damping", "frequency", "force", "lift")
@@ -118,14 +118,6 @@ def random_starts(count: int, seed: int) -> np.ndarray:
     return low + (high - low) * generator.random((checked_count(count, "count"), 2))
 
 
-def standard_error(values: ArrayLike) -> np.ndarray:
-    """Standard error of the mean over the first axis; NaN for fewer than two values."""
-    values = np.asarray(values)
-    if len(values) < 2:
-        return np.full(values.shape[1:], np.nan)
-    return values.std(axis=0, ddof=1) / np.sqrt(len(values))
-
-
 def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     starts, blocks = rates.shape[:2]
     of_start = rates.mean(axis=1)
@@ -139,10 +131,9 @@ def _averaged(oscillator, rates, slack, periods, elsewhere, reason):
     running = np.cumsum(rates[:, :, 0], axis=1) / np.arange(1, blocks + 1)
     time = np.arange(1, blocks + 1) * (periods // blocks * oscillator.period)
     convergence = np.column_stack([time, running.mean(axis=0), standard_error(running)])
-    exponents = (
-        Exponent(*value_and_error, NATS_PER_TIME, METHOD, reason)
-        for value_and_error in ((first, error[0]), (second, error[1]))
-    )
+    exponents = []
+    for value, its_error in zip((first, second), error, strict=True):
+        exponents.append(Exponent(value, its_error, NATS_PER_TIME, METHOD, reason))
     uncertain = float(share * error[0]) if np.isfinite(dimension) else np.nan
     measures = (float(by_blocks[0]), dimension, uncertain, of_start, rates)
     return SnapExponents(*exponents, *measures, starts, elsewhere, float(slack.mean()), convergence)

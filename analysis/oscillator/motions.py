@@ -105,7 +105,7 @@ def _sampled(x, v, periods, samples, period, table):
     crossings, slack_time = 0, 0.0
     span = period / len(table.steady)
     for n in range(periods):
-        start, speed = x, v
+        motion[n * samples] = x, v
         x, v, pieces, slack = next_state(x, v, table, log)
         slack_time += slack
         for piece in range(pieces):
@@ -114,7 +114,6 @@ def _sampled(x, v, periods, samples, period, table):
                     switches = np.append(switches, np.empty(crossings))
                 switches[crossings] = n * period + log[piece, 0] * span + log[piece, 1]
                 crossings += 1
-        motion[n * samples, 0], motion[n * samples, 1] = start, speed
         piece = 0
         for j in range(1, samples):
             time = j * period / samples
@@ -123,11 +122,10 @@ def _sampled(x, v, periods, samples, period, table):
             window, a = int(log[piece, 0]), int(log[piece, 2])
             steady = table.steady[window, a]
             shown = Piece(a, log[piece, 3], log[piece, 4], table.theta[window], table.constants, steady[0], steady[1])
-            g, u = state_at(shown, time - window * span)
-            motion[n * samples + j, 0], motion[n * samples + j, 1] = g, u
+            motion[n * samples + j] = state_at(shown, time - window * span)
         if pieces == 0:
             motion[n * samples + 1 :] = np.nan
-    motion[periods * samples, 0], motion[periods * samples, 1] = x, v
+    motion[periods * samples] = x, v
     return motion, switches[:crossings].copy(), slack_time
 
 
@@ -138,7 +136,7 @@ def _within(x, v, boxes, points, longest, table):
     for n in range(longest):
         for i in range(len(boxes)):
             if counts[i] < points and boxes[i, 0] <= x <= boxes[i, 1] and boxes[i, 2] <= v <= boxes[i, 3]:
-                states[i, counts[i], 0], states[i, counts[i], 1] = x, v
+                states[i, counts[i]] = x, v
                 counts[i] += 1
         if counts.min() == points:
             return states, counts, n + 1

@@ -147,11 +147,10 @@ def piecewise(mu, omega, force, lift, phase):
     for window in range(windows):
         for a in range(2):
             p0, w0 = steady_motion(a, k, math.sin(theta[window]), math.cos(theta[window]))
-            steady[window, a, 0], steady[window, a, 1] = p0, w0
+            steady[window, a] = p0, w0
             for j in range(nodes + 1):
-                p11, p12, p21, p22, q1, q2 = motion(a, tau[j], theta[window], k, p0, w0)
-                phi[a, 0, j], phi[a, 1, j], phi[a, 2, j], phi[a, 3, j] = p11, p12, p21, p22
-                q[window, a, 0, j], q[window, a, 1, j] = q1, q2
+                matrix_and_response = motion(a, tau[j], theta[window], k, p0, w0)
+                phi[a, :, j], q[window, a, :, j] = matrix_and_response[:4], matrix_and_response[4:]
         bulge = curvature_bound(0, 0.0, 0.0, k, steady[window, 0, 0], steady[window, 0, 1]) * tau[1] ** 2 / 8.0
         reach[window] = q[window, 0, 0].max() + bulge
         size[window] = np.abs(q[window, :, 0]).max()

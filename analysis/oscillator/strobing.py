@@ -165,7 +165,8 @@ def growth_over_values(parameters, starts, transient, blocks, length, recorded):
         mu, omega, force, lift, phase = parameters[j]
         table = piecewise(mu, omega, force, lift, phase)
         for i in range(n):
-            result = growth_along(starts[i, 0], starts[i, 1], transient, blocks, length, table, section[j, i])
-            sums[j, i], end[j, i, 0], end[j, i, 1] = result[0], result[1], result[2]
-            slack[j, i] = result[3] / (blocks * length * (2.0 * math.pi / omega))
+            x, v = starts[i]
+            sums[j, i], x, v, slack_time = growth_along(x, v, transient, blocks, length, table, section[j, i])
+            end[j, i] = x, v
+            slack[j, i] = slack_time / (blocks * length * (2.0 * math.pi / omega))
     return sums, section, end, slack

@@ -9,7 +9,6 @@ and judged by their errors against the exact solution. Tolerances of one grid, a
 of the error against the tolerance, least squares.
 """
 
-import functools
 import math
 from collections.abc import Iterator
 from itertools import pairwise
@@ -95,19 +94,13 @@ def rms_mm(samples: np.ndarray, reference: np.ndarray) -> float:
 
 def strain_error(trajectory) -> float:
     """Mean over line and profiles of |strain - exact strain|, per cent of the static strain."""
-    lines, tether, end = trajectory.profiles, trajectory.scene.tether, trajectory.scene.end
-    line = tuple(tether.tension.p), tether.density_kgpm3 * tether.area_m2, tether.length_m
-    exact = _exact(*line, end.force_N[0], end.force_decay_s, tuple(lines.time_s[1:]), tuple(lines.s_m))
-    share = np.trapezoid(np.abs(lines.strain[1:] - exact), lines.s_m, axis=1) / tether.length_m
+    from campaigns.breaking_line.theory import theory_of
+
+    scene, lines = trajectory.scene, trajectory.profiles
+    motion = theory_of(scene, float(lines.time_s[-1])).motion
+    exact = np.array([motion.at(lines.s_m, float(time_s))[0] for time_s in lines.time_s[1:]])
+    share = np.trapezoid(np.abs(lines.strain[1:] - exact), lines.s_m, axis=1) / scene.tether.length_m
     return 100.0 * float(share.mean()) / float(lines.strain[0].mean())
-
-
-@functools.lru_cache(maxsize=64)
-def _exact(law, mass, length, force_N, decay_s, times, places) -> np.ndarray:
-    from campaigns.breaking_line.theory import fitted_break
-
-    motion = fitted_break(law, mass, length, force_N, decay_s, times[-1])
-    return np.array([motion.at(np.array(places), time_s)[0] for time_s in times])
 
 
 KINDS = ("time", "space", "both", "tolerance")  # of runs that are series

@@ -94,14 +94,13 @@ def _run(order: Order, case: str, kind: str, changes: dict, duration_s: float = 
 
 def _changes(order: Order, case: str, further: dict) -> dict[str, object]:
     """The changes of a case: its break, with both ends at one level."""
-    decay = {"end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S}
     force_N = [FORCES_N[case[0]], 0.0, 0.0]
-    scene = order.base({**further, **decay, "end.force_N": force_N})
+    changes = {**further, "end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S, "end.force_N": force_N}
+    scene = order.base(changes)
     if scene is not None:
         tether = scene.tether
-        weight_N = tether.density_kgpm3 * tether.area_m2 * scene.gravity_mps2 * tether.length_m
-        force_N = [*force_N[:2], 0.5 * weight_N]
-    return {**further, **decay, "end.force_N": force_N}
+        force_N[2] = 0.5 * (tether.density_kgpm3 * tether.area_m2 * scene.gravity_mps2 * tether.length_m)
+    return changes
 
 
 def _straight(order: Order, case: str, plain: "Scene") -> Iterator[Job]:

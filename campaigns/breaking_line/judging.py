@@ -8,18 +8,23 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache, partial
 from itertools import pairwise
+from operator import itemgetter
 from pathlib import Path
 from statistics import fmean
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 from campaigns.breaking_line.lines import CASES, FAST, SLOW, Line, ended, named, pairs
 from campaigns.statements import Check, Claim, Measured, formula, read_claims, shown, told
 from tables import number_of
 
-if TYPE_CHECKING:
-    from campaigns.paper.measured import Results
 
-Measure = Callable[["Results"], Measured]
+class Results(NamedTuple):
+    """What these statements are judged by; those of the whole paper have more."""
+
+    lines: Sequence[Line]
+
+
+Measure = Callable[[Results], Measured]
 GROUPS = {"all": CASES, "fast": FAST, "slow": SLOW}
 PRINTED_CROSSING_S = (0.55, 0.91)
 DELAYED = 0.5  # of the difference of the fracture times: by so much a slow break delays the way of the end
@@ -38,7 +43,7 @@ def values(lines: Sequence[Line], cases: Iterable[str], of: str) -> list[Check]:
 def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measure:
     """A check for every case, or those in `only`; judge: what the rule judges, where it is not the number told."""
 
-    def measure(results: "Results") -> Measured:
+    def measure(results: Results) -> Measured:
         deciding = values(results.lines, only or GROUPS[cases], judge or of)
         checks = [(f"case {name}", value) for name, value in deciding]
         return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
@@ -49,7 +54,7 @@ def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), 
 def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
     """A check for every step from one case to the next: by how much the number rises."""
 
-    def measure(results: "Results") -> Measured:
+    def measure(results: Results) -> Measured:
         groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
         checks, every_number = [], []
         for group in groups:
@@ -65,7 +70,7 @@ def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
 def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Measure:
     """A check for every tension: compare(number of the fast break, number of the slow one)."""
 
-    def measure(results: "Results") -> Measured:
+    def measure(results: Results) -> Measured:
         checks, words = [], []
         for pair in pairs(results.lines):
             numbers = [formula(of)(line) for line in pair]
@@ -81,17 +86,17 @@ def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Mea
 def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Measure:
     """One check of all fast cases together; judge(their numbers, in rising order)."""
 
-    def measure(results: "Results") -> Measured:
+    def measure(results: Results) -> Measured:
         numbers = values(results.lines, FAST, of)
         if len(numbers) < 2:
             return Measured([])
-        in_order = sorted(value for _, value in numbers)
+        in_order = sorted(map(itemgetter(1), numbers))
         return Measured([("all cases", judge(in_order))], told(numbers, form))
 
     return measure
 
 
-def crossing(results: "Results") -> Measured:
+def crossing(results: Results) -> Measured:
     """The exact times of arrival, as printed and a tenth of them."""
     times = values(results.lines, FAST, "arrival_theory_s")
     if not times:
@@ -106,24 +111,21 @@ def crossing(results: "Results") -> Measured:
     return Measured(checks, told(times, ".4f"))
 
 
-def vertical(results: "Results") -> Measured:
+def vertical(results: Results) -> Measured:
     """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
     places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
     for place, name in places.items():
-        fast, slow = values(results.lines, FAST, name), values(results.lines, SLOW, name)
-        falls = []
-        for (_, earlier), (_, later) in (*pairwise(fast), *pairwise(slow)):
-            falls.append(earlier - later)
-        if falls:
-            checks.append((place, min(falls)))
-        words.append(told(fast + slow, ".3f"))
+        rises = case_to_case(name, ".3f")(results)
+        if rises.checks:
+            checks.append((place, -max(map(itemgetter(1), rises.checks))))
+        words.append(rises.told)
     if not any(words):
         return Measured(checks)
     return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}")
 
 
-def same_motion(results: "Results") -> Measured:
+def same_motion(results: Results) -> Measured:
     """Way of the end of slow and fast breaks, as seen and with the delay of the slow break taken off."""
     seen, shifted, words = [], [], []
     for fast, slow in pairs(results.lines):
@@ -142,7 +144,7 @@ def same_motion(results: "Results") -> Measured:
     return Measured(checks, "; ".join(words))
 
 
-def dominant(results: "Results") -> Measured:
+def dominant(results: Results) -> Measured:
     """Change of the end speed over the fracture times over that over the tensions."""
     speeds = [speed for _, speed in values(results.lines, FAST, "end_speed_mps")]
     differences = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
@@ -153,7 +155,7 @@ def dominant(results: "Results") -> Measured:
     return Measured([("all pairs", by_time / by_tension)], words)
 
 
-def doubled(results: "Results") -> Measured:
+def doubled(results: Results) -> Measured:
     """The largest relative change that twice the elements bring, by case."""
     finer, largest = ended(results.lines, "doubled"), []
     for case, line in ended(results.lines).items():
@@ -170,7 +172,7 @@ def doubled(results: "Results") -> Measured:
     return Measured(checks, told(largest, ".3%"))
 
 
-def shock_incomplete(results: "Results") -> Measured:
+def shock_incomplete(results: Results) -> Measured:
     """Whether no shock exists before the fixed end in cases 2 and 3."""
     births, checks = [], []
     for case in ("2", "3"):
@@ -183,14 +185,14 @@ def shock_incomplete(results: "Results") -> Measured:
     return Measured(checks, told(births, ".1f"))
 
 
-def dissipates(results: "Results") -> Measured:
+def dissipates(results: Results) -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
     spread, resting = SPREAD(results), RESTING(results)
     ways = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
     checks = []
     for name, measured in ways.items():
         if measured.checks:
-            checks.append((name, min(value for _, value in measured.checks)))
+            checks.append((name, min(map(itemgetter(1), measured.checks))))
     if not checks:
         return Measured(checks)
     return Measured(checks, f"{spread.told}; at rest {resting.told}")

@@ -13,12 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import zip_longest
-from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.breaking_line.judging import claims
+from campaigns.breaking_line.judging import Results, claims
 from campaigns.breaking_line.lines import ended, motion_of, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
@@ -39,7 +38,7 @@ WAVES = 200  # strains of the curve of wave speed
 def write_results(plan: Plan, summary: Summary) -> float:
     """statements.csv, and exact.nc where the law has a theory. Raises OSError. Returns 0, no seconds of analysis."""
     folder = plan.how.out
-    results = SimpleNamespace(lines=read_lines(folder))
+    results = Results(read_lines(folder))
     write_statements(folder, claims().values(), results)
     cases, path = ended(results.lines), folder / EXACT
     key = made_by(

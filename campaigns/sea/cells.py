@@ -23,7 +23,8 @@ from analysis import (
     storm_maximum,
     utilisation,
 )
-from analysis.seas import Responses, standard_error
+from analysis.sampling import standard_error
+from analysis.seas import Responses
 from analysis.tangent_growth import turned
 from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents

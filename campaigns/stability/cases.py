@@ -8,7 +8,6 @@ A verdict is one of
 """
 
 import copy
-import math
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -20,7 +19,7 @@ from campaigns.machinery.folder import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.limits import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, names, of_words
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, finite, names, of_words
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -171,18 +170,12 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
     measured, way, *tensions = getattr(checks, case.check)(run, case)
     tension, *_ = *tensions, None
-    warned = run.own_message
     row |= {"verdict": OK, "how": way}
-    holds = warned or tension is None or tension <= case.bar_tension
+    holds = run.own_message or tension is None or tension <= case.bar_tension
     right = measured <= case.bar and holds  # neither where a number is nan
-    if not right:
-        row["verdict"] = LIMIT if ABOVE_BAR in case.statuses else UNEXPLAINED
-        if row["verdict"] == LIMIT:
-            row["limit"] = case.why
-    numbers = {"measured": measured, "measured_tension": tension}
-    numbers["stiffness_N"] = getattr(scene.tether.tension, "stiffness_N", None)
-    for name, number in numbers.items():
-        row[name] = None
-        if number is not None and math.isfinite(number):
-            row[name] = number
-    return row
+    if not right and ABOVE_BAR in case.statuses:
+        row |= {"verdict": LIMIT, "limit": case.why}
+    elif not right:
+        row["verdict"] = UNEXPLAINED
+    row |= {"measured": finite(measured), "measured_tension": finite(tension)}
+    return row | {"stiffness_N": finite(getattr(scene.tether.tension, "stiffness_N", None))}

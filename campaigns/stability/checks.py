@@ -134,7 +134,8 @@ def pendulum(run: Trajectory, case: Case) -> tuple[float, str, float]:
     scene, line = run.scene, run.scene.tether
     speed = math.hypot(*scene.start.buoy_velocity_mps)
     right_N = scene.buoy.mass_kg * (scene.gravity_mps2 + 2.0 * speed**2 / line.length_m)
-    return apart(largest_N(run), right_N), "closed form of a pendulum", apart(largest_N(run), right_N)
+    off = apart(largest_N(run), right_N)
+    return off, "closed form of a pendulum", off
 
 
 POWERS = {

@@ -34,12 +34,34 @@ WRITTEN = (
 )
 OF_SNAPS_ALONE = ("snaps.csv", "snaps_columns.csv")  # what --snaps writes beside answer.txt
 EXITS = "exit codes: 0 done, 1 the folder could not be written, 2 bad input, 130 Ctrl-C"
-OF_SNAPS = {  # option: argument of `analysis.detect_snaps`
-    "--static": ("static_N", POSITIVE),
-    "--ringing": ("ringing_s", FRACTION),
-    "--slack": ("slack_share", FRACTION),
-    "--least": ("snap_share", POSITIVE),
+OPTIONS = {  # option: its word and its use in the help
+    "--column": ("NAME", "the column to judge; may be left out where there is only one"),
+    "--time": ("COLUMN", "the column of times in seconds, evenly spaced"),
+    "--step": ("SECONDS", "sampling step, in place of a column of times"),
+    "--period": ("SECONDS", "period of the forcing (default: none is known)"),
+    "--tolerance": (
+        "SHARE",
+        "a motion repeats within this share of its range (default 0.001; with noise, eight times its share)",
+    ),
 }
+OF_SNAPS = {  # option: argument of `analysis.detect_snaps`, its kind; its word and its use in the help
+    "--static": (
+        "static_N", POSITIVE, "N",
+        "static tension, in the unit of the column, by which slack and snaps are told (default: the mean)",
+    ),
+    "--ringing": (
+        "ringing_s", FRACTION, "SECONDS",
+        "longest period of axial ringing, 2 l/c; it does not count as snaps (default: 0, none)",
+    ),
+    "--slack": (
+        "slack_share", FRACTION, "SHARE",
+        "the line is slack at this share of the static tension or less (default: 0.05)",
+    ),
+    "--least": (
+        "snap_share", POSITIVE, "SHARE",
+        "a snap reaches this share of the static tension, more than --slack (default: 1)",
+    ),
+}  # fmt: skip
 SECONDS = "a finite number above 0 [s; samples where neither --time nor --step is given]"
 
 
@@ -59,25 +81,13 @@ def parser() -> argparse.ArgumentParser:
     argument_parser.add_argument(
         "file", metavar="FILE.csv", nargs="*", help="columns of numbers, their names in the first line"
     )
-    argument_parser.add_argument(
-        "--column", metavar="NAME", help="the column to judge; may be left out where there is only one"
-    )
-    argument_parser.add_argument("--time", metavar="COLUMN", help="the column of times in seconds, evenly spaced")
-    argument_parser.add_argument("--step", metavar="SECONDS", help="sampling step, in place of a column of times")
-    argument_parser.add_argument("--period", metavar="SECONDS", help="period of the forcing (default: none is known)")
-    repeats = "a motion repeats within this share of its range (default 0.001; with noise, eight times its share)"
-    argument_parser.add_argument("--tolerance", metavar="SHARE", help=repeats)
+    for name, (metavar, use) in OPTIONS.items():
+        argument_parser.add_argument(name, metavar=metavar, help=use)
     argument_parser.add_argument(
         "--snaps", action="store_true", help="count the snaps of a tension (N), and judge nothing"
     )
-    static = "static tension, in the unit of the column, by which slack and snaps are told (default: the mean)"
-    argument_parser.add_argument("--static", metavar="N", help=static)
-    ringing = "longest period of axial ringing, 2 l/c; it does not count as snaps (default: 0, none)"
-    argument_parser.add_argument("--ringing", metavar="SECONDS", help=ringing)
-    slack = "the line is slack at this share of the static tension or less (default: 0.05)"
-    argument_parser.add_argument("--slack", metavar="SHARE", help=slack)
-    least = "a snap reaches this share of the static tension, more than --slack (default: 1)"
-    argument_parser.add_argument("--least", metavar="SHARE", help=least)
+    for name, (_, _, metavar, use) in OF_SNAPS.items():
+        argument_parser.add_argument(name, metavar=metavar, help=use)
     argument_parser.add_argument(
         "--out", metavar="DIR", help="folder for the answer and every curve behind it (default: none)"
     )
@@ -98,14 +108,14 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     period = value("--period", Kind(POSITIVE.convert, SECONDS))
     tolerance = value("--tolerance", number("a number above 0 and below 1", lambda share: 0.0 < share < 1.0))
     out = value("--out", FOLDER)
-    snaps = {name: value(option, kind) for option, (name, kind) in OF_SNAPS.items()}
-    given = [option for option in OF_SNAPS if getattr(options, option[2:]) is not None]
+    snaps = {name: value(option, kind) for option, (name, kind, *_) in OF_SNAPS.items()}
+    unfit, where = OF_SNAPS, "with"
     if options.snaps:
-        given = [option for option in ("--period", "--tolerance") if getattr(options, option[2:]) is not None]
+        unfit, where = ("--period", "--tolerance"), "without"
         if options.step is None and options.time is None:
             faults.append("--snaps: given without times; allowed: with --time or --step")
-    with_or_without = "without" if options.snaps else "with"
-    faults.extend(f"{option}: allowed {with_or_without} --snaps only" for option in given)
+    given = [option for option in unfit if getattr(options, option[2:]) is not None]
+    faults.extend(f"{option}: allowed {where} --snaps only" for option in given)
     if options.step is not None and options.time is not None:
         faults.append("--time and --step: given both; allowed: one of them")
     file, *further_files = options.file or [None]

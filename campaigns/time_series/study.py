@@ -84,11 +84,11 @@ class Study:
     used: int  # samples looked at by exponents and dimension: the last of the record
 
 
-def study(record: Record, period: float | None = None, tolerance: float | None = None, seed: int = 0) -> Study:
+def study(record: Record, period: float | None = None, tolerance: float | None = None) -> Study:
     """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
 
     tolerance: share of the range within which a motion repeats; None: 0.001, or what splines leave of a sine sampled as
-    coarsely. seed: of surrogates and angles. The same record and seed give the same study.
+    coarsely. The same record gives the same study.
     """
     x, step = record.values, record.step
     view = seen(x, step, period)
@@ -105,8 +105,8 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
         dimension = correlation_dimension(vectors, max(1, round(embedding.mean_period)))
     power = _spectrum(x, step, view, period)
     tolerance = least_tolerance(view) if tolerance is None else tolerance
-    verdict = judged(x, view, tolerance, seed)
-    irregular = zero_one_test(view.points[-MOST_POINTS:, 0], seed=seed)
+    verdict = judged(x, view, tolerance)
+    irregular = zero_one_test(view.points[-MOST_POINTS:, 0])
     return Study(
         record=record,
         seen=view,
@@ -138,13 +138,13 @@ def _spectrum(x, step, view, period):
     return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
 
 
-def judged(x: np.ndarray, view: Seen, tolerance: float, seed: int) -> Verdict:
-    """The Verdict on a record (n,) by its section; tolerance, seed: as in `study`."""
+def judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
+    """The Verdict on a record (n,) by its section; tolerance: as in `study`."""
     outliers = outlier_evidence(x)
     if outliers:
-        return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed)
+        return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     section = view.points[-MOST_POINTS:]
-    verdict = regime(strobed=section, scale=np.ptp(x), tolerance=tolerance, surrogates=SURROGATES, seed=seed)
+    verdict = regime(strobed=section, scale=np.ptp(x), tolerance=tolerance, surrogates=SURROGATES)
     if view.kind != MAXIMA:
         return verdict
     if verdict.period is not None:

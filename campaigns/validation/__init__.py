@@ -44,10 +44,10 @@ def perform(order: Order):
     from campaigns.machinery.runner import run, write_scene
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
-    from tables import write_table
+    from tables import counted, write_table
 
     out = order.how.out
-    plan = Plan(order.how, order.simulate or engine.simulate, cases.run_row, cases.COLUMNS)
+    plan = Plan(order.how, order.simulate or engine.simulate, counted, cases.COLUMNS)
     jobs = cases.jobs(order.options.cases)
     write_scene(out, STUDY.name, jobs)
     summary = run(plan, jobs)

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from campaigns.machinery.plan import Job
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, counted, of_words
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, of_words
 
 HOLDS, MISSES, NOT_RUN, TOLD = "holds", "misses", "not run", "told"
 DATA = Path(__file__).with_name("data")
@@ -162,8 +162,3 @@ def jobs(cases: Iterable[Case]) -> list[Job]:
 def size_of(job: Job) -> float:
     """About how long a run takes: its length times its nodes, and by these again where they shorten the steps."""
     return job.duration_s * job.scene.tether.nodes ** (2 if job.scene.solver.courant else 1)
-
-
-def run_row(trajectory) -> dict[str, object]:
-    """The columns of a run."""
-    return counted(trajectory)

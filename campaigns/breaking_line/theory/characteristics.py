@@ -52,10 +52,11 @@ def strain_behind(law, ahead, u_ahead, p, guess):
 
 
 @kernel
-def shock_step(case, previous, tn, sn, cn, p, out):
-    """Fill `out` (a row of starts) with the point where a C- (last known at tn, sn with speed cn) meets the shock that
-    was last at the row `previous`. False when they do not meet: the C- is slower."""
+def shock_step(case, previous, last_known, p, out):
+    """Fill `out` (a row of starts) with the point where a C- (t, s, c last_known) meets the shock that was last at the
+    row `previous`. False when they do not meet: the C- is slower."""
     law = case.law
+    tn, sn, cn = last_known
     phi0 = riemann(law, case.strain0)
     t0, s0, sigma0 = previous[TIME], previous[PLACE], previous[SIGMA]
     sigma, behind = sigma0, previous[BEHIND]
@@ -70,8 +71,7 @@ def shock_step(case, previous, tn, sn, cn, p, out):
         ahead, tau = simple_wave_at(case, s, t, previous[EMITTED])
         behind = strain_behind(law, ahead, riemann(law, ahead) - phi0, p, behind)
         sigma, c = shock_speed(law, ahead, behind), wave_speed(law, behind)
-        out[TIME], out[PLACE], out[AHEAD], out[BEHIND], out[SIGMA] = t, s, ahead, behind, sigma
-        out[EMITTED], out[P_BEHIND], out[Q_BEHIND] = tau, p, p - 2.0 * riemann(law, behind)
+        out[:LINE] = t, s, ahead, behind, sigma, tau, p, p - 2.0 * riemann(law, behind)
         if abs(t - last) <= 1e-15 * t:
             break
     return True
@@ -86,7 +86,7 @@ def cross(case, net, k, start, t, s, c, lines):
     net.T[start, k], net.S[start, k] = t, s
     eps = 0.0
     for i in range(start + 1, lines):
-        t_i, s_i, c_i = net.last[i, 0], net.last[i, 1], net.last[i, 2]
+        t_i, s_i, c_i = net.last[i]
         if t_i > case.stop:  # so are all behind it
             return lines, DONE
         eps = strain_of_riemann(case.law, 0.5 * (net.p[i] - net.q[k]), eps)
@@ -101,7 +101,7 @@ def cross(case, net, k, start, t, s, c, lines):
         s += forth * (crossing - t)
         t, c = crossing, new
         net.T[i, k], net.S[i, k] = t, s
-        net.last[i, 0], net.last[i, 1], net.last[i, 2] = t, s, c
+        net.last[i] = t, s, c
     if lines == len(net.p):
         return lines, FULL
     arrival = t + (case.length - s) / c
@@ -113,7 +113,7 @@ def cross(case, net, k, start, t, s, c, lines):
             break
     net.tau[lines], net.born_q[lines] = arrival, net.q[k]
     net.p[lines] = net.q[k] + 2.0 * riemann(case.law, eps)
-    net.last[lines, 0], net.last[lines, 1], net.last[lines, 2] = arrival, case.length, wave_speed(case.law, eps)
+    net.last[lines] = arrival, case.length, wave_speed(case.law, eps)
     return lines + 1, DONE
 
 
@@ -138,8 +138,7 @@ def follow_shock(case, net, starts, lines):
         k += 1
         if k == len(net.q) or k == lines:
             return lines, k - 1, FULL
-        at = net.last[k]
-        if not shock_step(case, row, at[0], at[1], at[2], net.p[k], starts[k]):
+        if not shock_step(case, row, net.last[k], net.p[k], starts[k]):
             return lines, k - 1, CROSSED
         if starts[k, PLACE] < 0.0:
             if lines == len(net.p):
@@ -156,14 +155,14 @@ def insert_at_wall(case, net, starts, k, lines):
     It lies between the neighbours k - 1, already at the shock, and k, in proportion along the last C+.
     """
     left, right = np.empty(4), np.empty(4)
-    left[0], left[1], left[2] = starts[k - 1, TIME], starts[k - 1, PLACE], wave_speed(case.law, starts[k - 1, BEHIND])
+    left[:3] = starts[k - 1, TIME], starts[k - 1, PLACE], wave_speed(case.law, starts[k - 1, BEHIND])
     right[:3] = net.last[k]
     left[3], right[3] = net.p[k - 1], net.p[k]
     low, high, share = 0.0, 1.0, 0.5
     for _ in range(60):
         share = 0.5 * (low + high)
         at = left + share * (right - left)
-        if shock_step(case, starts[k - 1], at[0], at[1], at[2], at[3], starts[k]) and starts[k, PLACE] > 0.0:
+        if shock_step(case, starts[k - 1], at[:3], at[3], starts[k]) and starts[k, PLACE] > 0.0:
             low = share
         else:
             high = share

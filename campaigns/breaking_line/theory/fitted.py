@@ -159,7 +159,7 @@ def on_outgoing(law, net, ended, length, t, crossings):
             t0, s0, q0 = net.T[i, k], net.S[i, k], net.q[k]
         if alive:
             c = wave_speed(law, strain_of_riemann(law, 0.5 * (net.p[i] - q0), 0.0))
-            crossings[0, count], crossings[1, count], crossings[2, count] = s0 - c * (t - t0), net.p[i], q0
+            crossings[:, count] = s0 - c * (t - t0), net.p[i], q0
             count += 1
     return count
 
@@ -181,8 +181,7 @@ def on_echoes(net, starts, shock, t, crossings, count):
                 break
             if net.T[i, k] >= t:
                 share = (t - t0) / (net.T[i, k] - t0) if net.T[i, k] > t0 else 0.0
-                crossings[0, count] = s0 + share * (net.S[i, k] - s0)
-                crossings[1, count], crossings[2, count] = p0 + share * (net.p[i] - p0), net.q[k]
+                crossings[:, count] = s0 + share * (net.S[i, k] - s0), p0 + share * (net.p[i] - p0), net.q[k]
                 count += 1
                 break
             t0, s0, p0 = net.T[i, k], net.S[i, k], net.p[i]

@@ -6,8 +6,8 @@ is chaotic; then eq. (33) with figure 19b, and the motion across the plane of th
 
 import math
 from itertools import groupby
-from operator import itemgetter
 
+from campaigns.answers import greatest
 from campaigns.explore.motions import from_rest
 from campaigns.paper.measured import STRANGE, Results, matching
 from campaigns.paper.measures import EARLY, WINDOW
@@ -292,13 +292,11 @@ def grows(row: Row) -> bool:
 
 def planar(results: Results) -> Measured:
     """Largest lateral distance of any node of runs that were pushed along the waves."""
-    distances = []
-    for row in results.plane:
-        if row["status"] == "ok" and row["seed_direction"] == "along" and math.isfinite(row["rope_lateral_max_m"]):
-            distances.append(row["rope_lateral_max_m"])
-    if not distances:
+    farthest = greatest(matching(results.plane, {"status": "ok", "seed_direction": "along"}), "rope_lateral_max_m")
+    if farthest is None:
         return Measured()
-    return Measured([("push along the waves", max(distances))], f"{shown(max(distances), '.3g')} m")
+    distance_m = farthest["rope_lateral_max_m"]
+    return Measured([("push along the waves", distance_m)], f"{shown(distance_m, '.3g')} m")
 
 
 def small_decays(results: Results) -> Measured:
@@ -331,10 +329,9 @@ def comparable(results: Results) -> Measured:
     checks, words = [], []
     for body in BODIES:
         column = f"{body}_share_of_inplane"
-        known = [row for row in pushed(results) if math.isfinite(row[column])]
-        if not known:
+        largest = greatest(pushed(results), column)
+        if largest is None:
             return Measured()
-        largest = max(known, key=itemgetter(column))
         distance_m = shown(largest[f"{body}_lateral_max_m"], ".2g")
         words.append(f"{body} {shown(largest[column], '.3%')} ({distance_m} m)")
         if body == "buoy":
