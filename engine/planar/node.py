@@ -28,7 +28,7 @@ from ..compiled import kernel, of_extras
 from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
-from ..simd.elementary import put_places, sincos
+from ..simd.elementary import sincos
 from ..simd.select import larger
 from ..spatial.vectors import pair, put_quaternion
 from . import columns as col
@@ -51,7 +51,10 @@ def shape(p, tables, Y, Q, X):
         row[col.COS], row[col.SIN] = c, s
         row[col.QX], row[col.QZ] = lam * c, lam * s
     X[0, 0], X[0, 1] = lower_end(p)
-    put_places(p, tables, Q, X)
+    for k in range(1, Y.shape[0]):
+        half = 0.5 * tables[p.grid_at + k - 1]
+        X[k, 0] = X[k - 1, 0] + half * (Q[k - 1, col.QX] + Q[k, col.QX])
+        X[k, 1] = X[k - 1, 1] + half * (Q[k - 1, col.QZ] + Q[k, col.QZ])
 
 
 @kernel

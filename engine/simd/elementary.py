@@ -8,7 +8,6 @@ import math
 import numpy as np
 
 from ..compiled import kernel
-from ..record import STRETCH
 from .select import every, some, where
 
 # pi/2 in three parts (Cody & Waite 1980): k * PIO2_A and k * PIO2_B are exact for |k| < 2**20.
@@ -74,16 +73,6 @@ def keep(mask, source, target):
     for k in range(target.shape[0]):
         for i in range(target.shape[1]):
             target[k, i] = where(mask, source[k, i], target[k, i])
-
-
-@kernel
-def put_places(p, tables, Q, X):
-    """Places of the nodes into X (n, 2) or (n, 3), of which X[0] is filled: an element adds h times the mean of its q,
-    which is in Q from STRETCH on."""
-    for k in range(1, X.shape[0]):
-        half = 0.5 * tables[p.grid_at + k - 1]
-        for i in range(X.shape[1]):
-            X[k, i] = X[k - 1, i] + half * (Q[k - 1, STRETCH + i] + Q[k, STRETCH + i])
 
 
 @kernel

@@ -32,7 +32,6 @@ from ..compiled import kernel, of_extras
 from ..physics.drag.kernels import drag_across, drag_along
 from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
-from ..simd.elementary import put_places
 from . import columns as col
 from .extras import more_loads
 from .vectors import (
@@ -70,7 +69,10 @@ def shape(p, tables, Y, Q, X):
         row[col.STRETCHED] = lam
         put(row, col.Q, multiple(lam, axes[0]))
     put(X[0], 0, lower_end(p))
-    put_places(p, tables, Q, X)
+    for k in range(1, Y.shape[0]):
+        half = 0.5 * tables[p.grid_at + k - 1]
+        for i in range(3):
+            X[k, i] = X[k - 1, i] + half * (Q[k - 1, col.Q + i] + Q[k, col.Q + i])
 
 
 @kernel
