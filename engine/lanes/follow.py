@@ -23,7 +23,7 @@ from ..simd.elementary import keep
 from ..simd.select import some, where
 from ..simd.vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
 from ..time.steps import known_part, plan_stage, stage_rate
-from .ticks import PARTS, row_of_stage
+from .ticks import PARTS, keep_stage, row_of_stage
 
 # What a turn of all lanes works on, COUNT the last axis: numbers (LENGTH + k + 1,); a (s,), w (3,): as in `plan_stage`;
 # Y (n, 6), K (n, 4): the stage and its rates; K_new (n, 4), known (n, 3): of a perturbation, as in `tangent_stage`
@@ -95,8 +95,7 @@ def plan_turn(records, tables, T, rows, trails, step, stage, at, turn):
 @kernel
 def end_stage(rows, C_new, K_new, C, K, Ks):
     """What a perturbation has become at a stage: into Ks (s, n, m) and, where the step ends, C and K (n, m)."""
-    for j in range(1, Ks.shape[0]):
-        keep((rows[BUSY] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
+    keep_stage(rows[BUSY], rows[STAGE], K_new, Ks)
     keep(rows[ENDED] != 0.0, C_new, C)
     keep(rows[ENDED] != 0.0, K_new, K)
 
@@ -203,16 +202,20 @@ class Followers:
             self.lateral_nats = np.pad(self.lateral_nats, ((0, 0), (0, missing)))
         self.nats[b] = self.lateral_nats[b] = 0.0
         self.nats[b, :periods], self.lateral_nats[b, :periods] = run.trail.nats, run.trail.lateral_nats
-        for lanes, arguments in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+        for lanes in (self.carried, self.across):
             lanes.Ks[..., b] = 0.0  # a run that blew up leaves what is no number, and nothing times that is no number
-            for part, stored in zip(lanes, arguments[:-1] if arguments else (), strict=False):
-                part[..., b] = stored
+        for part, stored in self._parts(run):
+            part[..., b] = stored
+
+    def _parts(self, run):
+        """Pairs of arrays of the perturbations: of all lanes, and of a run."""
+        for lanes, arguments in ((self.carried, run.trail.along), (self.across, run.trail.across)):
+            yield from zip(lanes, arguments[:-1] if arguments else (), strict=False)
 
     def unload(self, b, run):
         """What has grown, and the perturbations, back to the run."""
-        for lanes, arguments in ((self.carried, run.trail.along), (self.across, run.trail.across)):
-            for part, taken in zip(lanes, arguments[:-1] if arguments else (), strict=False):
-                taken[:] = part[..., b]
+        for part, taken in self._parts(run):
+            taken[:] = part[..., b]
         periods = len(run.trail.nats)
         run.trail.nats[:], run.trail.lateral_nats[:] = self.nats[b, :periods], self.lateral_nats[b, :periods]
 

@@ -53,13 +53,26 @@ PARTS = 8 // COUNT  # vectors that hold the eight numbers of a node
 
 
 @kernel
+def keep_stage(chosen, stage, K_new, Ks):
+    """The rates K_new (n, m) of a stage into Ks (s, n, m), in the lanes where `chosen` is not 0; stage: its number."""
+    for j in range(1, Ks.shape[0]):
+        keep((chosen != 0.0) & (stage == float(j)), K_new, Ks[j])
+
+
+@kernel
+def clear(numbers, b):
+    """Nothing has happened in lane b."""
+    numbers[SOLVED, b] = numbers[FINISHED, b] = numbers[ACCEPTED, b] = 0.0
+    numbers[MOVED, b] = numbers[RESTARTED, b] = 0.0
+
+
+@kernel
 def judge_solves(records, states, lanes, numbers):
     """Find the lanes whose Newton solve has ended; returns how many."""
     ended = 0
     for b in range(COUNT):
         lane, state = lanes[b], states[b]
-        numbers[SOLVED, b] = numbers[FINISHED, b] = numbers[ACCEPTED, b] = 0.0
-        numbers[MOVED, b] = numbers[RESTARTED, b] = 0.0
+        clear(numbers, b)
         if lane.active != GOING:
             continue
         p = records[b]
@@ -113,10 +126,9 @@ def sample_lanes(records, tables, states, lanes, arrays, ends, samples, profiles
     """Store the samples that lie within the accepted steps. ends (4, n, 4): work; profiles (0, n, 6): none are kept."""
     for b in range(COUNT):
         if arrays.numbers[ACCEPTED, b] != 0.0:
-            copy_into(ends[0], arrays.C[:, :, b])
-            copy_into(ends[1], arrays.Ks[0, :, :, b])
-            copy_into(ends[2], arrays.C_new[:, :, b])
-            copy_into(ends[3], arrays.K_new[:, :, b])
+            of_lanes = arrays.C, arrays.Ks[0], arrays.C_new, arrays.K_new
+            for i in range(4):
+                copy_into(ends[i], of_lanes[i][:, :, b])
             state = states[b]
             begin, end = (ends[0], ends[1]), (ends[2], ends[3])
             hermite = state.small == 0
@@ -291,8 +303,7 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         # rates of the solved stages, and of finished steps their errors
         shape(p, tables, Y, vectors.Q, vectors.X)
         steps.stage_rates(p, rows[RATE], Y, vectors.Q, vectors.C_tilde, C_new, K_new)
-        for j in range(1, Ks.shape[0]):
-            keep((rows[SOLVED] != 0.0) & (rows[STAGE] == float(j)), K_new, Ks[j])
+        keep_stage(rows[SOLVED], rows[STAGE], K_new, Ks)
         top, first = Y[Y.shape[0] - 1, EPS], rows[STAGE] == 1.0
         low, high = where(first, top, smaller(rows[TOP_LOW], top)), where(first, top, larger(rows[TOP_HIGH], top))
         rows[TOP_LOW] = where(rows[SOLVED] != 0.0, low, rows[TOP_LOW])
@@ -311,7 +322,6 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
             if trail.T.shape[1] > 0:
                 record_steps(states, numbers, trail.T)
             end_steps(records, own_tables, states, numbers, arrays.Y, scratch)
-    for row_number in (SOLVED, FINISHED, ACCEPTED, MOVED, RESTARTED):
-        for b in range(COUNT):
-            numbers[row_number, b] = 0.0
+    for b in range(COUNT):
+        clear(numbers, b)
     return ticks_made

@@ -17,6 +17,7 @@ import math
 
 import numpy as np
 
+from ..arrays import Stage
 from ..compiled import by_kind, kernel
 from ..physics.currents import uniform_current
 from ..physics.ends import planar_end
@@ -52,6 +53,7 @@ _part = by_kind(_cap, _cap, _cap, _sphere)
 def rates(p, tables, length, t, y, X, F):
     """Acceleration (m/s2) of a buoy in the state y = (x, z, U, W); length: l0 (m); X (1, 2), F (1, 4): work arrays."""
     x, z, U, W = y
+    stage, V = Stage(t, 1.0, 1.0, 0.0), (U, W)
     X[0, 0], X[0, 1] = x, z
     F[0, 0] = F[0, 1] = F[0, 2] = F[0, 3] = 0.0
     if p.waves:
@@ -60,12 +62,11 @@ def rates(p, tables, length, t, y, X, F):
         uniform_current(p, tables, t, X, F)
     r = math.sqrt(x * x + z * z)
     pull = larger(tension(r / length - 1.0, p, tables)[0], 0.0) / where(r > 0.0, r, 1.0)
-    ex, ez, _, _, _, _ = planar_end(p, tables, t, 0.0, 1.0, pull * x, pull * z, U, W, U, W, F[0])
-    mass = p.M_total
+    ex, ez, _, _, _, _ = planar_end(p, tables, stage, (pull * x, pull * z), V, V, F[0])
+    mass = p.M_total - _part(p, tables, t, x, z, U, W)[0]
     if p.spherical_cap:
-        cap = end_of_cap(p, tables, t, 1.0, 0.0, 1.0, x, z, U, W, U, W, F[0])
+        cap = end_of_cap(p, tables, stage, X[0], V, V, F[0])
         ex, ez = ex + cap[0], ez + cap[1]
-        mass = mass - _part(p, tables, t, x, z, U, W)[0]
     return -ex / mass, -ez / mass
 
 

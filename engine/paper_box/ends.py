@@ -12,6 +12,7 @@ import numpy as np
 
 from ..physics.ends import end_velocity, released
 from ..record import BUOY, HELD
+from ..spatial.vectors import dot_of
 from .line import EPS, EULER, O2, O3, OMEGA, S_B, S_N, SPEEDS, TO_PAPER, Line, roll, to_fixed
 from .nodal import Level
 
@@ -35,7 +36,7 @@ def buoy_load(line: Line, Y: np.ndarray, water: np.ndarray) -> tuple[np.ndarray,
     record = line.record
     N, V = force_and_velocity(line, Y)
     slip = V - water[:3]
-    speed = np.sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2])
+    speed = np.sqrt(dot_of(slip, slip))
     load = N + record["C_buoy"] * speed * slip - record["M_wave"] * water[3:]
     load[0] = load[0] - record["lift"]
     return load, V

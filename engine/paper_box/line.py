@@ -19,7 +19,7 @@ from .. import parameters
 from ..physics.tension import LAWS
 from ..record import lengths_of
 from ..scene.models import Scene
-from ..spatial.vectors import frame_of
+from ..spatial.vectors import dot_of, frame_of
 
 TO_ENGINE = [1, 2, 0]  # (x, y, z) from the paper's axes
 TO_PAPER = [2, 0, 1]  # the paper's axes from (x, y, z)
@@ -111,13 +111,13 @@ def turning(beta: np.ndarray, rate: np.ndarray) -> tuple:
 def to_fixed(beta: np.ndarray, local: np.ndarray) -> np.ndarray:
     """Fixed components C' g of a vector given by its local components g (3, ...), eq. (2) the other way round."""
     C = rotation(beta)
-    return np.array([C[0, i] * local[0] + C[1, i] * local[1] + C[2, i] * local[2] for i in range(3)])
+    return np.array([dot_of(C[:, i], local) for i in range(3)])
 
 
 def to_local(beta: np.ndarray, fixed: np.ndarray) -> np.ndarray:
     """Local components C G of a vector given in the paper's axes, eq. (2)."""
     C = rotation(beta)
-    return np.array([C[i, 0] * fixed[0] + C[i, 1] * fixed[1] + C[i, 2] * fixed[2] for i in range(3)])
+    return np.array([dot_of(row, fixed) for row in C])
 
 
 def roll(beta: np.ndarray) -> np.ndarray:

@@ -24,6 +24,7 @@ import numpy as np
 
 from ..physics.sea_series import WIDTH
 from ..physics.water import water as water_of_engine
+from ..spatial.vectors import dot_of
 from .line import EPS, EULER, SPEEDS, TO_ENGINE, TO_PAPER, Line, normal_rates, rotation, to_local, turning
 
 
@@ -72,7 +73,7 @@ def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.n
     (component rates of v and v_c); with the normal components of the accelerations they have 0 and m + m_a, which does
     not depend on the roll of the frame (THEORY.md, section 4).
     """
-    eps, (u, v, w), (Uc, Vc, Wc) = Y[EPS], Y[SPEEDS], water[:3]
+    eps, (u, v, w) = Y[EPS], Y[SPEEDS]
     slope = line.tension(eps)[1]
     omega1, omega2, omega3 = turning(Y[EULER], D[EULER])
     n_rate, b_rate = normal_rates(Y[EULER], D[EULER])
@@ -82,12 +83,8 @@ def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.n
     return np.array(
         [
             -m * (D[3] + omega2 * w - omega3 * v) / slope,
-            -inertia * D[4]
-            - m_turn * (omega3 * u - omega1 * w)
-            + R_turn * (n_rate[0] * Uc + n_rate[1] * Vc + n_rate[2] * Wc),
-            -inertia * D[5]
-            - m_turn * (omega1 * v - omega2 * u)
-            + R_turn * (b_rate[0] * Uc + b_rate[1] * Vc + b_rate[2] * Wc),
+            -inertia * D[4] - m_turn * (omega3 * u - omega1 * w) + R_turn * dot_of(n_rate, water),
+            -inertia * D[5] - m_turn * (omega1 * v - omega2 * u) + R_turn * dot_of(b_rate, water),
             zero - D[EPS],
             -(1 + eps) * omega3,
             (1 + eps) * omega2,

@@ -13,7 +13,7 @@ Vectors have three components; a plane has y = 0. Numbers: of an EXTRA record (`
 import math
 
 from ..compiled import by_kind, kernel, of_extras
-from ..spatial.vectors import affine, dot, mixed
+from ..spatial.vectors import affine, dot, minus, mixed, multiple
 
 ZERO = (0.0, 0.0, 0.0)
 WITHIN = 0.99  # of the soft beginning
@@ -51,7 +51,7 @@ def bed_load(p, in_motion, z, V):
         (bent * u[0] * u[1], rub + bent * u[1] * u[1], -way[1] * by_sinking),
         (0.0, 0.0, by_sinking),
     )
-    return (N * way[0], N * way[1], -N), rows, (-way[0] * by_depth, -way[1] * by_depth, by_depth)
+    return multiple(N, way), rows, multiple(-by_depth, way)
 
 
 @of_extras((0, 0.0))
@@ -75,8 +75,9 @@ def bed_powers(p, z, V):
 
 
 @kernel
-def _as_it_is(p, tables, stage, Y, work, factor, size):
-    return size
+def _last_of(p, *arguments):
+    """As the two below where there is no bed: what they are given to raise."""
+    return arguments[-1]
 
 
 @kernel
@@ -100,8 +101,8 @@ def _on_the_bed(p, tables, stage, Y, work, factor, size):
             Y[k, 2 * axes - 1] = -(height + WITHIN * p.bed_onset) * stage.cq
             size = max(size, 1.0)
         load, rows, by_z = bed_load(p, stage.in_motion, low, V_before)
-        foreseen = mixed(1.0, affine(rows, mixed(factor, dV, 0.0, dV), load), high - low, by_z)
-        missed = mixed(1.0, bed_load(p, stage.in_motion, high, V)[0], -1.0, foreseen)
+        foreseen = mixed(1.0, affine(rows, multiple(factor, dV), load), high - low, by_z)
+        missed = minus(bed_load(p, stage.in_motion, high, V)[0], foreseen)
         largest = max(largest, dot(missed, missed))
     known = p.bed_stiffness * ROUNDING
     return max(size, (largest / (weight * weight)) ** 0.25) if largest > known * known else size
@@ -112,12 +113,7 @@ def _velocity(axes, row):
     return row[axes], row[axes + 1] if axes == 3 else 0.0, row[2 * axes - 1]
 
 
-on_the_bed = by_kind(_as_it_is, _as_it_is, extra=_on_the_bed)
-
-
-@kernel
-def _as_embedded(p, tables, dt, Ys, Ks, X, error):
-    return error
+on_the_bed = by_kind(_last_of, _last_of, extra=_on_the_bed)
 
 
 @kernel
@@ -139,4 +135,4 @@ def _of_landing(p, tables, dt, Ys, Ks, X, error):
     return error
 
 
-with_landings = by_kind(_as_embedded, _as_embedded, extra=_of_landing)
+with_landings = by_kind(_last_of, _last_of, extra=_of_landing)

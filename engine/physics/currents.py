@@ -12,11 +12,11 @@ AXES = 4  # numbers before the velocity where every axis has length one
 
 @kernel
 def uniform_current(p, tables, t, X, F):
-    """As `current_field` in a plane where every axis has length one; all that runs of one batch may have."""
-    u, w = tables[p.cur_at + AXES], tables[p.cur_at + AXES + 2]
-    for j in range(X.shape[0]):
-        F[j, 0] += u
-        F[j, 1] += w
+    """As `current_field` where every axis has length one; all that runs of one batch may have."""
+    n, size = X.shape
+    for j in range(n):
+        for column in range(size):
+            F[j, column] += tables[p.cur_at + AXES + (column if size == 3 else 2 * column)]
 
 
 @kernel
@@ -32,9 +32,7 @@ def current_field(p, tables, t, X, F):
     at_t = at_z + nz
     at_u = at_t + nt
     if nx * ny * nz * nt == 1:
-        for j in range(n):
-            for column in range(size):
-                F[j, column] += tables[at_u + (column if size == 3 else 2 * column)]
+        uniform_current(p, tables, t, X, F)
         return
     it, ft, inverse = bracket(tables, at_t, nt, t)
     for j in range(n):

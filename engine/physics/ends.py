@@ -25,9 +25,10 @@ import math
 import numpy as np
 
 from ..compiled import by_kind, kernel
-from ..record import FREE, HARMONIC, HELD, TABLE
+from ..record import BUOY, FREE, HARMONIC, TABLE
 from ..simd.elementary import bracket, smooth_start
 from ..simd.select import where
+from ..spatial.vectors import dot, minus, mixed, plus, vector
 
 
 def table_of(time_s: np.ndarray, displacement_m: np.ndarray) -> np.ndarray:
@@ -55,22 +56,19 @@ def end_velocity(p, tables, t):
         gain, gain_rate = smooth_start(t, tables[at + 5])
         sine, cosine = math.sin(angle), math.cos(angle)
         rate, rate_of_cosine = gain_rate * sine + gain * omega * cosine, gain_rate * cosine - gain * omega * sine
-        return (
-            tables[at] * rate + tables[at + 6] * rate_of_cosine,
-            tables[at + 1] * rate + tables[at + 7] * rate_of_cosine,
-            tables[at + 2] * rate + tables[at + 8] * rate_of_cosine,
-        )
+        return mixed(rate, vector(tables, at), rate_of_cosine, vector(tables, at + 6))
     if p.end_motion == TABLE:
         piece, part, inverse = bracket(tables, at, p.end_n, t)
         if inverse > 0.0:
             d = part / inverse
             c = at + p.end_n + 9 * piece
-            return (
-                tables[c] + d * (tables[c + 1] + d * tables[c + 2]),
-                tables[c + 3] + d * (tables[c + 4] + d * tables[c + 5]),
-                tables[c + 6] + d * (tables[c + 7] + d * tables[c + 8]),
-            )
+            return _parabola(d, tables, c), _parabola(d, tables, c + 3), _parabola(d, tables, c + 6)
     return 0.0, 0.0, 0.0
+
+
+@kernel
+def _parabola(d, tables, at):
+    return tables[at] + d * (tables[at + 1] + d * tables[at + 2])
 
 
 @kernel
@@ -115,37 +113,45 @@ def force_left(p, t):
 
 
 @kernel
-def upper_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
-    """Residual and derivatives of the upper end in a plane, at time t (s).
-
-    F : (4,) water velocity and acceleration there.
-    Returns ex, ez, e_N, Dxx, Dxz, Dzz.
-    """
-    if p.end == HELD:
-        if in_motion == 0.0:
-            return U - p.end_x, W - p.end_z, 0.0, 1.0, 0.0, 1.0
-        if released(p, t):
-            return Nx - p.end_fx, Nz - p.end_fz, 1.0, 0.0, 0.0, 0.0
-        vx, _, vz = end_velocity(p, tables, t)
-        return U - vx, W - vz, 0.0, 1.0, 0.0, 1.0
+def _given_end(p, tables, stage, end, force):
+    """e_N of a held or free end, 1 where its force is given and 0 where its velocity is; the share of it that is left;
+    and the force (N) or velocity (m/s), (x, y, z). end, force: end_x ... and end_fx ... of the record."""
     if p.end == FREE:
-        share = force_left(p, t)
-        return Nx - share * p.end_x, Nz - share * p.end_z, 1.0, 0.0, 0.0, 0.0
-    return _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F)
+        return 1.0, force_left(p, stage.t), end
+    if stage.in_motion == 0.0:
+        return 0.0, 1.0, end
+    if released(p, stage.t):
+        return 1.0, 1.0, force
+    return 0.0, 1.0, end_velocity(p, tables, stage.t)
 
 
 @kernel
-def _buoy_end(p, tables, t, cv, in_motion, Nx, Nz, U, W, U_tilde, W_tilde, F):
+def upper_end(p, tables, stage, N, V, V_tilde, F):
+    """Residual and derivatives of the upper end in a plane.
+
+    stage: Stage; N (N), V, V_tilde (m/s): (x, z);  F : (4,) water velocity and acceleration there.
+    Returns ex, ez, e_N, Dxx, Dxz, Dzz.
+    """
+    if p.end != BUOY:
+        end, force = (p.end_x, 0.0, p.end_z), (p.end_fx, 0.0, p.end_fz)
+        eN, share, given = _given_end(p, tables, stage, end, force)
+        own = N if eN > 0.0 else V
+        return own[0] - share * given[0], own[1] - share * given[2], eN, 1.0 - eN, 0.0, 1.0 - eN
+    return _buoy_end(p, tables, stage, N, V, V_tilde, F)
+
+
+@kernel
+def _buoy_end(p, tables, stage, N, V, V_tilde, F):
     """As `upper_end` for a buoy, eq. (30): the one end that runs of one batch may have (`engine.simd`)."""
-    mass = p.M_total
-    ex = Nx + mass * cv * (U - U_tilde)
-    ez = Nz + mass * cv * (W - W_tilde) - p.lift
-    Dxx = mass * cv
+    in_motion = stage.in_motion
+    inertia = p.M_total * stage.cv
+    ex = N[0] + inertia * (V[0] - V_tilde[0])
+    ez = N[1] + inertia * (V[1] - V_tilde[1]) - p.lift
+    Dxx = Dzz = inertia
     Dxz = 0.0
-    Dzz = Dxx
     if p.wet:
-        u = in_motion * U - F[0]
-        w = in_motion * W - F[1]
+        u = in_motion * V[0] - F[0]
+        w = in_motion * V[1] - F[1]
         speed = math.sqrt(u * u + w * w)
         ex += p.C_buoy * speed * u - p.M_wave * F[2]
         ez += p.C_buoy * speed * w - p.M_wave * F[3]
@@ -160,40 +166,31 @@ planar_end = by_kind(upper_end, upper_end, _buoy_end)
 
 
 @kernel
-def upper_end_3d(p, tables, t, cv, in_motion, N, V, V_tilde, F):
-    """Residual and derivatives of the upper end in space, at time t (s).
+def upper_end_3d(p, tables, stage, N, V, V_tilde, F):
+    """As `upper_end` in space: N, V, V_tilde (x, y, z);  F : (6,).
 
-    N (N), V, V_tilde (m/s): (x, y, z);  F : (6,) water velocity and acceleration there.
     Returns (ex, ey, ez), e_N, (Dxx, Dxy, Dxz, Dyy, Dyz, Dzz).
     """
-    free, fixed = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
-    if p.end == HELD:
-        if in_motion == 0.0:
-            return (V[0] - p.end_x, V[1] - p.end_y, V[2] - p.end_z), 0.0, fixed
-        if released(p, t):
-            return (N[0] - p.end_fx, N[1] - p.end_fy, N[2] - p.end_fz), 1.0, free
-        vx, vy, vz = end_velocity(p, tables, t)
-        return (V[0] - vx, V[1] - vy, V[2] - vz), 0.0, fixed
-    if p.end == FREE:
-        share = force_left(p, t)
-        return (N[0] - share * p.end_x, N[1] - share * p.end_y, N[2] - share * p.end_z), 1.0, free
-    inertia = p.M_total * cv
-    ex = N[0] + inertia * (V[0] - V_tilde[0])
-    ey = N[1] + inertia * (V[1] - V_tilde[1])
-    ez = N[2] + inertia * (V[2] - V_tilde[2]) - p.lift
+    if p.end != BUOY:
+        end, force = (p.end_x, p.end_y, p.end_z), (p.end_fx, p.end_fy, p.end_fz)
+        eN, share, given = _given_end(p, tables, stage, end, force)
+        own = N if eN > 0.0 else V
+        return mixed(-share, given, 1.0, own), eN, (1.0 - eN, 0.0, 0.0, 1.0 - eN, 0.0, 1.0 - eN)
+    inertia = p.M_total * stage.cv
+    ex, ey, ez = mixed(inertia, minus(V, V_tilde), 1.0, N)
+    e = ex, ey, ez - p.lift
     Dxx = Dyy = Dzz = inertia
     Dxy = Dxz = Dyz = 0.0
     if p.wet:
-        u, v, w = in_motion * V[0] - F[0], in_motion * V[1] - F[1], in_motion * V[2] - F[2]
-        speed = math.sqrt(u * u + v * v + w * w)
-        ex += p.C_buoy * speed * u - p.M_wave * F[3]
-        ey += p.C_buoy * speed * v - p.M_wave * F[4]
-        ez += p.C_buoy * speed * w - p.M_wave * F[5]
+        slip = mixed(stage.in_motion, V, -1.0, vector(F, 0))
+        speed = math.sqrt(dot(slip, slip))
+        e = plus(e, mixed(p.C_buoy * speed, slip, -p.M_wave, vector(F, 3)))
         if speed > 0.0:
-            factor = in_motion * p.C_buoy
+            u, v, w = slip
+            factor = stage.in_motion * p.C_buoy
             over_speed = factor / speed
             Dxx += factor * speed + over_speed * u * u
             Dyy += factor * speed + over_speed * v * v
             Dzz += factor * speed + over_speed * w * w
             Dxy, Dxz, Dyz = over_speed * u * v, over_speed * u * w, over_speed * v * w
-    return (ex, ey, ez), 1.0, (Dxx, Dxy, Dxz, Dyy, Dyz, Dzz)
+    return e, 1.0, (Dxx, Dxy, Dxz, Dyy, Dyz, Dzz)

@@ -19,7 +19,7 @@ Vectors have three components; a plane has y = 0.
 """
 
 from ..compiled import kernel
-from ..spatial.vectors import dot, mixed
+from ..spatial.vectors import dot, mixed, plus_diagonal, sum_of
 from .submergence import surface
 
 ZERO = (0.0, 0.0, 0.0)
@@ -33,12 +33,6 @@ def outer(a, u, v):
         (a * u[1] * v[0], a * u[1] * v[1], a * u[1] * v[2]),
         (a * u[2] * v[0], a * u[2] * v[1], a * u[2] * v[2]),
     )
-
-
-@kernel
-def sum_of(A, B):
-    """A + B, of three rows each."""
-    return mixed(1.0, A[0], 1.0, B[0]), mixed(1.0, A[1], 1.0, B[1]), mixed(1.0, A[2], 1.0, B[2])
 
 
 @kernel
@@ -77,12 +71,7 @@ def surface_load(p, in_motion, ahead, wet, v, tangent, fluid):
     slam = p.ma * ds
     load = mixed(share - 1.0, lost, slam, impact)
     gain = slam * sinking * in_motion
-    by_v = sum_of(outer(slam * in_motion, n, vp), outer(-gain, tangent, tangent))
-    by_v = (
-        (by_v[0][0] + gain, by_v[0][1], by_v[0][2]),
-        (by_v[1][0], by_v[1][1] + gain, by_v[1][2]),
-        (by_v[2][0], by_v[2][1], by_v[2][2] + gain),
-    )
+    by_v = plus_diagonal(sum_of(outer(slam * in_motion, n, vp), outer(-gain, tangent, tangent)), gain)
     of_place = outer(-1.0, mixed(ds, lost, p.ma * bend, impact), n)
     of_place = sum_of(of_place, outer(slam, mixed(faster, vp, half * turning, ahead), ahead))
     return load, by_v, outer(-slam * in_motion, vp, n), of_place

@@ -57,13 +57,11 @@ def components(
 
     sum A^2/2 = H_s^2/16 to rounding.
     """
-    rng = np.random.default_rng(seed)
     edges = np.linspace(LOWEST, HIGHEST, count + 1)
-    ratio = edges[:-1] + (edges[1:] - edges[:-1]) * rng.random(count)
     inner = edges[:-1, None] + np.diff(edges)[:, None] * np.linspace(0.0, 1.0, _POINTS + 1)
     energy = np.trapezoid(_shape(inner, gamma), inner, axis=1)
-    amplitude = np.sqrt(2.0 * energy / energy.sum() * significant_height_m**2 / 16.0)
-    return peak_period_s / ratio, amplitude, 2.0 * np.pi * rng.random(count)
+    ratio, amplitude, phase = _drawn(edges, energy / energy.sum(), significant_height_m, seed)
+    return peak_period_s / ratio, amplitude, phase
 
 
 def gaussian(
@@ -76,13 +74,18 @@ def gaussian(
     if width == 0.0:
         amplitude = significant_height_m / math.sqrt(8.0)
         return np.array([peak_period_s]), np.array([amplitude]), np.zeros(1)
-    rng = np.random.default_rng(seed)
     edges = np.linspace(-REACH, REACH, count + 1)
-    place = edges[:-1] + np.diff(edges) * rng.random(count)
     below = np.array([math.erf(edge / math.sqrt(2.0)) for edge in edges])
-    energy = np.diff(below) / (below[-1] - below[0])
+    place, amplitude, phase = _drawn(edges, np.diff(below) / (below[-1] - below[0]), significant_height_m, seed)
+    return peak_period_s / (1.0 + width * place), amplitude, phase
+
+
+def _drawn(edges, energy, significant_height_m, seed):
+    """A place between every two edges, the amplitude (m) there and a phase (rad); energy: shares of the parts."""
+    rng = np.random.default_rng(seed)
+    place = edges[:-1] + np.diff(edges) * rng.random(len(energy))
     amplitude = np.sqrt(2.0 * energy * significant_height_m**2 / 16.0)
-    return peak_period_s / (1.0 + width * place), amplitude, 2.0 * np.pi * rng.random(count)
+    return place, amplitude, 2.0 * np.pi * rng.random(len(energy))
 
 
 def _shape(ratio, gamma):
@@ -92,11 +95,15 @@ def _shape(ratio, gamma):
     return ratio**-5.0 * np.exp(-1.25 * ratio**-4.0) * gamma**peak
 
 
+def _wave_number_in(scene, period_s):
+    return wave_number(period_s, scene.water.depth_m, scene.gravity_mps2)
+
+
 def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
     """The waves of a scene, one or many: periods (s), amplitudes (m), phases and directions (rad), each (n,)."""
     waves = scene.waves
     if not waves.irregular:
-        k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
+        k = _wave_number_in(scene, waves.period_s)
         amplitude = waves.amplitude_m if waves.steepness is None else waves.steepness / k
         return tuple(
             np.array([component]) for component in (waves.period_s, amplitude, waves.phase_rad, waves.direction_rad)
@@ -106,13 +113,12 @@ def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
         drawn = components(sea.significant_height_m, waves.period_s, sea.peak_enhancement, sea.components, sea.seed)
         return (*drawn, np.full(sea.components, waves.direction_rad))
     if waves.significant_steepness is not None:
-        k = wave_number(waves.period_s, scene.water.depth_m, scene.gravity_mps2)
-        height_m = 2.0 * waves.significant_steepness / k
+        height_m = 2.0 * waves.significant_steepness / _wave_number_in(scene, waves.period_s)
         drawn = gaussian(height_m, waves.period_s, waves.relative_width, waves.component_count, waves.seed)
         return (*drawn, np.full(len(drawn[0]), waves.direction_rad))
     if waves.record is not None:
         periods, amplitudes, phases = np.array([(w.period_s, w.amplitude_m, w.phase_rad) for w in waves.components]).T
-        k = np.array([wave_number(period, scene.water.depth_m, scene.gravity_mps2) for period in periods])
+        k = np.array([_wave_number_in(scene, period) for period in periods])
         return periods, amplitudes, phases - k * waves.record_x_m, np.zeros(len(periods))
     listed = [(wave.period_s, wave.amplitude_m, wave.phase_rad, wave.direction_rad) for wave in waves.components]
     return tuple(np.array(listed).T)
@@ -146,7 +152,7 @@ def rows_of(scene: Scene) -> np.ndarray:
     """k, omega, phase, cos a, sin a, A omega/(1 - exp(-2 k H)) and A of every wave of a scene: (n, 7)."""
     depth, rows = scene.water.depth_m, []
     for period, amplitude, phase, angle in zip(*components_of(scene), strict=True):
-        k, omega = wave_number(period, depth, scene.gravity_mps2), 2.0 * math.pi / period
+        k, omega = _wave_number_in(scene, period), 2.0 * math.pi / period
         speed = amplitude * omega / (1.0 - math.exp(-2.0 * k * depth))
         rows.append((k, omega, phase, *direction_of(angle), speed, amplitude))
     return np.array(rows)

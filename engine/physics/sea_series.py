@@ -29,12 +29,13 @@ import numpy as np
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
 from ..scene.models import Scene
-from ..simd.access import in_lane, lane_of, read_vector, total, vector_at, write_vector
+from ..simd.access import in_lane, lane_count, lane_of, read_vector, total, write_vector
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, where
 from ..simd.vector import COUNT
-from .sea import AMPLITUDE, OMEGA, PHASE, ROW, SPEED, K, rows_of
-from .sea_sum import TAKEN, TIME, division_of, exponential, phase_at, raised, stretching, turned
+from .sea import AMPLITUDE, OMEGA, K, rows_of
+from .sea_sum import TAKEN, TIME, division_of, exponential, phase_at, raised, stretching, turned, waves_of
+from .waves import put_slopes
 
 ORDER = 3
 TERMS = (ORDER + 1) * (ORDER + 2) // 2  # S_mn of one function, ordered by m, then n
@@ -135,13 +136,13 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
     # of each group: k, amplitude, speed and phase at x = 0; sine, cosine, exponential up and down; what is summed
     waves, running, parts = np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
     for group in range(groups):
-        row, place = at + ROW * COUNT * group, 4 * COUNT * group
-        k, omega = vector_at(tables, row + COUNT * K), vector_at(tables, row + COUNT * OMEGA)
+        k, omega, phase, _, _, speed, amplitude = waves_of(tables, at, group)
         weights_of(k, omega, weights, group * TERMS * COUNT)
+        place = 4 * COUNT * group
         write_vector(waves, place, k)
-        write_vector(waves, place + COUNT, vector_at(tables, row + COUNT * AMPLITUDE))
-        write_vector(waves, place + 2 * COUNT, vector_at(tables, row + COUNT * SPEED))
-        write_vector(waves, place + 3 * COUNT, phase_at(omega, vector_at(tables, row + COUNT * PHASE), t))
+        write_vector(waves, place + COUNT, amplitude)
+        write_vector(waves, place + 2 * COUNT, speed)
+        write_vector(waves, place + 3 * COUNT, phase_at(omega, phase, t))
     for j in range(n - 1, -1, -1):
         x, top = X[j, 0], j == n - 1
         dx = 0.0 if top else x - X[j + 1, 0]
@@ -215,24 +216,15 @@ def due(p, t, X, sea):
 
 @kernel
 def sea_in_plane(p, tables, t, X, F, J, sea):
-    """Water velocity and local acceleration at the nodes in a plane, added into F.
+    """Water velocity and local acceleration at the nodes in a plane, added into F. A lane takes its own sums, when it
+    needs them.
 
     X (n, 2) x, z (m); F (n, 4), velocity (m/s), then its local rate (m/s2); J (n, 8): filled with dF/dx (4) and dF/dz
     (4), or None; sea (n + 1, WIDTH): of Work.
     """
     put_heights(p, t, X, sea)
-    if due(p, t, X, sea):
-        take_series(tables, p.sea_at, p.sea_n, p.above == WHEELER, p.depth, p.ramp, t, X, sea)
-        put_heights(p, t, X, sea)
-    _add_series(p, t, X, F, J, sea)
-
-
-@kernel
-def sea_in_lanes(p, tables, t, X, F, J, sea):
-    """As `sea_in_plane` for several runs: each lane that needs them takes its own sums."""
-    put_heights(p, t, X, sea)
     needed, taken = due(p, t, X, sea), False
-    for b in range(COUNT):
+    for b in range(lane_count(t)):
         if lane_of(needed, b):
             taken = True
             depth, ramp = lane_of(p.depth, b), lane_of(p.ramp, b)
@@ -267,7 +259,6 @@ def _add_series(p, t, X, F, J, sea):
         F[j, 2] += gain * (wet * (upper_rate[0] + lower_rate[0])) + gain_rate * U
         F[j, 3] += gain * (wet * (upper_rate[1] - lower_rate[1])) + gain_rate * W
         if J is not None:
-            # by harmonic functions, as in `waves.wave_slopes`
             full_x, full_z = -wet * (upper_slope[1] + lower_slope[1]), wet * (upper_slope[0] - lower_slope[0])
             U_x, U_z = gain * full_x, gain * full_z
             A_x = gain * (-wet * (upper_rising[1] + lower_rising[1])) + gain_rate * full_x
@@ -278,7 +269,4 @@ def _add_series(p, t, X, F, J, sea):
                 stretch = stretching(p.depth, gain * surface[0])
                 by_x = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * (gain * slope[1])
                 by_z = by_z * stretch
-            J[j, 0], J[j, 4] = U_x + by_x * U_z, by_z * U_z
-            J[j, 1], J[j, 5] = U_z - by_x * U_x, -by_z * U_x
-            J[j, 2], J[j, 6] = A_x + by_x * A_z, by_z * A_z
-            J[j, 3], J[j, 7] = A_z - by_x * A_x, -by_z * A_x
+            put_slopes(J[j], by_x, by_z, (U_x, U_z), (A_x, A_z))

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
-from ..simd.access import power_of_two, read_vector, total, vector_at, write_vector
+from ..simd.access import lane_of, power_of_two, read_vector, total, vector_at, write_vector
 from ..simd.elementary import PIO2_A, PIO2_B, PIO2_C, TWO_OVER_PI, sincos, smooth_start
 from ..simd.select import larger, smaller
 from ..simd.vector import COUNT
@@ -67,16 +67,26 @@ def phase_at(omega, phase, t):
 
 
 @kernel
-def surface_sums(tables, at, groups, t, x, y):
-    """The full-grown surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t,
-    and the slopes of it by x, y."""
+def waves_of(tables, at, group):
+    """The rows of a group of waves (`engine.physics.sea`), a vector each."""
+    first = at + ROW * COUNT * group
+    return (
+        vector_at(tables, first + COUNT * K), vector_at(tables, first + COUNT * OMEGA),
+        vector_at(tables, first + COUNT * PHASE), vector_at(tables, first + COUNT * COSINE),
+        vector_at(tables, first + COUNT * SINE), vector_at(tables, first + COUNT * SPEED),
+        vector_at(tables, first + COUNT * AMPLITUDE),
+    )  # fmt: skip
+
+
+@kernel
+def surface_of_sea(tables, at, groups, ramp, t, x, y):
+    """The surface of a sea at x, y (m): eta; its slopes by x, y; second derivatives by xx, xy, yy; eta_t, and the
+    slopes of it by x, y. ramp (s): of the waves."""
     eta = eta_x = eta_y = eta_xx = eta_xy = eta_yy = rate = rate_x = rate_y = 0.0 * vector_at(tables, at)
     for group in range(groups):
-        row = at + ROW * COUNT * group
-        k, omega = vector_at(tables, row + COUNT * K), vector_at(tables, row + COUNT * OMEGA)
-        kx, ky = k * vector_at(tables, row + COUNT * COSINE), k * vector_at(tables, row + COUNT * SINE)
-        high = vector_at(tables, row + COUNT * AMPLITUDE)
-        s, c = sincos(kx * x + (ky * y + phase_at(omega, vector_at(tables, row + COUNT * PHASE), t)))
+        k, omega, phase, cosine, sine, _, high = waves_of(tables, at, group)
+        kx, ky = k * cosine, k * sine
+        s, c = sincos(kx * x + (ky * y + phase_at(omega, phase, t)))
         up, along = high * c, high * s
         eta += up
         eta_x -= kx * along
@@ -89,20 +99,22 @@ def surface_sums(tables, at, groups, t, x, y):
         up_rate = omega * up
         rate_x += kx * up_rate
         rate_y += ky * up_rate
+    gain, gain_rate = smooth_start(t, ramp)
+    height, slope_x, slope_y = total(eta), total(eta_x), total(eta_y)
     return (
-        total(eta), total(eta_x), total(eta_y), total(eta_xx), total(eta_xy), total(eta_yy),
-        total(rate), total(rate_x), total(rate_y),
+        gain * height, gain * slope_x, gain * slope_y, gain * total(eta_xx), gain * total(eta_xy), gain * total(eta_yy),
+        gain * total(rate) + gain_rate * height,
+        gain * total(rate_x) + gain_rate * slope_x, gain * total(rate_y) + gain_rate * slope_y,
     )  # fmt: skip
 
 
 @kernel
 def heights(p, tables, t, X, Z):
     """Heights (m) at which the field is taken for the places X (n, 3), into Z (n,)."""
-    gain = smooth_start(t, p.ramp)[0]
     for j in range(X.shape[0]):
         Z[j] = max(X[j, 2], 0.0)
         if p.above == WHEELER:
-            eta = gain * surface_sums(tables, p.sea_at, p.sea_n, t, X[j, 0], X[j, 1])[0]
+            eta = surface_of_sea(tables, p.sea_at, p.sea_n, p.ramp, t, X[j, 0], X[j, 1])[0]
             Z[j] *= stretching(p.depth, eta)
 
 
@@ -132,13 +144,9 @@ def field_sums(tables, at, groups, depth, t, X, Z, sums):
     step = 1.4142135623730951 * longest_step(X, Z)
     room = np.zeros(n * width * COUNT)
     for group in range(groups):
-        row = at + ROW * COUNT * group
-        k, omega = vector_at(tables, row + COUNT * K), vector_at(tables, row + COUNT * OMEGA)
-        cosine, sine = vector_at(tables, row + COUNT * COSINE), vector_at(tables, row + COUNT * SINE)
-        speed = vector_at(tables, row + COUNT * SPEED)
-        begun = phase_at(omega, vector_at(tables, row + COUNT * PHASE), t)
-        shortest = tables[row + COUNT * K + COUNT - 1]
-        anew, squarings, share = division_of(shortest, step, depth)
+        k, omega, phase, cosine, sine, speed, _ = waves_of(tables, at, group)
+        begun = phase_at(omega, phase, t)
+        anew, squarings, share = division_of(lane_of(k, COUNT - 1), step, depth)
         k_step = share * k
         up, down, s, c = speed, speed, speed, speed
         for j in range(n - 1, -1, -1):

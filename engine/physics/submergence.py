@@ -23,14 +23,14 @@ Derivatives hold the water still at the buoy, but not its surface: the buoy's pl
 
 import math
 
+from ..arrays import Stage
 from ..compiled import by_kind, kernel
 from ..planar import columns as col
-from ..simd.access import in_lane, lane_of, with_lane
+from ..simd.access import in_lane, lane_count, lane_of, with_lane
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, smaller, where
-from ..simd.vector import COUNT
-from ..spatial.vectors import dot, mixed
-from .sea_sum import surface_sums
+from ..spatial.vectors import dot, minus, mixed, multiple, pair, plus, plus_diagonal, vector
+from .sea_sum import surface_of_sea
 
 
 @kernel
@@ -50,43 +50,19 @@ def surface(p, t, in_motion, distance):
 
 
 @kernel
-def _of_regular(p, tables, t, in_motion, x):
+def surface_at(p, tables, t, in_motion, x):
     """The surface at x (m) in a plane: eta, eta_x, eta_xx, eta_t, eta_tx; zeros in statics."""
-    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
-    return eta, p.direction * slope, curve, rate, p.direction * rate_slope
-
-
-@kernel
-def _grown(p, t, sums):
-    """The surface under its ramp, from `surface_sums` of full-grown waves in a plane."""
-    eta, slope, curve, rate, rate_slope = sums
-    gain, gain_rate = smooth_start(t, p.ramp)
-    rate, rate_slope = gain * rate + gain_rate * eta, gain * rate_slope + gain_rate * slope
-    return gain * eta, gain * slope, gain * curve, rate, rate_slope
-
-
-@kernel
-def _in_plane(p, tables, t, in_motion, x):
     if p.sea_n == 0:
-        return _of_regular(p, tables, t, in_motion, x)
-    if in_motion == 0.0 or not p.waves:
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    eta, slope, _, curve, _, _, rate, rate_slope, _ = surface_sums(tables, p.sea_at, p.sea_n, t, x, 0.0)
-    return _grown(p, t, (eta, slope, curve, rate, rate_slope))
-
-
-@kernel
-def _in_lanes(p, tables, t, in_motion, x):
-    """As `_in_plane`, lane by lane in a sea."""
-    if p.sea_n == 0:
-        return _of_regular(p, tables, t, in_motion, x)
+        eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
+        return eta, p.direction * slope, curve, rate, p.direction * rate_slope
     eta = slope = curve = rate = rate_slope = where(x > x, x, 0.0)
     if p.waves and in_motion > 0.0:
-        for b in range(COUNT):
-            sums = surface_sums(in_lane(tables, b), p.sea_at, p.sea_n, lane_of(t, b), lane_of(x, b), 0.0)
-            eta, slope, curve = with_lane(eta, b, sums[0]), with_lane(slope, b, sums[1]), with_lane(curve, b, sums[3])
-            rate, rate_slope = with_lane(rate, b, sums[6]), with_lane(rate_slope, b, sums[7])
-    return _grown(p, t, (eta, slope, curve, rate, rate_slope))
+        for b in range(lane_count(x)):
+            own, ramp = in_lane(tables, b), lane_of(p.ramp, b)
+            sea = surface_of_sea(own, p.sea_at, p.sea_n, ramp, lane_of(t, b), lane_of(x, b), 0.0)
+            eta, slope, curve = with_lane(eta, b, sea[0]), with_lane(slope, b, sea[1]), with_lane(curve, b, sea[3])
+            rate, rate_slope = with_lane(rate, b, sea[6]), with_lane(rate_slope, b, sea[7])
+    return eta, slope, curve, rate, rate_slope
 
 
 @kernel
@@ -100,13 +76,7 @@ def surface_in_space(p, tables, t, in_motion, x, y):
         return eta, slope * ax, slope * ay, along * ax, along * ay, across * ay, rate, rate_x, rate_y
     if in_motion == 0.0 or not p.waves:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    eta, gx, gy, xx, xy, yy, rate, rate_x, rate_y = surface_sums(tables, p.sea_at, p.sea_n, t, x, y)
-    gain, gain_rate = smooth_start(t, p.ramp)
-    rate, rate_x, rate_y = gain * rate + gain_rate * eta, gain * rate_x + gain_rate * gx, gain * rate_y + gain_rate * gy
-    return gain * eta, gain * gx, gain * gy, gain * xx, gain * xy, gain * yy, rate, rate_x, rate_y
-
-
-surface_at = by_kind(_in_plane, _in_plane, _in_lanes)  # in a plane: eta, eta_x, eta_xx, eta_t, eta_tx
+    return surface_of_sea(tables, p.sea_at, p.sea_n, p.ramp, t, x, y)
 
 
 @kernel
@@ -128,27 +98,35 @@ def wetted(p, h):
 
 
 @kernel
-def cap_end(p, tables, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, F):
-    """What the cap adds to `engine.physics.ends.upper_end` of a buoy at x, z (m), and to its derivatives.
+def _passage(p, tables, t, in_motion, X, V, F):
+    """Where a buoy at X = (x, z) meets the surface: -eta_x, eta_xx and eta_tx; `wetted`; v, |v|^2; h_t."""
+    eta, slope, curve, rate, rate_slope = surface_at(p, tables, t, in_motion, X[0])
+    shares = wetted(p, p.depth + eta - X[1] + 0.5 * p.D_buoy)
+    u, w = in_motion * V[0] - F[0], in_motion * V[1] - F[1]
+    sinking = in_motion * (rate + slope * V[0] - V[1])
+    return (-slope, curve, rate_slope), shares, (u, w), u * u + w * w, sinking
 
-    F (4,): water velocity and acceleration there. Returns ex, ez, Dxx, Dxz, Dzx, Dzz.
+
+@kernel
+def cap_end(p, tables, stage, X, V, V_tilde, F):
+    """What the cap adds to `engine.physics.ends.upper_end` of a buoy at X = (x, z), m, and to its derivatives.
+
+    Other arguments as there. Returns ex, ez, Dxx, Dxz, Dzx, Dzz.
     """
-    ax, az = cv * (U - U_tilde), cv * (W - W_tilde)
-    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, tables, t, cv, in_motion, x, z, U, W, ax, az, F)
-    over = 1.0 / cq
+    cv, over = stage.cv, 1.0 / stage.cq
+    A = cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1])
+    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, tables, stage, X, V, A, F)
     return ex, ez, Dxx + over * Gxx, Dxz + over * Gxz, Dzx + over * Gzx, Dzz + over * Gzz
 
 
 @kernel
-def _loads(p, tables, t, cv, in_motion, x, z, U, W, ax, az, F):
+def _loads(p, tables, stage, X, V, A, F):
     """Loads of the cap less those of the sphere, their derivatives D by the velocity and G by the place."""
-    eta, slope, curve, rate, rate_slope = surface_at(p, tables, t, in_motion, x)
-    dry, ds, bend, bare, da = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
-    nx = -slope
-    u, w = in_motion * U - F[0], in_motion * W - F[1]
-    square = u * u + w * w
-    speed = math.sqrt(square)
-    sinking = in_motion * (rate - nx * U - W)
+    t, in_motion, _, cv = stage
+    met, shares, (u, w), square, sinking = _passage(p, tables, t, in_motion, X, V, F)
+    nx, curve, rate_slope = met
+    dry, ds, bend, bare, da = shares
+    speed, (ax, az) = math.sqrt(square), A
     entering = p.impact_loss * larger(sinking, 0.0)
     push = 0.5 * (square - entering * larger(sinking, 0.0))
     impact_x, impact_z = sinking * u + push * nx, sinking * w + push
@@ -165,7 +143,7 @@ def _loads(p, tables, t, cv, in_motion, x, z, U, W, ax, az, F):
     added_bend = p.M_added * bend
     gx = added_bend * impact_x + ds * (p.M_added * ax - p.M_wave * F[2]) + p.C_buoy * da * speed * u
     gz = added_bend * impact_z + ds * (p.M_added * az - p.M_wave * F[3] - p.B_whole) + p.C_buoy * da * speed * w
-    turned = curve * U
+    turned = curve * V[0]
     faster = in_motion * slam * (rate_slope + turned)
     Gxx = faster * (u - entering * nx) - slam * push * curve - gx * nx
     return (
@@ -182,16 +160,13 @@ def cap_change(p, tables, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
     X (2,), Y (6,), K (4,): place, state and rates of the last node; dV_tilde, dX_tilde: what the perturbation of C~
     makes of velocity and place there; dF (4,): of the water.
     """
-    x, z, U, W = X[0], X[1], Y[col.VX], Y[col.VZ]
-    G = _loads(p, tables, t, cv, 1.0, x, z, U, W, K[col.VX], K[col.VZ], F)
-    eta, slope, _, rate, _ = surface_at(p, tables, t, 1.0, x)
-    dry, ds, _, bare, _ = wetted(p, p.depth + eta - z + 0.5 * p.D_buoy)
-    nx = -slope
-    u, w = U - F[0], W - F[1]
-    speed = math.sqrt(u * u + w * w)
+    V, A = pair(Y, col.VX), pair(K, col.VX)
+    G = _loads(p, tables, Stage(t, 1.0, cv, cv), X, V, A, F)
+    met, shares, (u, w), square, sinking = _passage(p, tables, t, 1.0, X, V, F)
+    nx, dry, ds, bare = met[0], shares[0], shares[1], shares[3]
+    speed = math.sqrt(square)
     product = u * dF[0] + w * dF[1]
     slip_change = product / where(speed > 0.0, speed, 1.0)
-    sinking = rate - nx * U - W
     slam, drag, inertia = p.M_added * ds, p.C_buoy * bare, p.M_added * dry * cv
     known_x = G[6] * dX_tilde[0] + G[7] * dX_tilde[1] + inertia * dV_tilde[0] + p.M_wave * dry * dF[2]
     known_z = G[8] * dX_tilde[0] + G[9] * dX_tilde[1] + inertia * dV_tilde[1] + p.M_wave * dry * dF[3]
@@ -203,24 +178,20 @@ def cap_change(p, tables, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
 @kernel
 def cap_across(p, tables, t, cv, X, Y, F, V_tilde):
     """What the cap adds to the lateral condition of a buoy: factor of V_y, and the known part."""
-    eta, slope, _, rate, _ = surface_at(p, tables, t, 1.0, X[0])
-    dry, ds, _, bare, _ = wetted(p, p.depth + eta - X[1] + 0.5 * p.D_buoy)
-    u, w = Y[col.VX] - F[col.UX], Y[col.VZ] - F[col.UZ]
+    _, (dry, ds, _, bare, _), _, square, sinking = _passage(p, tables, t, 1.0, X, pair(Y, col.VX), F)
     inertia = p.M_added * dry * cv
-    sinking = rate + slope * Y[col.VX] - Y[col.VZ]
-    of_V = p.M_added * ds * sinking - inertia - p.C_buoy * bare * math.sqrt(u * u + w * w)
+    of_V = p.M_added * ds * sinking - inertia - p.C_buoy * bare * math.sqrt(square)
     return of_V, inertia * V_tilde
 
 
 @kernel
-def cap_end_3d(p, tables, t, cq, cv, in_motion, X, V, V_tilde, F):
+def cap_end_3d(p, tables, stage, X, V, V_tilde, F):
     """As `cap_end` in space: X, V, V_tilde (x, y, z), F (6,). Returns e, and the three rows of D."""
+    t, in_motion, cq, cv = stage
     eta, eta_x, eta_y, xx, xy, yy, rate, rate_x, rate_y = surface_in_space(p, tables, t, in_motion, X[0], X[1])
     dry, ds, bend, bare, da = wetted(p, p.depth + eta - X[2] + 0.5 * p.D_buoy)
     n, curves_x, curves_y = (-eta_x, -eta_y, 1.0), (xx, xy, 0.0), (xy, yy, 0.0)
-    A = (cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1]), cv * (V[2] - V_tilde[2]))
-    v = (in_motion * V[0] - F[0], in_motion * V[1] - F[1], in_motion * V[2] - F[2])
-    water = (F[3], F[4], F[5])
+    A, v, water = multiple(cv, minus(V, V_tilde)), mixed(in_motion, V, -1.0, vector(F, 0)), vector(F, 3)
     square = dot(v, v)
     speed = math.sqrt(square)
     sinking = in_motion * (rate - dot(n, V))
@@ -229,7 +200,7 @@ def cap_end_3d(p, tables, t, cq, cv, in_motion, X, V, V_tilde, F):
     impact = mixed(sinking, v, push, n)
     slam, drag = p.M_added * ds, p.C_buoy * bare
     e = mixed(slam, impact, -drag * speed, v)
-    e = mixed(1.0, e, 1.0, mixed(p.M_wave * dry, water, -p.M_added * dry, A))
+    e = plus(e, mixed(p.M_wave * dry, water, -p.M_added * dry, A))
     g = mixed(p.M_added * bend, impact, p.C_buoy * da * speed, v)
     g = mixed(1.0, g, ds, mixed(p.M_added, A, -p.M_wave, water))
     g = (g[0], g[1], g[2] - p.B_whole * ds)
@@ -246,10 +217,7 @@ def cap_end_3d(p, tables, t, cq, cv, in_motion, X, V, V_tilde, F):
     x = mixed(1.0, x, over, mixed(met[0], faster, bent, curves_x))
     y = mixed(1.0, y, over, mixed(met[1], faster, bent, curves_y))
     z = mixed(1.0, z, over * met[2], faster)
-    return (
-        (e[0], e[1], e[2] + p.B_whole * dry),
-        ((x[0] + diagonal, x[1], x[2]), (y[0], y[1] + diagonal, y[2]), (z[0], z[1], z[2] + diagonal)),
-    )
+    return (e[0], e[1], e[2] + p.B_whole * dry), plus_diagonal((x, y, z), diagonal)
 
 
 @kernel

@@ -5,11 +5,16 @@ import numpy as np
 from ..compiled import by_kind, kernel
 from ..simd.elementary import copy_into
 from .currents import current_field, uniform_current
-from .sea_series import sea_in_lanes, sea_in_plane
+from .sea_series import sea_in_plane
 from .sea_sum import sea_field
-from .waves import wave_field, wave_field_in_space, wave_slopes
+from .waves import wave_field, wave_slopes
 
 NUDGE = 1e-6  # m
+
+
+@kernel
+def _regular(p, tables, t, X, F, sea):
+    wave_field(p, tables, t, X, F)
 
 
 @kernel
@@ -23,25 +28,12 @@ def _in_plane(p, tables, t, X, F, sea):
 @kernel
 def _in_space(p, tables, t, X, F, sea):
     if p.sea_n == 0:
-        wave_field_in_space(p, tables, t, X, F)
+        wave_field(p, tables, t, X, F)
     else:
         sea_field(p, tables, t, X, F, sea)
 
 
-@kernel
-def _in_lanes(p, tables, t, X, F, sea):
-    if p.sea_n == 0:
-        wave_field(p, tables, t, X, F)
-    else:
-        sea_in_lanes(p, tables, t, X, F, None, sea)
-
-
-@kernel
-def _regular(p, tables, t, X, F, sea):
-    wave_field(p, tables, t, X, F)
-
-
-waves = by_kind(_in_plane, _in_space, _in_lanes, _regular)
+waves = by_kind(_in_plane, _in_space, plain=_regular)
 current = by_kind(current_field, current_field, uniform_current)
 
 
@@ -68,19 +60,27 @@ def water(p, tables, t, in_motion, X, F, sea):
 
 
 @kernel
-def _slopes_in_plane(p, tables, t, X, F, J, sea):
-    """By differences: of a current that is not the same everywhere, and of regular waves over one."""
-    varied = p.current and p.cur_nx * p.cur_nz > 1
+def _slopes_of_regular(p, tables, t, X, F, J, sea):
+    water(p, tables, t, 1.0, X, F, sea)
+    wave_slopes(p, tables, t, X, F, J)
+
+
+@kernel
+def _slopes_over_uniform(p, tables, t, X, F, J, sea):
     if p.sea_n > 0:
         _at_rest(F)
         sea_in_plane(p, tables, t, X, F, J, sea)
         if p.current:
-            current_field(p, tables, t, X, F)
+            current(p, tables, t, X, F)
     else:
-        water(p, tables, t, 1.0, X, F, sea)
-        if not varied:
-            wave_slopes(p, tables, t, X, F, J)
-    if not varied:
+        _slopes_of_regular(p, tables, t, X, F, J, sea)
+
+
+@kernel
+def _slopes_in_plane(p, tables, t, X, F, J, sea):
+    """By differences: of a current that is not the same everywhere, and of regular waves over one."""
+    _slopes_over_uniform(p, tables, t, X, F, J, sea)
+    if p.current == 0 or p.cur_nx * p.cur_nz == 1:
         return
     n = X.shape[0]
     X_moved, there, moved = np.empty((n, 2)), np.zeros((n, 4)), np.empty((n, 4))
@@ -102,23 +102,6 @@ def _slopes_in_plane(p, tables, t, X, F, J, sea):
                 J[k, 4 * axis + m] = slope + (J[k, 4 * axis + m] if p.sea_n > 0 else 0.0)
 
 
-@kernel
-def _slopes_of_regular(p, tables, t, X, F, J, sea):
-    water(p, tables, t, 1.0, X, F, sea)
-    wave_slopes(p, tables, t, X, F, J)
-
-
-@kernel
-def _slopes_in_lanes(p, tables, t, X, F, J, sea):
-    if p.sea_n > 0:
-        _at_rest(F)
-        sea_in_lanes(p, tables, t, X, F, J, sea)
-        if p.current:
-            current(p, tables, t, X, F)
-    else:
-        _slopes_of_regular(p, tables, t, X, F, J, sea)
-
-
 # Water F (n, 4) as `water` gives it in motion, at the nodes of a line in a plane, and how it depends on their places X:
 # J (n, 8), dF/dx (4) and dF/dz (4)
-water_and_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_in_lanes, _slopes_of_regular)
+water_and_slopes = by_kind(_slopes_in_plane, _slopes_in_plane, _slopes_over_uniform, _slopes_of_regular)

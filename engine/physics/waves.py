@@ -13,7 +13,7 @@ what sinks below the bed is given the motion of the water at the bed, because th
 
 import math
 
-from ..compiled import kernel
+from ..compiled import by_kind, kernel
 from ..record import WHEELER, ZERO
 from ..simd.elementary import sincos, small_exponentials, small_sincos, smooth_start
 from ..simd.select import every, larger, where
@@ -48,96 +48,105 @@ def ursell_number(k: float, height_m: float, depth_m: float) -> float:
 
 
 @kernel
-def wave_field(p, tables, t, X, F):
-    """Water velocity and local acceleration at the nodes of a line in a plane, added into F (a sea: `physics.sea`).
+def _ahead_in_plane(p):
+    return p.direction, 0.0
 
-    X : (n, 2) positions x, z (m);  F : (n, 4) U, W (m/s), dU/dt, dW/dt (m/s2)
+
+@kernel
+def _ahead_in_space(p):
+    return p.dir_x, p.dir_y
+
+
+ahead = by_kind(_ahead_in_plane, _ahead_in_space)  # cosine and sine of the direction of the waves
+
+
+@kernel
+def _stretched_in_plane(p, gain, z, crest):
+    return z * p.depth / (p.depth + p.amplitude * gain * crest)
+
+
+@kernel
+def _stretched_in_space(p, gain, z, crest):
+    return z * p.depth / max(p.depth + gain * (p.amplitude * crest), 1e-3 * p.depth)
+
+
+# Wheeler's height: stretched so that the crest is where the still water level was; crest: cosine of the phase there
+stretched = by_kind(_stretched_in_plane, _stretched_in_space)
+
+
+@kernel
+def wave_field(p, tables, t, X, F):
+    """Water velocity and local acceleration at the nodes, added into F (a sea: `physics.sea`).
+
+    X : (n, 2) x, z or (n, 3) x, y, z (m);  F : (n, 4) or (n, 6), velocity (m/s), then its local rate (m/s2)
     """
-    n = X.shape[0]
-    k, kx = p.k, p.k * p.direction  # direction: its cosine, d above
+    n, size = X.shape
+    k, om = p.k, p.omega
+    cosine, sine = ahead(p)
     gain, gain_rate = smooth_start(t, p.ramp)
-    speed = p.amplitude * p.omega / (1.0 - math.exp(-2.0 * k * p.depth))
+    speed = p.amplitude * om / (1.0 - math.exp(-2.0 * k * p.depth))
     u0, u1 = speed * gain, speed * gain_rate  # under the ramp of the waves; their rate
-    om = p.omega
     up, down, s, c = 0.0, 0.0, 0.0, 1.0
-    x_below = z_below = 0.0
+    fresh_s = fresh_c = x_below = z_below = 0.0
     for j in range(n):
-        x, z = X[j, 0], larger(X[j, 1], 0.0)
-        dz, dx = k * (z - z_below), kx * (x - x_below)
+        x = cosine * X[j, 0] + sine * X[j, 1]
+        z = larger(X[j, size - 1], 0.0)
+        if p.above == WHEELER:
+            fresh_s, fresh_c = sincos(k * x - om * t + p.phase)
+            z = stretched(p, gain, z, fresh_c)
+        dz, dx = k * (z - z_below), k * (x - x_below)
         near = (abs(dz) < SMALL) & (abs(dx) < SMALL) & (up > TINY)
         x_below, z_below = x, z
         e1, e2 = small_exponentials(dz)
         ds, dc = small_sincos(dx)
         near_up, near_down, near_s, near_c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
-        if j > 0 and p.above != WHEELER and every(near):
+        recurs = j > 0 and (size == 3 or p.above != WHEELER)
+        if recurs and every(near):
             up, down, s, c = near_up, near_down, near_s, near_c
         else:
-            s, c = sincos(kx * x - om * t + p.phase)
-            if p.above == WHEELER:  # stretched so that the crest is where the still water level was
-                z = z * p.depth / (p.depth + p.amplitude * gain * c)
+            if p.above != WHEELER:
+                fresh_s, fresh_c = sincos(k * x - om * t + p.phase)
+            s, c = fresh_s, fresh_c
             up = math.exp(k * (z - p.depth))
             down = math.exp(-k * (z + p.depth))
-            if j > 0 and p.above != WHEELER:
+            if recurs:
                 up, down = where(near, near_up, up), where(near, near_down, down)
                 s, c = where(near, near_s, s), where(near, near_c, c)
         cosh_part, sinh_part = up + down, up - down  # of cosh and of sinh
         if p.above == ZERO:
-            dry = X[j, 1] > p.depth
+            dry = X[j, size - 1] > p.depth
             cosh_part, sinh_part = where(dry, 0.0, cosh_part), where(dry, 0.0, sinh_part)
-        uc = p.direction * cosh_part * c
-        us = p.direction * cosh_part * s
-        ws = sinh_part * s
-        wc = sinh_part * c
-        F[j, 0] += u0 * uc
-        F[j, 1] += u0 * ws
-        F[j, 2] += u0 * om * us + u1 * uc
-        F[j, 3] += u1 * ws - u0 * om * wc
-
-
-@kernel
-def wave_field_in_space(p, tables, t, X, F):
-    """As `wave_field` at places X (n, 3) x, y, z; F (n, 6): U, V, W and their rates."""
-    n = X.shape[0]
-    gain, gain_rate = smooth_start(t, p.ramp)
-    k, om, phase, cosine, sine = p.k, p.omega, p.phase, p.dir_x, p.dir_y
-    speed = p.amplitude * om / (1.0 - math.exp(-2.0 * k * p.depth))
-    u0, u1 = speed * gain, speed * gain_rate
-    up, down, s, c = 0.0, 0.0, 0.0, 1.0
-    x_below = z_below = 0.0
-    for j in range(n):
-        x = cosine * X[j, 0] + sine * X[j, 1]
-        z = max(X[j, 2], 0.0)
-        if p.above == WHEELER:
-            eta = p.amplitude * sincos(k * x - om * t + phase)[1]
-            z = z * p.depth / max(p.depth + gain * eta, 1e-3 * p.depth)
-        dz, dx = k * (z - z_below), k * (x - x_below)
-        x_below, z_below = x, z
-        if j > 0 and abs(dz) < SMALL and abs(dx) < SMALL and up > TINY:
-            e1, e2 = small_exponentials(dz)
-            ds, dc = small_sincos(dx)
-            up, down, s, c = up * e1, down * e2, s * dc + c * ds, c * dc - s * ds
-        else:
-            s, c = sincos(k * x - om * t + phase)
-            up, down = math.exp(k * (z - p.depth)), math.exp(-k * (z + p.depth))
-        cosh_part, sinh_part = up + down, up - down
-        if p.above == ZERO and X[j, 2] > p.depth:
-            cosh_part = sinh_part = 0.0
         uc, us, wc, ws = cosh_part * c, cosh_part * s, sinh_part * c, sinh_part * s
         u, u_t = u0 * uc, u0 * om * us + u1 * uc
         F[j, 0] += cosine * u
-        F[j, 1] += sine * u
-        F[j, 2] += u0 * ws
-        F[j, 3] += cosine * u_t
-        F[j, 4] += sine * u_t
-        F[j, 5] += u1 * ws - u0 * om * wc
+        F[j, size] += cosine * u_t
+        if size == 3:
+            F[j, 1] += sine * u
+            F[j, 4] += sine * u_t
+        F[j, size - 1] += u0 * ws
+        F[j, 2 * size - 1] += u1 * ws - u0 * om * wc
+
+
+@kernel
+def put_slopes(J, by_x, by_z, velocity, rate):
+    """J (8,) of a node: dF/dx (4), dF/dz (4), where the water is taken at a height that changes by by_x dx + by_z dz.
+
+    velocity, rate: slopes of U and of dU/dt by x, and by that height. The field is harmonic, dU/dx = -dW/dz and
+    dU/dz = dW/dx, and so are its rates.
+    """
+    U_x, U_z = velocity
+    A_x, A_z = rate
+    J[0], J[4] = U_x + by_x * U_z, by_z * U_z
+    J[1], J[5] = U_z - by_x * U_x, -by_z * U_x
+    J[2], J[6] = A_x + by_x * A_z, by_z * A_z
+    J[3], J[7] = A_z - by_x * A_x, -by_z * A_x
 
 
 @kernel
 def wave_slopes(p, tables, t, X, F, J):
     """J (n, 8): dF/dx (4) and dF/dz (4) at the nodes, from the water F (n, 4) at X (n, 2); the current is uniform.
 
-    The field is harmonic, dU/dx = -dW/dz and dU/dz = dW/dx, and so are its rates. Without a ramp the slopes of
-    velocity are its rates times k d/omega, and those of the rates -omega^2 times that.
+    Without a ramp the slopes of velocity are its rates times k d/omega, and those of the rates -omega^2 times that.
     """
     kx, om = p.k * p.direction, p.omega
     gain, gain_rate = smooth_start(t, p.ramp)
@@ -150,8 +159,8 @@ def wave_slopes(p, tables, t, X, F, J):
         U, W = F[j, 0] - u, F[j, 1] - w
         # gain (more sin, less cos)
         across, lengthwise = per_rate * (F[j, 2] - rising * U), per_rate * (rising * W - F[j, 3])
-        U_x, W_x = -kx * across, kx * lengthwise
-        A_x, B_x = kx * (om * U - rising * across), kx * (om * W + rising * lengthwise)
+        by_velocity = -kx * across, kx * lengthwise
+        by_rate = kx * (om * U - rising * across), kx * (om * W + rising * lengthwise)
         # the height at which the field is taken, by x and by z
         by_x, by_z = 0.0, where(X[j, 1] > 0.0, 1.0, 0.0)
         if p.above == WHEELER:
@@ -159,7 +168,4 @@ def wave_slopes(p, tables, t, X, F, J):
             high = p.amplitude * gain
             stretch = p.depth / (p.depth + high * c)
             by_x, by_z = larger(X[j, 1], 0.0) * stretch * stretch / p.depth * high * kx * s, by_z * stretch
-        J[j, 0], J[j, 4] = U_x + by_x * W_x, by_z * W_x
-        J[j, 1], J[j, 5] = W_x - by_x * U_x, -by_z * U_x
-        J[j, 2], J[j, 6] = A_x + by_x * B_x, by_z * B_x
-        J[j, 3], J[j, 7] = B_x - by_x * A_x, -by_z * A_x
+        put_slopes(J[j], by_x, by_z, by_velocity, by_rate)

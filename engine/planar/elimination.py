@@ -38,7 +38,21 @@ from ..compiled import kernel
 from ..physics.ends import planar_end
 from ..physics.submergence import end_of_cap
 from ..simd.select import smaller
-from ..spatial.vectors import affine, inverted, less, minus_product, put, put_rows, rows_of, times, vector, vector_times
+from ..spatial.vectors import (
+    affine,
+    inverted,
+    less,
+    minus_product,
+    pair,
+    put,
+    put_quaternion,
+    put_rows,
+    quaternion,
+    rows_of,
+    times,
+    vector,
+    vector_times,
+)
 from . import columns as col
 from .extras import force_by_turn
 
@@ -60,7 +74,7 @@ def eliminate(p, tables, stage, Y, work):
     for k in range(1, n):
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
-        Qa, Qb, row = Q[a], Q[k], E[k]
+        Ya, Yb, Qa, Qb, row = Y[a], Y[k], Q[a], Q[k], E[k]
         ca, sa, fa = vector(Qa, col.COS)
         cb, sb, fb = vector(Qb, col.COS)
         # compatibility: dV_b = (R_a + Ca) y_a + Cb y_b + r - (cx, cz), with Ca = e cq dq/dy by eps and phi
@@ -103,13 +117,13 @@ def eliminate(p, tables, stage, Y, work):
         if wide:
             put_rows(row, col.INVERSE, inverse)
             continue
-        cx = Y[k, col.VX] - Y[a, col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
-        cz = Y[k, col.VZ] - Y[a, col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
-        turn = (Y[k, col.PHI] - Y[a, col.PHI] - Qb[col.TURN]) / e - (Y[a, col.KAPPA] + Y[k, col.KAPPA])
+        cx = Yb[col.VX] - Ya[col.VX] - e * (Qa[col.QX_T] + Qb[col.QX_T])
+        cz = Yb[col.VZ] - Ya[col.VZ] - e * (Qa[col.QZ_T] + Qb[col.QZ_T])
+        turn = (Yb[col.PHI] - Ya[col.PHI] - Qb[col.TURN]) / e - (Ya[col.KAPPA] + Yb[col.KAPPA])
         g = (
             Qa[col.NX] - Qb[col.NX] + e * (Qa[col.GX] + Qb[col.GX]) + Kxx * r[0] + Kxz * r[1] - Jxx * cx - Jxz * cz,
             Qa[col.NZ] - Qb[col.NZ] + e * (Qa[col.GZ] + Qb[col.GZ]) + Kzx * r[0] + Kzz * r[1] - Jzx * cx - Jzz * cz,
-            -EI * (Y[k, col.KAPPA] - Y[a, col.KAPPA]) - e * (Qa[col.M] + Qb[col.M]) - EI * turn + 2.0 * EI * r[2],
+            -EI * (Yb[col.KAPPA] - Ya[col.KAPPA]) - e * (Qa[col.M] + Qb[col.M]) - EI * turn + 2.0 * EI * r[2],
         )
         known = times(inverse, g)
         by_known = times((Xx, Xz, Xk), known)
@@ -118,21 +132,17 @@ def eliminate(p, tables, stage, Y, work):
         put(row, col.R_KNOWN, r)
     # upper end (`engine.physics.ends`): eN dN + D dV = -(ex, ez), dkappa = -kappa, with v = R y + r put in
     b = n - 1
-    t, in_motion, _, cv = stage
-    U, W, U_tilde, W_tilde = Y[b, col.VX], Y[b, col.VZ], work.C_tilde[b, col.VX], work.C_tilde[b, col.VZ]
-    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(
-        p, tables, t, cv, in_motion, Q[b, col.NX], Q[b, col.NZ], U, W, U_tilde, W_tilde, work.F[b]
-    )
+    N, V, V_tilde = pair(Q[b], col.NX), pair(Y[b], col.VX), pair(work.C_tilde[b], col.VX)
+    ex, ez, eN, Dxx, Dxz, Dzz = planar_end(p, tables, stage, N, V, V_tilde, work.F[b])
     Dzx = Dxz
     if p.spherical_cap:
-        x, z = work.X[b, 0], work.X[b, 1]
-        cap = end_of_cap(p, tables, t, cq, cv, in_motion, x, z, U, W, U_tilde, W_tilde, work.F[b])
+        cap = end_of_cap(p, tables, stage, work.X[b], V, V_tilde, work.F[b])
         ex, ez, Dxx = ex + cap[0], ez + cap[1], Dxx + cap[2]
         Dxz, Dzx, Dzz = Dxz + cap[3], Dzx + cap[4], Dzz + cap[5]
     if wide:
-        Dxx, Dxz = Dxx + E[0, col.TOP_DXX], Dxz + E[0, col.TOP_DXZ]
-        Dzx, Dzz = Dzx + E[0, col.TOP_DZX], Dzz + E[0, col.TOP_DZZ]
-        E[0, col.TOP_DXX], E[0, col.TOP_DXZ], E[0, col.TOP_DZX], E[0, col.TOP_DZZ] = Dxx, Dxz, Dzx, Dzz
+        by_place = quaternion(E[0], col.TOP_DXX)
+        Dxx, Dxz, Dzx, Dzz = Dxx + by_place[0], Dxz + by_place[1], Dzx + by_place[2], Dzz + by_place[3]
+        put_quaternion(E[0], col.TOP_DXX, (Dxx, Dxz, Dzx, Dzz))
     c, s, slope = vector(Q[b], col.COS)
     Nz, Nx = force_by_turn(p, Q[b])
     (R00, R01, R02), (R10, R11, R12), Ak = R
@@ -163,8 +173,9 @@ def eliminate(p, tables, stage, Y, work):
 @kernel
 def inertia_of_box(e, Qa, Qb):
     """K = e (dG/dV_a + dG/dV_b) and J = e dG/dV_b of a box of half length e (m), each as xx, xz, zx, zz."""
-    Jxx, Jxz, Jzx, Jzz = e * Qb[col.GXX], e * Qb[col.GXZ], e * Qb[col.GZX], e * Qb[col.GZZ]
-    K = e * Qa[col.GXX] + Jxx, e * Qa[col.GXZ] + Jxz, e * Qa[col.GZX] + Jzx, e * Qa[col.GZZ] + Jzz
+    below, above = quaternion(Qa, col.GXX), quaternion(Qb, col.GXX)
+    Jxx, Jxz, Jzx, Jzz = e * above[0], e * above[1], e * above[2], e * above[3]
+    K = e * below[0] + Jxx, e * below[1] + Jxz, e * below[2] + Jzx, e * below[3] + Jzz
     return K, (Jxx, Jxz, Jzx, Jzz)
 
 

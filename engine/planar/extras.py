@@ -3,9 +3,9 @@
 from ..compiled import by_kind, kernel, of_extras
 from ..physics.bed import bed_load
 from ..physics.ends import released
-from ..physics.extras import ZERO, sum_of, surface_load, surface_turn, wetting
+from ..physics.extras import ZERO, surface_load, surface_turn, wetting
 from ..record import HELD
-from ..spatial.vectors import mixed, quaternion
+from ..spatial.vectors import mixed, pair, plus, quaternion, sum_of, third_column
 from . import columns as col
 
 # Columns of H of lateral perturbations: coefficients of a node: sine and cosine of half the turn of the box below it,
@@ -20,7 +20,7 @@ def more_loads(p, tables, stage, Y, work):
     ahead, over, known = (p.direction, 0.0, 0.0), 1.0 / cq, (p.anchor_x, 0.0, p.anchor_z)
     for k in range(Y.shape[0]):
         row, F, C_tilde = work.Q[k], work.F[k], work.C_tilde[k]
-        c, s = row[col.COS], row[col.SIN]
+        c, s = pair(row, col.COS)
         if p.damping > 0.0:
             damping = in_motion * p.damping
             rate = c * row[col.QX_T] + s * row[col.QZ_T]
@@ -55,9 +55,9 @@ def more_loads(p, tables, stage, Y, work):
             row[col.GZZ] = share * (row[col.GZZ] - inertia) + inertia + by_v[2][2]
         if p.floored:
             of_bed, by_V, by_z = bed_load(p, in_motion, x[2], V)
-            load = (load[0] + of_bed[0], 0.0, load[2] + of_bed[2])
+            load = plus(load, of_bed)
             by_velocity = sum_of(by_velocity, by_V)
-            place = sum_of(place, ((0.0, 0.0, by_z[0]), ZERO, (0.0, 0.0, by_z[2])))
+            place = sum_of(place, third_column(by_z))
         row[col.GX] += load[0]
         row[col.GZ] += load[2]
         for i in range(2):
@@ -115,15 +115,16 @@ def more_across(p, base, X, Q, F, H):
     """Change the coefficients H of lateral perturbations (`engine.perturbations.lateral`) of every node."""
     Y, K, ahead = base.Y, base.K, (p.direction, 0.0, 0.0)
     for k in range(Y.shape[0]):
-        c, s, h = Q[k, col.COS], Q[k, col.SIN], H[k]
+        row, h = Q[k], H[k]
+        c, s = pair(row, col.COS)
         x, V = (X[k, 0], 0.0, X[k, 1]), (Y[k, col.VX], 0.0, Y[k, col.VZ])
-        Q[k, col.SHARE] = 1.0
+        row[col.SHARE] = 1.0
         viscous = p.damping * (c * K[k, col.CX] + s * K[k, col.CZ])
         h[N_TAU] += viscous * h[COS_HALF]
         h[N_RHO] -= viscous * h[SIN_HALF]
         if p.surfaced:
             share, ds, _, sinking, _, _, _ = wetting(p, base.t, 1.0, ahead, x, V)
-            Q[k, col.SHARE] = share
+            row[col.SHARE] = share
             slam = p.ma * ds * sinking
             vt = (V[0] - F[k, col.UX]) * c + (V[2] - F[k, col.UZ]) * s
             h[G_TAU] = share * h[G_TAU] - slam * vt * h[COS_HALF]

@@ -30,6 +30,7 @@ from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from ..simd.elementary import sincos
 from ..simd.select import larger
+from ..spatial.vectors import pair, put_quaternion
 from . import columns as col
 from .extras import more_loads
 
@@ -44,10 +45,11 @@ def lower_end(p):
 def shape(p, tables, Y, Q, X):
     """Directions and q into Q, positions into X (n, 2): X[0] is the anchor, an element adds h times its mean q."""
     for k in range(Y.shape[0]):
+        row = Q[k]
         s, c = sincos(Y[k, col.PHI])
         lam = 1.0 + Y[k, col.EPS]
-        Q[k, col.COS], Q[k, col.SIN] = c, s
-        Q[k, col.QX], Q[k, col.QZ] = lam * c, lam * s
+        row[col.COS], row[col.SIN] = c, s
+        row[col.QX], row[col.QZ] = lam * c, lam * s
     X[0, 0], X[0, 1] = lower_end(p)
     for k in range(1, Y.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
@@ -62,26 +64,26 @@ def node_quantities(p, tables, stage, Y, work):
     p, tables: parameters (`engine.record`); stage: Stage; work: Work, of which C_tilde and F are read.
     """
     _, in_motion, cq, cv = stage
-    F, Q, C_tilde = work.F, work.Q, work.C_tilde
     for k in range(Y.shape[0]):
+        row, known, water = work.Q[k], work.C_tilde[k], work.F[k]
         eps, S = Y[k, col.EPS], Y[k, col.SHEAR]
-        c, s = Q[k, col.COS], Q[k, col.SIN]
+        c, s = pair(row, col.COS)
         lam = 1.0 + eps
         # force in the line, with the viscosity of shocks
         T, slope = tension(eps, p, tables)
         if p.viscous:
-            qx, qz = C_tilde[k, col.CX], C_tilde[k, col.CZ]
+            qx, qz = pair(known, col.CX)
             length_before = math.sqrt(qx * qx + qz * qz)
-            extra, stiffer = shock_tension(in_motion * cq, lam - length_before, Q[k, col.SHOCK_B], Q[k, col.SHOCK_L])
+            extra, stiffer = shock_tension(in_motion * cq, lam - length_before, row[col.SHOCK_B], row[col.SHOCK_L])
             T += extra
             slope += stiffer
-        Q[k, col.SLOPE] = slope
-        Q[k, col.NX], Q[k, col.NZ] = T * c - S * s, T * s + S * c
+        row[col.SLOPE] = slope
+        row[col.NX], row[col.NZ] = T * c - S * s, T * s + S * c
         # rates of q and V; inertia and weight
-        Q[k, col.QX_T] = cq * (Q[k, col.QX] - C_tilde[k, col.CX])
-        Q[k, col.QZ_T] = cq * (Q[k, col.QZ] - C_tilde[k, col.CZ])
-        ax = cv * (Y[k, col.VX] - C_tilde[k, col.VX])
-        az = cv * (Y[k, col.VZ] - C_tilde[k, col.VZ])
+        row[col.QX_T] = cq * (row[col.QX] - known[col.CX])
+        row[col.QZ_T] = cq * (row[col.QZ] - known[col.CZ])
+        ax = cv * (Y[k, col.VX] - known[col.VX])
+        az = cv * (Y[k, col.VZ] - known[col.VZ])
         Gx, Gz = p.m * ax, p.m * az + p.w0
         Gxx = p.m * cv  # dGx/dU
         Gxz = 0.0
@@ -90,8 +92,8 @@ def node_quantities(p, tables, stage, Y, work):
         if p.wet:
             # drag a along and b across the line; kt = da/dvt, kn = db/dvn
             root = math.sqrt(larger(lam, 0.0))
-            ur = in_motion * Y[k, col.VX] - F[k, col.UX]
-            wr = in_motion * Y[k, col.VZ] - F[k, col.UZ]
+            ur = in_motion * Y[k, col.VX] - water[col.UX]
+            wr = in_motion * Y[k, col.VZ] - water[col.UZ]
             vt = ur * c + wr * s
             vn = wr * c - ur * s
             C_along, slope_along = drag_along(p, tables, root, abs(vt))
@@ -102,7 +104,7 @@ def node_quantities(p, tables, stage, Y, work):
             Gex = (a * c - b * s) * half_inverse
             Gez = (a * s + b * c) * half_inverse
             # added mass and the pressure gradient act across the line, and turn with it; b_phi = db/dphi
-            Uw_t, Ww_t = F[k, col.AX], F[k, col.AZ]
+            Uw_t, Ww_t = pair(water, col.AX)
             b_phi = p.Rw * (Uw_t * c + Ww_t * s) - p.ma * (ax * c + az * s) - kn * vt
             b += p.ma * (az * c - ax * s) - p.Rw * (Ww_t * c - Uw_t * s)
             Gx += a * c - b * s
@@ -117,13 +119,13 @@ def node_quantities(p, tables, stage, Y, work):
             Gxx += dt_ * c * c + dn * s * s
             Gxz = (dt_ - dn) * c * s
             Gzz += dt_ * s * s + dn * c * c
-        Q[k, col.GX], Q[k, col.GZ] = Gx, Gz
-        Q[k, col.GX_EPS], Q[k, col.GZ_EPS] = Gex, Gez
-        Q[k, col.GX_PHI], Q[k, col.GZ_PHI] = Gpx, Gpz
-        Q[k, col.GXX], Q[k, col.GXZ], Q[k, col.GZX], Q[k, col.GZZ] = Gxx, Gxz, Gxz, Gzz
+        row[col.GX], row[col.GZ] = Gx, Gz
+        row[col.GX_EPS], row[col.GZ_EPS] = Gex, Gez
+        row[col.GX_PHI], row[col.GZ_PHI] = Gpx, Gpz
+        put_quaternion(row, col.GXX, (Gxx, Gxz, Gxz, Gzz))
         if p.bent:
             square = lam * lam
-            Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam
+            row[col.M], row[col.M_EPS], row[col.M_SHEAR] = square * lam * S, 3.0 * square * S, square * lam
         else:  # S_a + S_b = 0
-            Q[k, col.M], Q[k, col.M_EPS], Q[k, col.M_SHEAR] = 0.0, 0.0, 1.0
+            row[col.M], row[col.M_EPS], row[col.M_SHEAR] = 0.0, 0.0, 1.0
     more_loads(p, tables, stage, Y, work)

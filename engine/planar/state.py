@@ -14,6 +14,7 @@ from ..physics.tension.kernels import tension
 from ..record import PLACE, SPEED, STRAIN, TENSION
 from ..simd.elementary import strain_within, within
 from ..simd.select import finite, larger, smaller, where
+from ..spatial.vectors import pair, put
 from . import columns as col
 from .extras import node_width
 
@@ -37,11 +38,12 @@ def update_size(p, D):
     """Largest entry of a Newton update in the scales of the scene (dimensionless)."""
     size = total = 0.0
     for k in range(D.shape[0]):
-        stretched = larger(abs(D[k, col.EPS]) * p.per_strain, abs(D[k, col.SHEAR]) * p.per_force)
-        moved = larger(abs(D[k, col.VX]), abs(D[k, col.VZ])) * p.per_speed
-        turned = larger(abs(D[k, col.PHI]), abs(D[k, col.KAPPA]) * p.per_curvature)
+        d = D[k]
+        stretched = larger(abs(d[col.EPS]) * p.per_strain, abs(d[col.SHEAR]) * p.per_force)
+        moved = larger(abs(d[col.VX]), abs(d[col.VZ])) * p.per_speed
+        turned = larger(abs(d[col.PHI]), abs(d[col.KAPPA]) * p.per_curvature)
         size = larger(size, larger(larger(stretched, moved), turned))
-        total += ((D[k, col.EPS] + D[k, col.SHEAR]) + (D[k, col.VX] + D[k, col.VZ])) + (D[k, col.PHI] + D[k, col.KAPPA])
+        total += ((d[col.EPS] + d[col.SHEAR]) + (d[col.VX] + d[col.VZ])) + (d[col.PHI] + d[col.KAPPA])
     return where(finite(total), size, np.inf)
 
 
@@ -65,11 +67,10 @@ def tidy(p, Y):
 def conserved(p, Y, C):
     """C (n, 4) of a state Y (n, 6)."""
     for k in range(Y.shape[0]):
-        lam = 1.0 + Y[k, col.EPS]
-        C[k, col.CX] = lam * math.cos(Y[k, col.PHI])
-        C[k, col.CZ] = lam * math.sin(Y[k, col.PHI])
-        C[k, col.VX] = Y[k, col.VX]
-        C[k, col.VZ] = Y[k, col.VZ]
+        y, c = Y[k], C[k]
+        lam = 1.0 + y[col.EPS]
+        c[col.CX], c[col.CZ] = lam * math.cos(y[col.PHI]), lam * math.sin(y[col.PHI])
+        c[col.VX], c[col.VZ] = y[col.VX], y[col.VZ]
 
 
 @kernel
@@ -79,9 +80,10 @@ def extrapolate(p, alpha_f, Y, C_new, Y_new):
         # not the shear force: nothing ties it to its past, and errors of it would alternate for ever
         for i in range(col.VX, col.KAPPA + 1):
             Y_new[k, i] = Y[k, i] + (Y_new[k, i] - Y[k, i]) / alpha_f
-        turn = math.atan2(C_new[k, col.CZ], C_new[k, col.CX]) - Y_new[k, col.PHI]
+        qx, qz = pair(C_new[k], col.CX)
+        turn = math.atan2(qz, qx) - Y_new[k, col.PHI]
         Y_new[k, col.PHI] += turn - 2.0 * math.pi * np.rint(turn / (2.0 * math.pi))
-        Y_new[k, col.EPS] = math.sqrt(C_new[k, col.CX] ** 2 + C_new[k, col.CZ] ** 2) - 1.0
+        Y_new[k, col.EPS] = math.sqrt(qx**2 + qz**2) - 1.0
 
 
 @kernel
@@ -132,17 +134,16 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
             z += half * (qz_below + qz)
         qx_below, qz_below = qx, qz
         eps = strain_within(weights, C0[k], C1[k], K0[k], K1[k])
-        row[k, PLACE], row[k, PLACE + 1], row[k, PLACE + 2], row[k, STRAIN] = x, 0.0, z, eps
-        row[k, TENSION] = tension(eps, p, tables)[0]
-        row[k, SPEED] = math.sqrt(U * U + W * W)
+        put(row[k], PLACE, (x, 0.0, z))
+        row[k, STRAIN], row[k, TENSION], row[k, SPEED] = eps, tension(eps, p, tables)[0], math.sqrt(U * U + W * W)
     return U, 0.0, W, 0.0
 
 
 @kernel
 def last_strain(p, C):
     """Strain of the last node."""
-    k = C.shape[0] - 1
-    return math.sqrt(C[k, col.CX] * C[k, col.CX] + C[k, col.CZ] * C[k, col.CZ]) - 1.0
+    x, z = pair(C[C.shape[0] - 1], col.CX)
+    return math.sqrt(x * x + z * z) - 1.0
 
 
 @kernel

@@ -6,10 +6,11 @@ Runs that share a batch take such a sum one after another, each from its own lan
 
 from llvmlite import ir
 from numba.core import cgutils, types
+from numba.core.imputils import impl_ret_borrowed
 from numba.extending import intrinsic
 from numba.np import arrayobj
 
-from .vector import COUNT, DOUBLE, LaneMask, Lanes
+from .vector import COUNT, DOUBLE, LaneMask, Lanes, view
 
 _LONG = ir.VectorType(ir.IntType(64), COUNT)
 _SHIFT = 6755399441055744.0  # 1.5 * 2^52: its sum with a whole number has that number in its last bits
@@ -17,6 +18,17 @@ _SHIFT = 6755399441055744.0  # 1.5 * 2^52: its sum with a whole number has that 
 
 def _index(number):
     return ir.Constant(ir.IntType(32), number)
+
+
+@intrinsic
+def lane_count(context, value):
+    """How many lanes a value has; one where it is a number."""
+    count = value.count if isinstance(value, Lanes) else 1
+
+    def generate(context, builder, signature, values):
+        return context.get_constant(types.intp, count)
+
+    return types.intp(value), generate
 
 
 @intrinsic
@@ -34,9 +46,11 @@ def lane_of(context, value, lane):
 
 @intrinsic
 def with_lane(context, value, lane, number):
-    """The vector with another number in one lane."""
+    """The vector with another number in one lane; in the place of a number that other one."""
 
     def generate(context, builder, signature, values):
+        if not isinstance(value, Lanes):
+            return values[2]
         return builder.insert_element(values[0], values[2], builder.trunc(values[1], ir.IntType(32)))
 
     return value(value, types.intp, types.float64), generate
@@ -44,24 +58,12 @@ def with_lane(context, value, lane, number):
 
 @intrinsic
 def in_lane(context, array, lane):
-    """View of one lane of an array (...) of vectors, as an array (...) of floats."""
+    """View of one lane of an array (...) of vectors, as an array (...) of floats; an array of floats itself."""
+    if not isinstance(array.dtype, Lanes):
+        return array(array, types.intp), lambda c, b, sig, values: impl_ret_borrowed(c, b, array, values[0])
     kind = types.Array(types.float64, array.ndim, "A")
 
-    def generate(context, builder, signature, values):
-        source = arrayobj.make_array(array)(context, builder, values[0])
-        target = arrayobj.make_array(kind)(context, builder)
-        first = builder.bitcast(source.data, DOUBLE.as_pointer())
-        arrayobj.populate_array(
-            target,
-            data=builder.gep(first, [values[1]]),
-            shape=cgutils.unpack_tuple(builder, source.shape, array.ndim),
-            strides=cgutils.unpack_tuple(builder, source.strides, array.ndim),
-            itemsize=context.get_constant(types.intp, 8),
-            meminfo=None,
-        )
-        return target._getvalue()
-
-    return kind(array, types.intp), generate
+    return kind(array, types.intp), lambda c, b, sig, values: view(c, b, array, values[0], kind, values[1])
 
 
 @intrinsic

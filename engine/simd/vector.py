@@ -160,20 +160,24 @@ def _lane_array(array):
     return types.Array(Lanes(COUNT), array.ndim - 1, "C", aligned=True)
 
 
-def _view(context, builder, array, value):
-    """The view itself: the same data, one axis less."""
-    kind = _lane_array(array)
+def view(context, builder, array, value, kind, first):
+    """An array as one of another kind: from its number `first` on, as many of its leading axes as the kind has."""
     source = arrayobj.make_array(array)(context, builder, value)
     target = arrayobj.make_array(kind)(context, builder)
+    entry = context.get_data_type(kind.dtype).as_pointer()
     arrayobj.populate_array(
         target,
-        data=builder.bitcast(source.data, context.get_data_type(kind.dtype).as_pointer()),
+        data=builder.bitcast(builder.gep(builder.bitcast(source.data, DOUBLE.as_pointer()), [first]), entry),
         shape=cgutils.unpack_tuple(builder, source.shape, array.ndim)[: kind.ndim],
         strides=cgutils.unpack_tuple(builder, source.strides, array.ndim)[: kind.ndim],
-        itemsize=context.get_constant(types.intp, 8 * kind.dtype.count),
+        itemsize=context.get_constant(types.intp, 8 * getattr(kind.dtype, "count", 1)),
         meminfo=None,
     )
     return target._getvalue()
+
+
+def _view(context, builder, array, value):
+    return view(context, builder, array, value, _lane_array(array), context.get_constant(types.intp, 0))
 
 
 @intrinsic

@@ -6,7 +6,21 @@ from ..compiled import kernel
 from . import columns as col
 from .extras import along_by_turn
 from .node import box_rotation
-from .vectors import added, combined, combined3, dot, inverted, mixed, scaled, times, vector
+from .vectors import (
+    added,
+    combined,
+    combined3,
+    dot,
+    inverted,
+    minus,
+    mixed,
+    multiple,
+    plus,
+    rows_of,
+    scaled,
+    times,
+    vector,
+)
 
 # Rows of five numbers, by y, for the six components of v = (V, O2, O3, theta1)
 Rows = namedtuple("Rows", "x y z O2 O3 theta1")
@@ -17,17 +31,17 @@ Nodal = namedtuple("Nodal", "N G roll M2 M3")
 @kernel
 def nodal_jacobian(p, row, e):
     """`Nodal` of a row of Q; e: half the length of the element."""
-    t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+    t, n, b = rows_of(row, col.T_VECTOR)
     T, cube = row[col.TENSION], row[col.CUBE]
     N = vector(row, col.N)
     Sn, Sb = dot(N, n), dot(N, b)
     less2, less3 = along_by_turn(p, row)
-    dN = mixed(row[col.SLOPE], t, 0.0, t), n, b, mixed(Sb - less2, t, -T, b), mixed(-Sn - less3, t, T, n)
-    Ge, G2, G3 = vector(row, col.G_EPS), vector(row, col.G_THETA2), vector(row, col.G_THETA3)
+    dN = multiple(row[col.SLOPE], t), n, b, mixed(Sb - less2, t, -T, b), mixed(-Sn - less3, t, T, n)
     lead = 3.0 * cube / row[col.STRETCHED]
     dM2 = (lead * Sb, 0.0, cube, 0.0, 0.0)
     dM3 = (lead * Sn, cube, 0.0, 0.0, 0.0)
-    dG = mixed(e, Ge, 0.0, Ge), mixed(e, G2, 0.0, G2), mixed(e, G3, 0.0, G3)
+    by_turn2, by_turn3 = vector(row, col.G_THETA2), vector(row, col.G_THETA3)
+    dG = multiple(e, vector(row, col.G_EPS)), multiple(e, by_turn2), multiple(e, by_turn3)
     return Nodal(dN, dG, mixed(Sn, b, -Sb, n), dM2, dM3)
 
 
@@ -47,7 +61,7 @@ def turn_of_box(Y, a, b):
 @kernel
 def _of_stretch(row, ec):
     """ec dq/dy of a row of Q: three rows, x, y, z."""
-    t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+    t, n, b = rows_of(row, col.T_VECTOR)
     length = ec * row[col.STRETCHED]
     return (
         (ec * t[0], 0.0, 0.0, -length * b[0], length * n[0]),
@@ -64,32 +78,34 @@ def across_box(Y, Q, k, e, cq, J, psi, R, r):
     """
     a = k - 1
     Qa, Qb = Q[a], Q[k]
-    (J11, J12, J13), (J21, J22, J23), (J31, J32, J33) = J
-    _, _, _, r2, r3, r1 = r
+    x, y, z, r2, r3, r1 = r
     # rotation: its first component has no curvature in it and gives theta1; the others then give O2 and O3
-    over, inverse = 1.0 / e, 1.0 / J11
-    missing = psi[0], psi[1] - e * (Y[a, col.O2] + Y[k, col.O2]), psi[2] - e * (Y[a, col.O3] + Y[k, col.O3])
-    A1 = added(R.theta1, (0.0, 0.0, 0.0, J21 * inverse, J31 * inverse))
-    B1 = (0.0, 0.0, 0.0, -J12 * inverse, -J13 * inverse)
-    z1 = r1 - missing[0] * inverse
-    A2 = combined3(J21 * over, A1, -J12 * over, R.theta1, -1.0, R.O2)
-    A2 = added(A2, (0.0, 0.0, 0.0, -J22 * over, -J32 * over))
-    B2 = added(scaled(J21 * over, B1), (0.0, 0.0, 0.0, J22 * over, J23 * over))
-    z2 = over * (J21 * z1 - J12 * r1 + missing[1]) - r2
-    A3 = combined3(J31 * over, A1, -J13 * over, R.theta1, -1.0, R.O3)
-    A3 = added(A3, (0.0, 0.0, 0.0, -J23 * over, -J33 * over))
-    B3 = added(scaled(J31 * over, B1), (0.0, 0.0, 0.0, J32 * over, J33 * over))
-    z3 = over * (J31 * z1 - J13 * r1 + missing[2]) - r3
+    over, inverse = 1.0 / e, 1.0 / J[0][0]
+    missing2, missing3 = psi[1] - e * (Y[a, col.O2] + Y[k, col.O2]), psi[2] - e * (Y[a, col.O3] + Y[k, col.O3])
+    A1 = added(R.theta1, (0.0, 0.0, 0.0, J[1][0] * inverse, J[2][0] * inverse))
+    B1 = (0.0, 0.0, 0.0, -J[0][1] * inverse, -J[0][2] * inverse)
+    z1 = r1 - psi[0] * inverse
+    A2, B2, z2 = _curvature_row(1, over, J, A1, B1, z1, R.theta1, r1, R.O2, r2, missing2)
+    A3, B3, z3 = _curvature_row(2, over, J, A1, B1, z1, R.theta1, r1, R.O3, r3, missing3)
     # compatibility: V
     Ax, Ay, Az = _of_stretch(Qa, e * cq)
     Ax, Ay, Az = added(R.x, Ax), added(R.y, Ay), added(R.z, Az)
     Bx, By, Bz = _of_stretch(Qb, e * cq)
-    Va, Vb = vector(Y[a], col.V), vector(Y[k], col.V)
-    qa, qb = vector(Qa, col.Q_T), vector(Qb, col.Q_T)
-    zx = r[0] - (Vb[0] - Va[0] - e * (qa[0] + qb[0]))
-    zy = r[1] - (Vb[1] - Va[1] - e * (qa[1] + qb[1]))
-    zz = r[2] - (Vb[2] - Va[2] - e * (qa[2] + qb[2]))
-    return Rows(Ax, Ay, Az, A2, A3, A1), Rows(Bx, By, Bz, B2, B3, B1), (zx, zy, zz, z2, z3, z1)
+    stretching, opened = plus(vector(Qa, col.Q_T), vector(Qb, col.Q_T)), minus(vector(Y[k], col.V), vector(Y[a], col.V))
+    x, y, z = minus((x, y, z), mixed(-e, stretching, 1.0, opened))
+    return Rows(Ax, Ay, Az, A2, A3, A1), Rows(Bx, By, Bz, B2, B3, B1), (x, y, z, z2, z3, z1)
+
+
+@kernel
+def _curvature_row(i, over, J, A1, B1, z1, R1, r1, R, r, missing):
+    """Component i (1, 2) of the rotation of a box for its curvature: of `across_box` a row of A and of B, and of z.
+
+    A1, B1, z1: of theta1 of the upper node; R1, r1: of that of the lower one; R, r: of its curvature.
+    """
+    A = combined3(J[i][0] * over, A1, -J[0][i] * over, R1, -1.0, R)
+    A = added(A, (0.0, 0.0, 0.0, -J[1][i] * over, -J[2][i] * over))
+    B = added(scaled(J[i][0] * over, B1), (0.0, 0.0, 0.0, J[i][1] * over, J[i][2] * over))
+    return A, B, over * (J[i][0] * z1 - J[0][i] * r1 + missing) - r
 
 
 @kernel
@@ -98,9 +114,8 @@ def momentum_row(i, e, Qa, Qb, at_a, at_b, R, r, A, B, z):
 
     e: half the element; Qa, Qb: rows of Q; at_a, at_b: Nodal; v_a = R y_a + r and v_b = A y_a + B y_b + z.
     """
-    u = col.G_V + 3 * i
-    v, w = u + 1, u + 2
-    ax, ay, az, bx, by, bz = e * Qa[u], e * Qa[v], e * Qa[w], e * Qb[u], e * Qb[v], e * Qb[w]
+    ax, ay, az = multiple(e, vector(Qa, col.G_V + 3 * i))
+    bx, by, bz = multiple(e, vector(Qb, col.G_V + 3 * i))
     roll_a, roll_b = at_a.roll[i], at_b.roll[i]
     # by y_a through V_a, V_b and the rolls, then directly
     row = added(combined3(-ax, R.x, -ay, R.y, -az, R.z), combined3(-bx, A.x, -by, A.y, -bz, A.z))
@@ -126,7 +141,7 @@ def factors(Mx, My, Mz, M2, M3):
     inverse, det = inverted(vector(Mx, 0), vector(My, 0), vector(Mz, 0))
     sound = det != 0.0
     u3, u4 = times(inverse, (Mx[3], My[3], Mz[3])), times(inverse, (Mx[4], My[4], Mz[4]))
-    m2, m3 = (M2[0], M2[1], M2[2]), (M3[0], M3[1], M3[2])
+    m2, m3 = vector(M2, 0), vector(M3, 0)
     s33, s34 = M2[3] - dot(m2, u3), M2[4] - dot(m2, u4)
     s43, s44 = M3[3] - dot(m3, u3), M3[4] - dot(m3, u4)
     det = s33 * s44 - s34 * s43

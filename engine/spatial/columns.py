@@ -16,9 +16,9 @@ EPS, SHEAR_N, SHEAR_B, V, BETA, O1, O2, O3 = 0, 1, 2, 3, 6, 10, 11, 12  # Y; V a
 THETA1, THETA2, THETA3, D_O1, D_O2, D_O3 = range(6, 12)  # D, after EPS ... V
 ACCELERATION = 3  # F: of the water, after its velocity
 
-T_VECTOR, SLOPE, STRETCHED = 0, 3, 4  # Q: t; dT/deps; 1 + eps
-Q, Q_T, N = STRETCH, 8, 11  # q, dq/dt, N
-N_VECTOR, B_VECTOR = 14, 17  # n, b
+N, SLOPE, STRETCHED = 0, 3, 4  # Q: N; dT/deps; 1 + eps
+Q, Q_T = STRETCH, 8  # q, dq/dt
+T_VECTOR, N_VECTOR, B_VECTOR = 11, 14, 17  # t, n, b; `rows_of(Q[k], T_VECTOR)` reads all three
 G, G_EPS, G_THETA2, G_THETA3 = 20, 23, 26, 29  # load G per length and its derivatives
 G_V = 32  # dG/dV, row by row
 M2, M3, CUBE, TENSION = 41, 42, 43, 44  # moments; (1 + eps)^3; T

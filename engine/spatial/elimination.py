@@ -37,7 +37,21 @@ from . import columns as col
 from .box import Rows, across_box, factors, momentum_row, nodal_jacobian, solve_box, solve_box_rows, turn_of_box
 from .elimination_unbent import eliminate_unbent, inertia
 from .upper import CLAMP, solve_upper
-from .vectors import added, combined, combined3, dot, mixed, put, put_row, row_dot, row_of, row_times, times, vector
+from .vectors import (
+    added,
+    combined,
+    combined3,
+    dot,
+    mixed,
+    plus,
+    put,
+    put_row,
+    row_dot,
+    row_of,
+    row_times,
+    times,
+    vector,
+)
 
 V_OF_D = col.V, col.V + 1, col.V + 2, col.D_O2, col.D_O3, col.THETA1  # columns of D where the six of v are
 
@@ -55,13 +69,13 @@ def eliminate(p, tables, stage, Y, work):
     EI, GI, O1 = p.EI, p.GI, Y[0, col.O1]
     twisted = p.clamp_below and p.clamp_above and not released(p, stage.t)
     R, r = _at_anchor(p, tables, Y, Q)
-    w2 = w3 = w1 = wx = wy = wz = 0.0  # r': response to dO1
+    w, w2, w3, w1 = (0.0, 0.0, 0.0), 0.0, 0.0, 0.0  # r': response to dO1
     for k in range(1, last + 1):
         _store_relation(E[k - 1], R, r)
         a = k - 1
         e = 0.5 * tables[p.grid_at + a]
         over = 1.0 / e
-        Qa, Qb = Q[a], Q[k]
+        Qa, Qb, row = Q[a], Q[k], E[k]
         # rotation and compatibility: v_b = A y_a + B y_b + z
         psi, J = turn_of_box(Y, a, k)
         A, B, z = across_box(Y, Q, k, e, cq, J, psi, R, r)
@@ -92,8 +106,8 @@ def eliminate(p, tables, stage, Y, work):
         P = solve_box_rows(solver, BMx, BMy, BMz, BM2, BM3)
         known_a = solve_box(solver, gx, gy, gz, g2, g3)
         for i in range(5):
-            put_row(E[k], col.P + 5 * i, P[i])
-        put_row(E[k], col.P_KNOWN, known_a)
+            put_row(row, col.P + 5 * i, P[i])
+        put_row(row, col.P_KNOWN, known_a)
         if twisted:
             # the same equations with dO1 for their only known term
             y2 = over * (J[1][0] - J[0][1]) * w1 - w2
@@ -101,15 +115,14 @@ def eliminate(p, tables, stage, Y, work):
             couple = e * GI * O1
             D2 = -e * GI * (Y[a, col.O3] + Y[k, col.O3]) - couple * (w3 + y3) - EI * (y2 - w2)
             D3 = e * GI * (Y[a, col.O2] + Y[k, col.O2]) + couple * (w2 + y2) - EI * (y3 - w3)
-            w = (wx, wy, wz)
             known = mixed(w1, at_a.roll, -w1, at_b.roll)
-            known = mixed(1.0, known, e, mixed(1.0, times(inertia(Qa, 1.0), w), 1.0, times(inertia(Qb, 1.0), w)))
+            known = mixed(1.0, known, e, plus(times(inertia(Qa, 1.0), w), times(inertia(Qb, 1.0), w)))
             px = solve_box(solver, known[0], known[1], known[2], D2, D3)
-            put_row(E[k], col.P_TORQUE, px)
-            wx, wy, wz = wx + row_dot(A.x, px), wy + row_dot(A.y, px), wz + row_dot(A.z, px)
+            put_row(row, col.P_TORQUE, px)
+            w = w[0] + row_dot(A.x, px), w[1] + row_dot(A.y, px), w[2] + row_dot(A.z, px)
             w2, w3, w1 = y2 + row_dot(A.O2, px), y3 + row_dot(A.O3, px), w1 + row_dot(A.theta1, px)
-            put(E[k], col.R_TORQUE, (wx, wy, wz))
-            put(E[k], col.R_TORQUE + 3, (w2, w3, w1))
+            put(row, col.R_TORQUE, w)
+            put(row, col.R_TORQUE + 3, (w2, w3, w1))
         # v_b = R y_b + r
         R = Rows(
             added(row_times(A.x, P), B.x),

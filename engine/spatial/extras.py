@@ -1,10 +1,24 @@
 """The laws of `engine.physics.extras` in the nodal quantities in space, and in its matrix."""
 
-from ..compiled import kernel, of_extras
+from ..compiled import of_extras
 from ..physics.bed import bed_load
-from ..physics.extras import ZERO, sum_of, surface_load, surface_turn, wetting
+from ..physics.extras import surface_load, surface_turn, wetting
 from . import columns as col
-from .vectors import dot, mixed, put, put_rows, rows_of, vector
+from .vectors import (
+    dot,
+    minus,
+    mixed,
+    multiple,
+    plus,
+    plus_diagonal,
+    put,
+    put_rows,
+    rows_of,
+    scaled_rows,
+    sum_of,
+    third_column,
+    vector,
+)
 
 
 @of_extras()
@@ -14,9 +28,9 @@ def more_loads(p, tables, stage, Y, work):
     ahead, over, known = (p.dir_x, p.dir_y, 0.0), 1.0 / cq, (p.anchor_x, p.anchor_y, p.anchor_z)
     for k in range(Y.shape[0]):
         row, F, V = work.Q[k], work.F[k], vector(Y[k], col.V)
-        tangent, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+        tangent, n, b = rows_of(row, col.T_VECTOR)
         if k > 0:
-            passed = mixed(1.0, vector(work.C_tilde[k - 1], 0), 1.0, vector(work.C_tilde[k], 0))
+            passed = plus(vector(work.C_tilde[k - 1], 0), vector(work.C_tilde[k], 0))
             known = mixed(1.0, known, 0.5 * tables[p.grid_at + k - 1], passed)
         x = mixed(1.0, known, over, V)
         if p.damping > 0.0:
@@ -30,40 +44,23 @@ def more_loads(p, tables, stage, Y, work):
         by_V = rows_of(row, col.G_V)
         if p.surfaced:
             inertia = p.m * cv
-            gx, gy, gz = mixed(1.0, G, -inertia, mixed(1.0, V, -1.0, vector(work.C_tilde[k], col.V)))
+            gx, gy, gz = mixed(1.0, G, -inertia, minus(V, vector(work.C_tilde[k], col.V)))
             v = mixed(in_motion, V, -1.0, vector(F, 0))
             wet = wetting(p, t, in_motion, ahead, x, V)
             load, by_v, by_velocity, place = surface_load(p, in_motion, ahead, wet, v, tangent, (gx, gy, gz - p.w0))
             share = wet[0]
-            put(row, col.G_EPS, mixed(share, vector(row, col.G_EPS), 0.0, x))
+            put(row, col.G_EPS, multiple(share, vector(row, col.G_EPS)))
             for at, dt in ((col.G_THETA2, mixed(-1.0, b, 0.0, b)), (col.G_THETA3, n)):
                 put(row, at, mixed(share, vector(row, at), 1.0, surface_turn(p, wet, v, tangent, dt)))
-            G = mixed(1.0, G, 1.0, load)
-            matrix = sum_of(sum_of(by_v, by_velocity), _scaled(over, place))
-            matrix = sum_of(matrix, _scaled(share, by_V))
-            dry = inertia - share * inertia
-            by_V = (
-                (matrix[0][0] + dry, matrix[0][1], matrix[0][2]),
-                (matrix[1][0], matrix[1][1] + dry, matrix[1][2]),
-                (matrix[2][0], matrix[2][1], matrix[2][2] + dry),
-            )
+            G = plus(G, load)
+            matrix = sum_of(sum_of(by_v, by_velocity), scaled_rows(over, place))
+            by_V = plus_diagonal(sum_of(matrix, scaled_rows(share, by_V)), inertia - share * inertia)
         if p.floored:
             load, of_V, by_z = bed_load(p, in_motion, x[2], V)
-            G = mixed(1.0, G, 1.0, load)
-            by_V = sum_of(by_V, sum_of(of_V, _in_z(over, by_z)))
+            G = plus(G, load)
+            by_V = sum_of(by_V, sum_of(of_V, scaled_rows(over, third_column(by_z))))
         put(row, col.G, G)
         put_rows(row, col.G_V, by_V)
-
-
-@kernel
-def _scaled(a, A):
-    return mixed(a, A[0], 0.0, ZERO), mixed(a, A[1], 0.0, ZERO), mixed(a, A[2], 0.0, ZERO)
-
-
-@kernel
-def _in_z(a, column):
-    """Rows of a matrix that has nothing but a third column."""
-    return (0.0, 0.0, a * column[0]), (0.0, 0.0, a * column[1]), (0.0, 0.0, a * column[2])
 
 
 @of_extras((0.0, 0.0))

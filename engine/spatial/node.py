@@ -34,7 +34,22 @@ from ..physics.shocks import shock_tension
 from ..physics.tension.kernels import tension
 from . import columns as col
 from .extras import more_loads
-from .vectors import dot, frame, mixed, put, put_rows, quaternion, relative, rotation_vector, vector
+from .vectors import (
+    dot,
+    frame,
+    minus,
+    mixed,
+    multiple,
+    plus,
+    put,
+    put_rows,
+    quaternion,
+    relative,
+    rotation_vector,
+    rows_of,
+    times,
+    vector,
+)
 
 
 @of_extras((0.0, 0.0, 0.0))
@@ -47,13 +62,12 @@ def lower_end(p):
 def shape(p, tables, Y, Q, X):
     """Frames and q into Q, positions into X (n, 3): X[0] is the anchor, an element adds h times its mean q."""
     for k in range(Y.shape[0]):
-        t, n, b = frame(quaternion(Y[k], col.BETA))
+        row = Q[k]
+        axes = frame(quaternion(Y[k], col.BETA))
         lam = 1.0 + Y[k, col.EPS]
-        put(Q[k], col.T_VECTOR, t)
-        put(Q[k], col.N_VECTOR, n)
-        put(Q[k], col.B_VECTOR, b)
-        Q[k, col.STRETCHED] = lam
-        put(Q[k], col.Q, (lam * t[0], lam * t[1], lam * t[2]))
+        put_rows(row, col.T_VECTOR, axes)
+        row[col.STRETCHED] = lam
+        put(row, col.Q, multiple(lam, axes[0]))
     put(X[0], 0, lower_end(p))
     for k in range(1, Y.shape[0]):
         half = 0.5 * tables[p.grid_at + k - 1]
@@ -77,7 +91,7 @@ def node_quantities(p, tables, stage, Y, work):
     for k in range(Y.shape[0]):
         row, known, water = work.Q[k], work.C_tilde[k], work.F[k]
         eps, Sn, Sb = Y[k, col.EPS], Y[k, col.SHEAR_N], Y[k, col.SHEAR_B]
-        t, n, b = vector(row, col.T_VECTOR), vector(row, col.N_VECTOR), vector(row, col.B_VECTOR)
+        t, n, b = rows_of(row, col.T_VECTOR)
         lam = row[col.STRETCHED]
         # force in the line, with the viscosity of shocks
         T, slope = tension(eps, p, tables)
@@ -93,29 +107,25 @@ def node_quantities(p, tables, stage, Y, work):
             row[col.N + i] = T * t[i] + Sn * n[i] + Sb * b[i]
         # inertia and weight
         V, V_tilde = vector(Y[k], col.V), vector(known, col.V)
-        A = (cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1]), cv * (V[2] - V_tilde[2]))
-        Gx, Gy, Gz = p.m * A[0], p.m * A[1], p.m * A[2] + p.w0
+        A = multiple(cv, minus(V, V_tilde))
+        G = p.m * A[0], p.m * A[1], p.m * A[2] + p.w0
         Jxx = Jyy = Jzz = p.m * cv
         Jxy = Jxz = Jyz = 0.0
         if p.wet:
             # velocity against the water, and what of the acceleration acts across the line
             root = math.sqrt(max(lam, 0.0))
-            v = (in_motion * V[0] - water[0], in_motion * V[1] - water[1], in_motion * V[2] - water[2])
-            vt, vn, vb = dot(v, t), dot(v, n), dot(v, b)
+            v = mixed(in_motion, V, -1.0, vector(water, 0))
+            vt, vn, vb = times((t, n, b), v)
             speed = math.sqrt(vn * vn + vb * vb)
-            a_w = vector(water, col.ACCELERATION)
-            w = (p.ma * A[0] - p.Rw * a_w[0], p.ma * A[1] - p.Rw * a_w[1], p.ma * A[2] - p.Rw * a_w[2])
-            wt, wn, wb = dot(w, t), dot(w, n), dot(w, b)
+            w = mixed(p.ma, A, -p.Rw, vector(water, col.ACCELERATION))
+            wt, wn, wb = times((t, n, b), w)
             C_along, slope_along = drag_along(p, tables, root, abs(vt))
             C_across, slope_across = drag_across(p, tables, root, speed)
             secant_t, steeper = C_along * abs(vt), slope_along * abs(vt)
             secant_n = C_across * speed
             a, dn, db = secant_t * vt, secant_n * vn, secant_n * vb
             # G in the frame: a t + (dn + wn) n + (db + wb) b
-            force = mixed(1.0, mixed(a, t, dn + wn, n), db + wb, b)
-            Gx += force[0]
-            Gy += force[1]
-            Gz += force[2]
+            G = plus(G, mixed(1.0, mixed(a, t, dn + wn, n), db + wb, b))
             half = 0.5 / lam
             put(row, col.G_EPS, mixed(1.0, mixed(half * a, t, half * dn, n), half * db, b))
             # t turns towards d = -b (theta2) and d = n (theta3): v_p loses (v.d) t + v_t d
@@ -139,7 +149,7 @@ def node_quantities(p, tables, stage, Y, work):
             Jyy += Dp + Dt * t[1] * t[1] + Ds * vp[1] * vp[1]
             Jyz += Dt * t[1] * t[2] + Ds * vp[1] * vp[2]
             Jzz += Dp + Dt * t[2] * t[2] + Ds * vp[2] * vp[2]
-        put(row, col.G, (Gx, Gy, Gz))
+        put(row, col.G, G)
         put_rows(row, col.G_V, ((Jxx, Jxy, Jxz), (Jxy, Jyy, Jyz), (Jxz, Jyz, Jzz)))
         if p.bent:
             cube = lam * lam * lam

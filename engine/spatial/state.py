@@ -17,7 +17,20 @@ from ..simd.elementary import strain_within, within
 from . import columns as col
 from .extras import node_width
 from .node import box_rotation
-from .vectors import dot, frame, least_turn, mixed, put, quaternion, quaternion_product, turned, vector
+from .vectors import (
+    dot,
+    frame,
+    least_turn,
+    mixed,
+    multiple,
+    plus,
+    put,
+    put_quaternion,
+    quaternion,
+    quaternion_product,
+    turned,
+    vector,
+)
 
 
 @kernel
@@ -59,8 +72,7 @@ def add_update(p, factor, D, Y):
         d, y = D[k], Y[k]
         for i in range(col.BETA):
             y[i] += factor * d[i]
-        theta = vector(d, col.THETA1)
-        turn = (factor * theta[0], factor * theta[1], factor * theta[2])
+        turn = multiple(factor, vector(d, col.THETA1))
         put_quaternion(y, col.BETA, turned(quaternion(y, col.BETA), turn))
         for i in range(3):
             y[col.O1 + i] += factor * d[col.D_O1 + i]
@@ -102,15 +114,9 @@ def extrapolate(p, alpha_f, Y, C_new, Y_new):
 
 
 @kernel
-def put_quaternion(row, at, beta):
-    """row[at : at + 4] = beta"""
-    row[at], row[at + 1], row[at + 2], row[at + 3] = beta
-
-
-@kernel
 def _along(beta, q):
     """The frame beta turned the shortest way until its t is along q."""
-    return quaternion_product(least_turn(frame(beta)[0], mixed(1.0 / math.sqrt(dot(q, q)), q, 0.0, q)), beta)
+    return quaternion_product(least_turn(frame(beta)[0], multiple(1.0 / math.sqrt(dot(q, q)), q)), beta)
 
 
 @kernel
@@ -170,7 +176,7 @@ def configuration(p, tables, weights, C0, K0, C1, K1, row):
         V = _vector_within(weights, C0, C1, K0, K1, k, col.V)
         if k > 0:
             half = 0.5 * tables[p.grid_at + k - 1]
-            x = mixed(1.0, x, half, mixed(1.0, below, 1.0, q))
+            x = mixed(1.0, x, half, plus(below, q))
         below = q
         eps = strain_within(weights, C0[k], C1[k], K0[k], K1[k])
         put(row[k], PLACE, x)

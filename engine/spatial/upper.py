@@ -15,7 +15,7 @@ from ..record import HELD
 from ..simd.elementary import smooth_start
 from . import columns as col
 from .box import nodal_jacobian
-from .vectors import dot, mixed, quaternion, quaternion_product, relative, row_of, times, vector
+from .vectors import dot, plus, quaternion, quaternion_product, relative, row_of, sum_of, times, vector
 
 CLAMP = 1e6  # over the length (m) of the element there: stiffness of a clamp over EI (1/m)
 
@@ -42,19 +42,13 @@ def end_condition(p, tables, stage, Y, work):
 
     Arguments as for `engine.spatial.elimination.eliminate`.
     """
-    t, in_motion, cq, cv = stage
     last = Y.shape[0] - 1
     V, V_tilde, F = vector(Y[last], col.V), vector(work.C_tilde[last], col.V), work.F[last]
-    e, eN, S = upper_end_3d(p, tables, t, cv, in_motion, vector(work.Q[last], col.N), V, V_tilde, F)
+    e, eN, S = upper_end_3d(p, tables, stage, vector(work.Q[last], col.N), V, V_tilde, F)
     rows = ((S[0], S[1], S[2]), (S[1], S[3], S[4]), (S[2], S[4], S[5]))
     if p.spherical_cap:
-        cap, D = cap_end_3d(p, tables, t, cq, cv, in_motion, vector(work.X[last], 0), V, V_tilde, F)
-        e = mixed(1.0, e, 1.0, cap)
-        rows = (
-            mixed(1.0, rows[0], 1.0, D[0]),
-            mixed(1.0, rows[1], 1.0, D[1]),
-            mixed(1.0, rows[2], 1.0, D[2]),
-        )
+        cap, D = cap_end_3d(p, tables, stage, vector(work.X[last], 0), V, V_tilde, F)
+        e, rows = plus(e, cap), sum_of(rows, D)
     return e, eN, rows
 
 
@@ -69,7 +63,7 @@ def solve_upper(p, tables, stage, twisted, Y, work):
     row, node = E[last], work.Q[last]
     residual, eN, S = end_condition(p, tables, stage, Y, work)
     count = 6 if twisted else 5
-    # three forces, two moments and a roll, by y and dO1; the last column is the right-hand side
+    # three forces, two moments and, where the roll is known, a roll, by y and dO1; column `count`: the right-hand side
     M = np.zeros((6, 7))
     R1 = row_of(row, col.R + col.ROLL)
     at = nodal_jacobian(p, node, 0.0)
@@ -84,25 +78,22 @@ def solve_upper(p, tables, stage, twisted, Y, work):
         for j in range(5):
             M[i, j] += eN * (at.N[j][i] + at.roll[i] * R1[j])
         M[i, 5] = tau[i] + eN * at.roll[i] * row[col.R_TORQUE + 5]
-        M[i, 6] = -residual[i] - known[i] - eN * at.roll[i] * row[col.R_KNOWN + 5]
-    M[3, 5], M[4, 5], M[5, 5] = row[col.R_TORQUE + 3], row[col.R_TORQUE + 4], row[col.R_TORQUE + 5]
-    M[3, 6], M[4, 6] = -Y[last, col.O2] - row[col.R_KNOWN + 3], -Y[last, col.O3] - row[col.R_KNOWN + 4]
+        M[i, count] = -residual[i] - known[i] - eN * at.roll[i] * row[col.R_KNOWN + 5]
+    M[3, 5], M[4, 5], M[5, 5] = vector(row, col.R_TORQUE + 3)
+    M[3, count], M[4, count] = -Y[last, col.O2] - row[col.R_KNOWN + 3], -Y[last, col.O3] - row[col.R_KNOWN + 4]
     if p.end == HELD and p.clamp_above and not released(p, stage.t):
         k_rotation = CLAMP / tables[p.grid_at + last - 1]
         direction = (p.above_x, p.above_y, p.above_z)
         M[3, 3] += k_rotation
         M[4, 4] += k_rotation
-        M[3, 6] -= k_rotation * dot(direction, vector(node, col.B_VECTOR))
-        M[4, 6] += k_rotation * dot(direction, vector(node, col.N_VECTOR))
+        M[3, count] -= k_rotation * dot(direction, vector(node, col.B_VECTOR))
+        M[4, count] += k_rotation * dot(direction, vector(node, col.N_VECTOR))
     if twisted:
         length = 0.0
         for k in range(last):
             length += tables[p.grid_at + k]
         M[5, 5] += length
-        M[5, 6] = -_roll_to_go(p, stage.t, length, Y) - row[col.R_KNOWN + 5]
-    else:
-        for i in range(6):
-            M[i, 5] = M[i, 6]
+        M[5, count] = -_roll_to_go(p, stage.t, length, Y) - row[col.R_KNOWN + 5]
     if not _eliminated(M, count):
         return False
     for i in range(5):

@@ -24,21 +24,90 @@ def vector(row, at):
 
 
 @kernel
+def pair(row, at):
+    """(row[at], row[at + 1])"""
+    return row[at], row[at + 1]
+
+
+@kernel
 def quaternion(row, at):
     """(row[at], ..., row[at + 3])"""
     return row[at], row[at + 1], row[at + 2], row[at + 3]
 
 
 @kernel
-def dot(a, b):
-    """a . b"""
+def put_quaternion(row, at, q):
+    """row[at : at + 4] = q"""
+    row[at], row[at + 1], row[at + 2], row[at + 3] = q
+
+
+def dot_of(a, b):
+    """a . b, of numbers or of arrays of them."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+dot = kernel(dot_of)
+
+
+@kernel
+def cross(a, b):
+    """a x b"""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@kernel
+def multiple(x, a):
+    """x a"""
+    return x * a[0], x * a[1], x * a[2]
+
+
+@kernel
+def plus(a, b):
+    """a + b"""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@kernel
+def minus(a, b):
+    """a - b"""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @kernel
 def mixed(x, a, y, b):
     """x a + y b"""
     return x * a[0] + y * b[0], x * a[1] + y * b[1], x * a[2] + y * b[2]
+
+
+@kernel
+def scaled_rows(x, A):
+    """x A, of three vectors."""
+    return multiple(x, A[0]), multiple(x, A[1]), multiple(x, A[2])
+
+
+@kernel
+def third_column(a):
+    """Rows of the matrix that has a in its third column and else zeros."""
+    return (0.0, 0.0, a[0]), (0.0, 0.0, a[1]), (0.0, 0.0, a[2])
+
+
+@kernel
+def mixed_rows(x, A, y, B):
+    """x A + y B, of three vectors each."""
+    return mixed(x, A[0], y, B[0]), mixed(x, A[1], y, B[1]), mixed(x, A[2], y, B[2])
+
+
+@kernel
+def sum_of(A, B):
+    """A + B, of three vectors each."""
+    return plus(A[0], B[0]), plus(A[1], B[1]), plus(A[2], B[2])
+
+
+@kernel
+def plus_diagonal(rows, x):
+    """The matrix of these three rows plus x times the unit matrix."""
+    a, b, c = rows
+    return (a[0] + x, a[1], a[2]), (b[0], b[1] + x, b[2]), (c[0], c[1], c[2] + x)
 
 
 @kernel
@@ -77,15 +146,19 @@ def minus_product(A, B):
 
 
 @kernel
+def cofactors(a, b, c):
+    """b x c, c x a, a x b and the determinant a . (b x c): over it, rows of the inverse of a matrix with columns a, b,
+    c, columns of that of one with these rows."""
+    first = cross(b, c)
+    return (first, cross(c, a), cross(a, b)), dot(a, first)
+
+
+@kernel
 def inverted(A0, A1, A2):
     """Inverse (three rows) and determinant of the 3 x 3 matrix with these rows: an adjugate over the determinant."""
-    (A00, A01, A02), (A10, A11, A12), (A20, A21, A22) = A0, A1, A2
-    i00, i01, i02 = A11 * A22 - A12 * A21, A02 * A21 - A01 * A22, A01 * A12 - A02 * A11
-    i10, i11, i12 = A12 * A20 - A10 * A22, A00 * A22 - A02 * A20, A02 * A10 - A00 * A12
-    i20, i21, i22 = A10 * A21 - A11 * A20, A01 * A20 - A00 * A21, A00 * A11 - A01 * A10
-    det = A00 * i00 + A01 * i10 + A02 * i20
+    (x, y, z), det = cofactors(A0, A1, A2)
     f = 1.0 / det
-    return ((f * i00, f * i01, f * i02), (f * i10, f * i11, f * i12), (f * i20, f * i21, f * i22)), det
+    return ((f * x[0], f * y[0], f * z[0]), (f * x[1], f * y[1], f * z[1]), (f * x[2], f * y[2], f * z[2])), det
 
 
 @kernel
@@ -134,23 +207,25 @@ quaternion_product, frame = kernel(product_of), kernel(frame_of)
 @kernel
 def rotation_vector(r):
     """Rotation vector psi = angle * axis (rad) of a unit quaternion, the angle a in [0, 2 pi], and (a/2) cot(a/2)."""
-    square = r[1] * r[1] + r[2] * r[2] + r[3] * r[3]
+    axis = vector(r, 1)
+    square = dot(axis, axis)
     if square < 0.01 and r[0] > 0.0:  # a = 2 arcsin(sqrt(square)) as a power series, to rounding
         z = square
         ratio = 2.0 + z * (
             1.0 / 3 + z * (3.0 / 20 + z * (5.0 / 56 + z * (35.0 / 576 + z * (63.0 / 1408 + z * (231.0 / 6656 + z * (
                 143.0 / 5120)))))))  # fmt: skip
-        return (ratio * r[1], ratio * r[2], ratio * r[3]), ratio * math.sqrt(square), 0.5 * ratio * r[0]
-    sine = math.sqrt(square)
-    angle = 2.0 * math.atan2(sine, r[0])
-    ratio = angle / sine
-    return (ratio * r[1], ratio * r[2], ratio * r[3]), angle, 0.5 * ratio * r[0]
+        angle = ratio * math.sqrt(square)
+    else:
+        sine = math.sqrt(square)
+        angle = 2.0 * math.atan2(sine, r[0])
+        ratio = angle / sine
+    return multiple(ratio, axis), angle, 0.5 * ratio * r[0]
 
 
 @kernel
 def turned(q, theta):
     """q o exp(theta/2): the frame q turned by the rotation vector theta, given in its own axes (rad)."""
-    square = 0.25 * (theta[0] * theta[0] + theta[1] * theta[1] + theta[2] * theta[2])
+    square = 0.25 * dot(theta, theta)
     if square < 0.01:
         c = 1.0 + square * (-0.5 + square * (1.0 / 24 + square * (-1.0 / 720 + square / 40320)))
         s = 1.0 + square * (-1.0 / 6 + square * (1.0 / 120 + square * (-1.0 / 5040 + square / 362880)))
@@ -165,7 +240,7 @@ def turned(q, theta):
 def least_turn(a, b):
     """Unit quaternion of the shortest rotation that takes the unit vector a into b (any axis where they oppose)."""
     w = 1.0 + dot(a, b)
-    x, y, z = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    x, y, z = cross(a, b)
     if w < 1e-12:
         w = 0.0
         x, y, z = (-a[1], a[0], 0.0) if abs(a[2]) < 0.9 else (0.0, -a[2], a[1])

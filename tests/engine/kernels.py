@@ -15,7 +15,7 @@ from engine.perturbations.tangent import Base
 from engine.physics import sea_series, sea_sum
 from engine.physics.ends import upper_end, upper_end_3d
 from engine.physics.water import current_field, water
-from engine.physics.waves import wave_field, wave_field_in_space
+from engine.physics.waves import wave_field
 from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
 from engine.planar import state as planar
@@ -103,7 +103,7 @@ def waves_at(scene, t, X, background=0.0):
     elif p["sea_n"]:
         sea_sum.sea_field(p, tables, t, X, F, np.zeros((len(X) + 1, sea_sum.WIDTH)))
     else:
-        (wave_field if X.shape[1] == 2 else wave_field_in_space)(p, tables, t, X, F)
+        wave_field(p, tables, t, X, F)
     return F
 
 
@@ -118,10 +118,11 @@ def current_at(scene, t, X, preceding_tables=()):
 
 def upper_end_of(p, tables, t, rate, in_motion, N, V, V_tilde, F):
     """Condition e (2,) or (3,) of the upper end, its factor e_N of N, and its derivative D by V, (2, 2) or (3, 3)."""
+    stage = arrays.Stage(t, in_motion, 1.0, rate)
     if len(N) == 2:
-        ex, ez, e_N, xx, xz, zz = upper_end(p, tables, t, rate, in_motion, *N, *V, *V_tilde, F)
+        ex, ez, e_N, xx, xz, zz = upper_end(p, tables, stage, tuple(N), tuple(V), tuple(V_tilde), F)
         return np.array([ex, ez]), e_N, np.array([[xx, xz], [xz, zz]])
-    e, e_N, D = upper_end_3d(p, tables, t, rate, in_motion, tuple(N), tuple(V), tuple(V_tilde), F)
+    e, e_N, D = upper_end_3d(p, tables, stage, tuple(N), tuple(V), tuple(V_tilde), F)
     return np.array(e), e_N, np.array(D)[[0, 1, 2, 1, 3, 4, 2, 4, 5]].reshape(3, 3)
 
 
