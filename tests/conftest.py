@@ -17,7 +17,9 @@ SCENES = (  # what most tests need: changes of the tethered buoy, and as of `eng
     ({"motion.dimensions": 3}, False, False),
     ({"solver.scheme": "paper-box"}, False, False),
 )
-LONGEST = "test_pages.py", "test_own_mooring_page.py", "test_lowest_versions.py"  # minutes each, last in the alphabet
+LONGEST = (  # minutes each
+    "test_pages.py", "test_own_mooring_page.py", "test_lowest_versions.py", "test_campaign.py", "test_basins.py",
+)  # fmt: skip
 
 
 @pytest.hookimpl(trylast=True)

@@ -59,3 +59,10 @@ def compare(printed: str, shown: str) -> None:
     for computed, stated in zip(re.findall(NUMBER, printed), re.findall(NUMBER, shown), strict=True):
         if "e" not in stated:
             assert float(computed) == pytest.approx(float(stated), abs=2.01 * 10.0 ** -len(stated.partition(".")[2]))
+
+
+def assert_complete(folder: Path) -> None:
+    """The folder of a campaign has its tables, where they are from, and its report as a page and as a PDF."""
+    for name in ("table.csv", "columns.csv", "provenance.json", "report.html", "report.pdf"):
+        assert (folder / name).stat().st_size
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")

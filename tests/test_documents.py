@@ -14,8 +14,8 @@ from engine.scene.faults import known_fields
 from engine.scene.models import Scene
 from engine.scene.reference import keys, page, sources
 from engine.trajectory import COLUMNS
+from tests.pages import ROOT
 
-ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted(
     path.relative_to(ROOT).as_posix() for place in (".", "docs", "benchmarks") for path in (ROOT / place).glob("*.md")
 )

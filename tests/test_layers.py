@@ -8,8 +8,6 @@ the engine stand on FLOORS: a module imports its own floor and those below.
 """
 
 import ast
-import subprocess
-import sys
 import tomllib
 from functools import cache
 from graphlib import TopologicalSorter
@@ -17,7 +15,9 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+from tests.pages import ROOT
+from tests.processes import python
+
 BELOW = {
     "machine_code": set(),
     "engine": {"machine_code"},
@@ -164,11 +164,6 @@ def test_only_the_packages_are_installed():
     assert {name.rstrip("*") for name in find["include"]} == set(BELOW) and find["namespaces"] is False
 
 
-def printed(code: str) -> str:
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    return done.stdout.strip()
-
-
 @pytest.mark.parametrize(
     ("statement", "absent"),
     [
@@ -179,7 +174,8 @@ def printed(code: str) -> str:
     ],
 )
 def test_what_is_not_needed_is_not_imported(statement, absent):
-    assert printed(f"import sys; {statement}; print([name for name in {absent!r} if name in sys.modules])") == "[]"
+    code = f"import sys; {statement}; print([name for name in {absent!r} if name in sys.modules])"
+    assert python("-c", code).stdout == "[]\n"
 
 
 @pytest.mark.slow
@@ -192,4 +188,4 @@ def test_what_is_not_needed_is_not_imported(statement, absent):
 )
 def test_the_public_names_do_not_depend_on_the_order_of_imports(statement):
     code = f"{statement}; import engine, inspect; print(inspect.isfunction(simulate), simulate is engine.simulate)"
-    assert printed(code) == "True True"
+    assert python("-c", code).stdout == "True True\n"

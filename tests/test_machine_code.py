@@ -6,8 +6,6 @@ import multiprocessing
 import os
 import pickle
 import shutil
-import subprocess
-import sys
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -24,6 +22,7 @@ from engine.planar.node import shape
 from machine_code.parts import compiled_in_parts
 from machine_code.sources import code_hash, code_of, meaning_of
 from machine_code.store import compiled, folder_for, hash_of, one_at_a_time
+from tests.processes import python
 
 PROCESSES, KINDS = 4, 12
 
@@ -253,11 +252,7 @@ def test_code_stored_by_one_process_each_is_told_apart_where_both_are_loaded(tmp
     """The tension law takes the planar record or the spatial one; Table 1 has T = EA eps = 5000 N, EA = 50 kN."""
 
     def printed(*dimensions):
-        environment = os.environ | {"TETHER_CACHE_DIR": str(tmp_path)}
-        run = subprocess.run(
-            [sys.executable, "-c", LAW, *dimensions], env=environment, capture_output=True, text=True, check=True
-        )
-        return run.stdout.split()
+        return python("-c", LAW, *dimensions, TETHER_CACHE_DIR=str(tmp_path)).stdout.split()
 
     law = ["5000.0", "50000.0"]
     assert printed("2") == law

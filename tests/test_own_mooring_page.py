@@ -6,7 +6,7 @@ import re
 import pandas
 import pytest
 
-from tests.pages import ROOT, blocks, commands
+from tests.pages import ROOT, assert_complete, blocks, commands
 
 MODULES = {"engine": "engine.__main__"}
 ROW = re.compile(r"^\| (\d) \| ([\d.]+) \| ([\d.]+) % \| ([\d.]+) \|$", re.MULTILINE)
@@ -19,6 +19,8 @@ def test_the_page_runs_and_its_table_is_what_it_computes(tmp_path, monkeypatch, 
         assert kind == "sh"
         for module, words in commands(text):
             assert importlib.import_module(MODULES.get(module, module)).main(words) == 0
+    for name in ("heights", "sea"):
+        assert_complete(tmp_path / name)
     printed = capsys.readouterr().out
     assert "period-1" in printed and "% of tether.breaking_load_N" in printed
     page = (ROOT / "docs" / "own_mooring.md").read_text(encoding="utf-8")

@@ -85,7 +85,12 @@ def record(name, samples=20_000, noise=0.0, seed=0):
 
 
 def noisy(x, share, seed):
-    return x + share * np.std(x) * np.random.default_rng(seed).normal(size=len(x)) if share else x
+    return x + share * np.std(x) * normal(seed, len(x)) if share else x
+
+
+def normal(seed, *shape):
+    """White noise: independent normal deviates."""
+    return np.random.default_rng(seed).normal(size=shape)
 
 
 def two_tone(samples=20_000, step=0.1):

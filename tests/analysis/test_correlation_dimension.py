@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import correlation_dimension
-from tests.analysis.systems import henon, states
+from tests.analysis.systems import henon, normal, states
 
 
 # 1.21 +- 0.01: Grassberger & Procaccia 1983; 1.220 +- 0.036: Sprott 2003. The slope of this set swings with the radius
@@ -37,13 +37,13 @@ def test_a_line_and_a_circle_have_dimension_1(points):
 
 @pytest.mark.parametrize("dimension", [1, 2, 3])
 def test_noise_fills_its_space(dimension):
-    noise = np.random.default_rng(dimension).normal(size=(4000, dimension))
+    noise = normal(dimension, 4000, dimension)
     assert correlation_dimension(noise).value == pytest.approx(dimension, rel=0.05)
 
 
 def test_a_smooth_curve_is_one_dimensional_only_without_the_window():
     """A random walk visits the plane; its neighbours in time make it look like a curve (Theiler 1986)."""
-    walk = np.cumsum(np.random.default_rng(3).normal(size=(4000, 2)), axis=0)
+    walk = np.cumsum(normal(3, 4000, 2), axis=0)
     smooth = np.apply_along_axis(lambda x: np.convolve(x, np.hanning(200), "same"), 0, walk)
     far = correlation_dimension(smooth, theiler=400).value
     assert correlation_dimension(smooth).value < 1.25 and (np.isnan(far) or far > 1.5)
@@ -55,7 +55,7 @@ def test_a_period_is_a_finite_set():
 
 
 def test_the_correlation_sum_counts_pairs():
-    points = np.random.default_rng(5).normal(size=(300, 2))
+    points = normal(5, 300, 2)
     result = correlation_dimension(points, theiler=4)
     z = points / points.std(axis=0)
     distance = [np.linalg.norm(z[i] - z[j]) for i in range(300) for j in range(i + 5, 300)]

@@ -12,7 +12,7 @@ from analysis.embedding import (
     noise_level,
 )
 from analysis.neighbours import nearest_outside
-from tests.analysis.systems import henon, noisy, record
+from tests.analysis.systems import henon, noisy, normal, record
 
 
 def test_the_rows_of_delay_vectors_are_pieces_of_the_series():
@@ -32,7 +32,7 @@ def test_a_sine_has_its_period_and_a_delay_that_opens_its_ellipse(samples_per_pe
 
 
 def test_mutual_information_is_entropy_at_lag_0_and_its_bias_for_independent_samples_and_sees_order_only():
-    x = np.random.default_rng(0).normal(size=20_000)
+    x = normal(0, 20_000)
     information, cells = mutual_information(x, 50)
     assert information[0] == pytest.approx(np.log(cells), rel=1e-3)
     assert information[1:].mean() == pytest.approx((cells - 1) ** 2 / (2 * len(x)), rel=0.05)
@@ -52,13 +52,13 @@ def test_the_dimension_that_unfolds(name, dimension):
 
 
 def test_noise_is_told_from_motion_by_caos_second_average():
-    noise = choose_embedding(np.random.default_rng(0).normal(size=5000))
+    noise = choose_embedding(normal(0, 5000))
     assert np.all(np.abs(noise.e2[1:] - 1.0) < 0.1)
     assert np.max(np.abs(choose_embedding(henon(5000)[:, 0]).e2 - 1.0)) > 0.3
 
 
 def test_nearest_neighbours_outside_the_window_are_those_of_brute_force():
-    points = np.random.default_rng(0).normal(size=(300, 2)).cumsum(axis=0)
+    points = normal(0, 300, 2).cumsum(axis=0)
     index, distance = nearest_outside(points, 20, count=3)
     separation = np.linalg.norm(points[:, None] - points, axis=2)
     separation[np.abs(np.subtract.outer(np.arange(300), np.arange(300))) <= 20] = np.inf

@@ -3,8 +3,6 @@
 The package is light until used, and its names mean the same in whatever order one imports.
 """
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +10,7 @@ import pytest
 
 import analysis
 from analysis.stationarity import record_drift
+from tests.processes import python
 
 STEPPED = {
     "spectrum": lambda x, step: analysis.spectrum(x, step, 5.0, 0, 1),
@@ -64,14 +63,13 @@ def test_a_record_does_not_change_through_its_arrays_and_has_numbers_of_python()
     assert type(analysis.extremes(x, 0.1).maximum) is float and analysis.extremes(x, 0.1) == analysis.extremes(x, 0.1)
 
 
-PACKAGE = Path(analysis.__file__).parent
-MODULES = {path.stem for path in PACKAGE.glob("*.py")} - {"__init__", "__main__"}
+MODULES = {path.stem for path in Path(analysis.__file__).parent.glob("*.py")} - {"__init__", "__main__"}
 
 
 def test_importing_the_package_imports_no_array_library_and_no_module_hides_a_function():
     code = "import analysis, sys; print([m for m in ('numpy', 'scipy') if m in sys.modules])"
-    answer = subprocess.run([sys.executable, "-c", code], cwd=PACKAGE.parent, capture_output=True, text=True)
-    assert answer.stdout.strip() == "[]", answer.stderr
+    answer = python("-c", code)
+    assert answer.stdout == "[]\n", answer.stderr
     assert not MODULES & set(analysis.__all__)
     with pytest.raises(AttributeError, match="wolf"):
         _ = analysis.wolf

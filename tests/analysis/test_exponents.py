@@ -6,7 +6,7 @@ from scipy.signal import lfilter
 
 from analysis import tangent_lyapunov, transverse_lyapunov
 from analysis.exponents import Exponent, no_exponent
-from tests.analysis.systems import logistic, logistic_growth
+from tests.analysis.systems import logistic, logistic_growth, normal
 
 
 def growth_of_a_bit(periods, seed):
@@ -16,7 +16,7 @@ def growth_of_a_bit(periods, seed):
 
 
 def ar1(periods, seed):
-    return lfilter([1.0], [1.0, -0.6], np.random.default_rng(seed).normal(size=periods))
+    return lfilter([1.0], [1.0, -0.6], normal(seed, periods))
 
 
 @pytest.mark.parametrize("periods", [200, 500, 2000])

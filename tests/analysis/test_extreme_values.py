@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from analysis import Extremes, block_maxima, extremes, slack_fraction
+from tests.analysis.systems import normal
 
 
 def test_extremes_are_those_of_the_samples_after_the_transient():
@@ -47,7 +48,7 @@ def test_a_transient_is_left_out_to_the_moment_even_between_samples(transient):
 
 
 def test_blocks_of_blocks_are_longer_blocks_and_a_part_of_one_counts_for_nothing():
-    x = np.random.default_rng(1).normal(size=1003)
+    x = normal(1, 1003)
     tens = block_maxima(x, 10)
     assert len(tens) == 100 and np.array_equal(block_maxima(tens, 5), block_maxima(x, 50))
     assert np.array_equal(block_maxima(x, 1), x) and len(block_maxima(x, 1004)) == 0

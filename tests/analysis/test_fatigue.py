@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from analysis import damage_equivalent_load, rainflow_cycles, turning_points, utilisation
+from tests.analysis.systems import normal
 
 
 def test_cycles_are_those_of_the_worked_example_of_the_standard():
@@ -31,7 +32,7 @@ def four_points(series):
 
 @pytest.mark.parametrize("seed", range(100))
 def test_whole_cycles_and_residue_are_those_of_another_rule(seed):
-    points = np.random.default_rng(seed).normal(size=200)
+    points = normal(seed, 200)
     turns = np.concatenate([points[:1], points[1:-1][np.diff(np.sign(np.diff(points))) != 0], points[-1:]])
     inner, residue = four_points(turns)
     counted = rainflow_cycles(points)

@@ -6,7 +6,7 @@ import pytest
 from analysis import motion_regime
 from analysis.exponents import Exponent
 from analysis.looks import CLOSE
-from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth
+from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth, normal
 
 M = np.arange(1001)
 
@@ -40,7 +40,7 @@ def test_tori_are_quasi_periodic_and_stay_so(coupling, rotation):
     section = circle_map(coupling, rotation, 1001)
     growth = circle_growth(coupling, turns_of(section))
     assert motion_regime(section, growth, scale=2.0).regime == "quasi-periodic"
-    assert motion_regime(section + 1e-3 * np.random.default_rng(0).normal(size=section.shape), growth, scale=2.0,
+    assert motion_regime(section + 1e-3 * normal(0, *section.shape), growth, scale=2.0,
                          tolerance=0.01).regime == "quasi-periodic"  # fmt: skip
 
 
@@ -87,7 +87,7 @@ def test_chaos_has_to_survive_a_tighter_tolerance_after_the_look_that_finds_it()
 
 def test_a_shrinking_flip_is_no_period_2():
     """A motion that nears period 1 from both sides in turn repeats after 2 all the while."""
-    noise = 1e-3 * np.random.default_rng(2).normal(size=(1051, 2))
+    noise = 1e-3 * normal(2, 1051, 2)
     flip = np.outer((-0.994) ** np.arange(1051), [0.1, 0.05]) + noise
     assert not any(motion_regime(flip[: n + 1], scale=2.0, tolerance=0.01).period for n in (135, 205))
     assert motion_regime(flip, scale=2.0, tolerance=0.01).regime == "period-1"

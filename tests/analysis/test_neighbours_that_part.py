@@ -11,7 +11,7 @@ import pytest
 from analysis.divergence import _slope_of, rosenstein_lyapunov, scaling_region
 from analysis.wolf_pairs import wolf_run
 from analysis.wolf_plateau import wolf_lyapunov
-from tests.analysis.systems import TRUTH, noisy, record
+from tests.analysis.systems import TRUTH, noisy, normal, record
 
 CHAOTIC = [name for name in TRUTH if TRUTH[name]]
 ROSSLER, STEP = record("rossler", 6000)
@@ -91,7 +91,7 @@ def test_the_error_by_rosenstein_is_that_of_the_mean_over_independent_pairs():
     """2000 pairs part at rates 1 +- 0.5: a mean known to 0.5/sqrt(2000)."""
     errors = []
     for seed in range(30):
-        rates = 1.0 + 0.5 * np.random.default_rng(seed).normal(size=2000)
+        rates = 1.0 + 0.5 * normal(seed, 2000)
         errors.append(_slope_of(np.outer(0.1 * np.arange(21), rates), 0.1, 1.0, {}).error)
     assert np.mean(errors) == pytest.approx(0.5 / np.sqrt(2000), rel=0.15)
 

@@ -31,15 +31,11 @@ from analysis.embedding import delay_vectors, mutual_information
 from analysis.exponents import Exponent
 from analysis.orbits import OrbitMap, find_orbit, follow_branch
 from analysis.oscillator import SnapOscillator, snap_diagram, snap_exponents, strobed_states
-from tests.analysis.systems import henon, logistic_step, record, two_tone
+from tests.analysis.systems import henon, logistic_step, normal, record, two_tone
 
 ZEROS, PAIRS, MAP, SNAP = np.zeros(101), np.zeros((50, 2)), OrbitMap(logistic_step), SnapOscillator()
 NATS = Exponent(0.42, 0.01, "nats/time", "known")
 TIME = np.arange(5000.0)
-
-
-def normal(*shape):
-    return np.random.default_rng(0).normal(size=shape)
 
 
 def section(series, step_s=0.1, period_s=5.0, **options):
@@ -113,13 +109,13 @@ def test_what_makes_no_sense_is_refused(message, call):
 
 WITHOUT = [
     ("series that moves", lambda: wolf_lyapunov(np.ones(5000), 1.0)),
-    ("200 samples", lambda: wolf_lyapunov(normal(150), 1.0)),
+    ("200 samples", lambda: wolf_lyapunov(normal(0, 150), 1.0)),
     ("mean periods", lambda: wolf_lyapunov(np.sin(0.01 * TIME), 1.0)),
-    ("noise", lambda: wolf_lyapunov(normal(5000), 1.0)),
+    ("noise", lambda: wolf_lyapunov(normal(0, 5000), 1.0)),
     ("no neighbours", lambda: wolf_lyapunov(np.tile([0.0, 1.0, 3.0, 2.0], 500), 1.0)),
     ("straight", lambda: rosenstein_lyapunov(two_tone(5000), 0.1)),
     ("straight|only", lambda: rosenstein_lyapunov(np.sin(0.1 * TIME), 0.1)),
-    ("straight", lambda: rosenstein_lyapunov(normal(5000), 0.1)),
+    ("straight", lambda: rosenstein_lyapunov(normal(0, 5000), 0.1)),
     ("series that moves", lambda: rosenstein_lyapunov(np.ones(5000), 0.1)),
     ("32 periods", lambda: tangent_lyapunov(ZEROS[:40], transient_periods=9)[0]),
     ("too short", lambda: section_lyapunov(henon(20))[0]),
@@ -129,8 +125,8 @@ WITHOUT = [
     ("oversampled", lambda: zero_one_test(record("two_tone", 4000)[0])),
     ("no motion", lambda: correlation_dimension(np.zeros((500, 2)))),
     ("too short", lambda: correlation_dimension(np.ones((299, 2)))),
-    ("no scaling region|too few points", lambda: correlation_dimension(normal(3000, 6))),
-    ("no scaling region|too few points", lambda: correlation_dimension(normal(3000, 10))),
+    ("no scaling region|too few points", lambda: correlation_dimension(normal(0, 3000, 6))),
+    ("no scaling region|too few points", lambda: correlation_dimension(normal(0, 3000, 10))),
     ("too short", lambda: section_distance(PAIRS[:39], PAIRS)),
 ]
 

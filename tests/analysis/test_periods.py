@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import detect_period
-from tests.analysis.systems import circle, logistic
+from tests.analysis.systems import circle, logistic, normal
 
 TOLERANCE = 1e-3
 BRANCHES = np.array([0.0, 3.0, 1.0, 7.0, 5.0, 4.0, 2.0, 6.0])
@@ -129,7 +129,7 @@ def test_noise_gives_the_period_then_the_period_or_none_but_no_multiple_of_it_an
 
 def test_independent_errors_about_a_point_have_the_multiplier_minus_one_half():
     """Differences d_k = e_{k+1} - e_k of independent e have correlation -1/2 with their next ones."""
-    estimate = detect_period(np.random.default_rng(0).normal(size=200000), max_period=3)
+    estimate = detect_period(normal(0, 200000), max_period=3)
     assert estimate.multiplier == pytest.approx([-0.5] * 3, abs=0.01)
     assert estimate.trend_nats_per_period == pytest.approx([0.0] * 3, abs=1e-4)
 

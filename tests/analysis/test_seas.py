@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import envelope, growing_share, peaks, residence, responses, sea_lyapunov, slow_forecast, spells_of
+from tests.analysis.systems import normal
 
 
 def growth(count, rng, mean=-0.05, memory=0.9):
@@ -51,7 +52,7 @@ def test_windows_that_grow_are_counted():
 
 def pulled(starts, waves, contraction):
     """x' = c x + a forcing that is the same for all starts: they come together at the rate c."""
-    forcing = np.random.default_rng(4).normal(size=waves)
+    forcing = normal(4, waves)
     states = np.zeros((len(starts), waves, 1))
     x = np.array(starts, dtype=float)
     for wave in range(waves):

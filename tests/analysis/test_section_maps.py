@@ -5,7 +5,7 @@ import pytest
 
 from analysis import long_memory, section_lyapunov
 from analysis.section_maps import prediction_gain
-from tests.analysis.systems import circle_map, henon, logistic, noisy, nonchaotic_map, two_tone
+from tests.analysis.systems import circle_map, henon, logistic, noisy, nonchaotic_map, normal, two_tone
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_a_map_on_a_line_needs_one_row_and_henons_two():
 @pytest.mark.parametrize("points", [300, 3000])
 def test_chaos_in_bands_or_without_and_noise_forget(points):
     bands = logistic(3.9, points) + 10.0 * (np.arange(points) % 2)
-    for record in (logistic(3.9, points), henon(points), np.random.default_rng(0).normal(size=points), bands):
+    for record in (logistic(3.9, points), henon(points), normal(0, points), bands):
         assert long_memory(record) < 7.0 / np.sqrt(points)
 
 

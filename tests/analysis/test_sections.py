@@ -11,7 +11,7 @@ import pytest
 
 from analysis import density_image, orbit_diagram, poincare_section, scale_density, section_at_phases, section_distance
 from analysis.section_distances import energy_distance
-from tests.analysis.systems import henon, logistic
+from tests.analysis.systems import henon, logistic, normal
 
 PERIOD = 5.0
 
@@ -25,7 +25,7 @@ def test_a_record_of_whole_periods_has_one_point_more_than_periods_whatever_the_
 
 @pytest.mark.parametrize(("phase", "transient"), [(0.0, 1), (0.3, 40)])
 def test_leaving_out_a_transient_only_drops_points_from_the_start(phase, transient):
-    x = np.random.default_rng(0).normal(size=(3001, 2))
+    x = normal(0, 3001, 2)
     full, part = (poincare_section(x, 0.1, PERIOD, phase, first) for first in (0, transient))
     for name in ("points", "time_s", "period_index"):
         assert np.array_equal(getattr(part, name), getattr(full, name)[transient:])
@@ -40,7 +40,7 @@ def test_coordinates_keep_their_order_and_phases_stand_side_by_side():
 
 @pytest.mark.parametrize("phase", [0.0, 0.25, 0.5, 0.99])
 def test_phases_on_samples_give_the_samples(phase):
-    x = np.random.default_rng(1).normal(size=(2001, 2))
+    x = normal(1, 2001, 2)
     section = poincare_section(x, 0.05, PERIOD, phase=phase)
     assert np.array_equal(section.points, x[np.arange(len(section.points)) * 100 + round(100 * phase)])
     assert not section.interpolated and poincare_section(x, 0.05, PERIOD, phase=0.001).interpolated
@@ -62,7 +62,7 @@ def test_columns_follow_the_parameter_and_two_runs_of_one_value_share_one():
 
 @pytest.mark.parametrize("bins", [1, 7, 400])
 def test_every_point_is_counted_in_its_pixel(bins):
-    columns = [np.random.default_rng(count).normal(size=count) for count in (0, 1, 400)]
+    columns = [normal(count, count) for count in (0, 1, 400)]
     image = density_image(orbit_diagram([1.0, 2.0, 3.0], columns), bins)
     low, high = image.value_edges[:-1, None], image.value_edges[1:, None]
     for counts, column in zip(image.counts.T, columns, strict=True):

@@ -131,7 +131,7 @@ def test_a_slack_interval_that_began_before_the_record_has_no_onset_and_one_that
 
 
 def test_thresholds_are_options():
-    tension_N = pulls((2.0, 1.5, 4.0), (8.0, 2.0, 0.7), (15.0, 1.5, 3.0))
+    tension_N, _ = BY_HAND["a weak pull does not count"]
     counts = [len(detect_snaps(tension_N, STEP_S, STATIC_N, snap_share=share)) for share in (0.06, 1.0, 3.5, 4.5)]
     assert counts == [3, 2, 1, 0]
     assert len(detect_snaps(tension_N + 0.2 * STATIC_N, STEP_S, STATIC_N)) == 0

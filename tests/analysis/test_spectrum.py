@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import peaks_near, spectral_peaks, spectrum
+from tests.analysis.systems import normal
 
 T = 5.0
 STEP = 0.05
@@ -47,7 +48,7 @@ def test_a_start_between_samples_or_a_period_between_samples_is_interpolated_to_
 
 
 def test_a_period_of_whole_steps_uses_the_samples_themselves_despite_rounding():
-    x = np.random.default_rng(0).normal(size=len(TIME))
+    x = normal(0, len(TIME))
     exact, rounded = (spectrum(x, STEP, period).amplitude for period in (5.0, 5.0 * (0.1 + 0.2) / 0.3))
     assert np.array_equal(exact, rounded)
     assert [spectrum(x, STEP, period).interpolated for period in (5.0, 4.999)] == [False, True]

@@ -8,6 +8,7 @@ from scipy import optimize, stats
 
 from analysis import storm_maximum
 from analysis.storm_maxima import _by_order
+from tests.analysis.systems import normal
 
 STEP_S, MEMORY = 5.0, 6  # a peak every step; peaks of a cluster
 LAWS = {"exponential": stats.expon(), "Rayleigh": stats.rayleigh(), "log-normal": stats.lognorm(0.5)}
@@ -102,5 +103,5 @@ def test_the_interval_by_order_ends_where_five_in_a_hundred_lie_beyond():
 
 
 def test_too_little_is_refused():
-    answer = storm_maximum([np.random.default_rng(1).normal(size=700)], STEP_S, least_block_s=1000.0)
+    answer = storm_maximum([normal(1, 700)], STEP_S, least_block_s=1000.0)
     assert not answer.found and answer.reason

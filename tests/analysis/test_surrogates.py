@@ -14,12 +14,12 @@ from analysis import (
     spectral_lines,
 )
 from analysis.surrogates import rank_until_lost
-from tests.analysis.systems import henon, logistic
+from tests.analysis.systems import henon, logistic, normal
 
 RECORDS = {
     "henon": henon(400),
     "logistic": logistic(3.9, 333),
-    "saturated noise": np.tanh(2 * lfilter([1.0], [1.0, -0.7], np.random.default_rng(0).normal(size=500))),
+    "saturated noise": np.tanh(2 * lfilter([1.0], [1.0, -0.7], normal(0, 500))),
 }
 
 
@@ -43,7 +43,7 @@ def test_iaaft_keeps_the_values_exactly_and_the_spectrum_closely(name):
 
 def test_iaaft_keeps_what_columns_have_in_common():
     """Two coordinates of one linear process, position and lagged position."""
-    x = lfilter([1.0], [1.0, -1.6, 0.9], np.random.default_rng(2).normal(size=603))[:600]
+    x = lfilter([1.0], [1.0, -1.6, 0.9], normal(2, 603))[:600]
     record = np.column_stack([x[3:], x[:-3]])
     wanted = np.corrcoef(record.T)[0, 1]
     for surrogate in iaaft_surrogates(record, 5, 1):
@@ -60,14 +60,14 @@ def test_lines_of_a_clean_quasi_periodic_motion_are_found_to_rounding():
     assert lines.amplitude[np.argmin(np.abs(lines.frequency - 0.1234567)), 0] == pytest.approx(1.0, abs=1e-6)
 
 
-@pytest.mark.parametrize("record", [np.random.default_rng(0).normal(size=(400, 2)), logistic(4.0, 400)])
+@pytest.mark.parametrize("record", [normal(0, 400, 2), logistic(4.0, 400)])
 def test_white_noise_and_strong_chaos_have_no_lines(record):
     assert len(spectral_lines(record).frequency) == 0
 
 
 def test_noisy_periodic_surrogates_keep_the_lines_and_the_level_of_the_rest():
     k = np.arange(400)
-    noise = 0.3 * np.random.default_rng(1).normal(size=400)
+    noise = 0.3 * normal(1, 400)
     record = np.array([0.0, 3.0, 1.0, 7.0])[k % 4] + noise
     for surrogate in noisy_periodic_surrogates(record, 5, 2):
         means = [surrogate[j::4].mean() for j in range(4)]
@@ -78,7 +78,7 @@ def test_noisy_periodic_surrogates_keep_the_lines_and_the_level_of_the_rest():
 
 
 def test_normal_scores_forget_the_instrument():
-    x = np.random.default_rng(4).normal(size=(200, 2))
+    x = normal(4, 200, 2)
     assert np.array_equal(normal_scores(x), normal_scores(np.exp(x)))
 
 

@@ -10,7 +10,7 @@ from analysis import evidence_text, read_evidence, regime, section_lyapunov
 from analysis.evidence import incommensurate_evidence
 from analysis.exponents import Exponent
 from analysis.oscillator import SnapOscillator, snap_motion, strobed_states
-from tests.analysis.systems import circle, circle_map, henon, logistic, nonchaotic_map
+from tests.analysis.systems import circle, circle_map, henon, logistic, nonchaotic_map, normal
 
 K = np.arange(300)
 POSITIVE = (0.6, 0.02)
@@ -57,7 +57,7 @@ def test_a_period_tells_how_fast_it_attracts():
     ("section", "words", "why"),
     [
         (np.concatenate([TORUS[:, 0], 2.0 * logistic(3.9, 200) - 1.0]), ("undecided", "transient"), ""),
-        (np.random.default_rng(0).normal(size=(300, 2)), ("undecided",), "null"),
+        (normal(0, 300, 2), ("undecided",), "null"),
         (circle_map(0.5, 0.6180339, 150), ("undecided",), ""),
         (logistic(3.2, 300), ("undecided",), "tangent dynamics is positive"),
         (henon(39), ("undecided",), "40 strobed points are needed"),
@@ -121,13 +121,14 @@ def test_chaos_in_bands_is_chaotic(rate, bands):
 
 BANDS = np.arange(1200) % 4  # visited in turn
 BETWEEN = np.array([0.0, 3.0, 1.0, 5.0])[BANDS]
-DRAWN = np.random.default_rng(5).normal(size=1200)
+ON_CURVES = BETWEEN[:, None] + 0.3 * circle(0.1234567 * np.arange(1200))
+DRAWN = normal(5, 1200)
 NOT_CHAOTIC = {
     "period 4 in noise": BETWEEN + 0.1 * DRAWN,
     "period 8 in noise": logistic(3.55, 1200) + 0.003 * DRAWN,
     "coloured noise on a period 4": BETWEEN + 0.3 * lfilter([1.0], [1.0, -0.5], DRAWN),
-    "torus on four curves": BETWEEN[:, None] + 0.3 * circle(0.1234567 * np.arange(1200)),
-    "the same in noise": BETWEEN[:, None] + 0.3 * circle(0.1234567 * np.arange(1200)) + 0.03 * DRAWN[:, None],
+    "torus on four curves": ON_CURVES,
+    "the same in noise": ON_CURVES + 0.03 * DRAWN[:, None],
     "strange nonchaotic on two curves": np.repeat(nonchaotic_map(1.5, 600), 2)[:, None] + 20.0 * (BANDS[:, None] % 2),
 }
 

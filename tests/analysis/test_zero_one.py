@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import zero_one_test
-from tests.analysis.systems import circle_map, henon, logistic
+from tests.analysis.systems import circle_map, henon, logistic, normal
 
 
 # Chaotic parameters away from band mergings; exponent at 4 is ln 2 exactly. White noise: the reason why the test alone
@@ -14,7 +14,7 @@ from tests.analysis.systems import circle_map, henon, logistic
     [
         *(logistic(rate, points) for rate in (3.7, 4.0) for points in (200, 1000)),
         *henon(1000).T,
-        np.random.default_rng(0).normal(size=1000),
+        normal(0, 1000),
     ],
 )
 def test_chaos_and_noise_have_k_near_1(orbit):

@@ -18,8 +18,8 @@ from engine import Trajectory
 from reports import build
 from tables import read_rows
 from tests.campaigns.fake_engine import FakeEngine
+from tests.pages import ROOT
 
-ROOT = Path(__file__).parents[2]
 USUAL = ["--periods", "6", "--transient", "2", "--no-report", "--no-accuracy"]
 VALUES = [f"{0.01 * number:.2f}" for number in range(1, 13)]  # of a sweep long enough for an accident in its midst
 
@@ -34,6 +34,13 @@ def ran(campaign, out, *words, **how):
     usual = ["--no-report", "--backend", "threading", "--jobs", "2", "--out", str(out)]
     assert campaign.main([*map(str, words), *usual], **how) == 0
     return rows_of(out)
+
+
+def order_of(campaign, *words):
+    """The order that a campaign reads from words without a fault."""
+    order = campaign.read_order([*map(str, words)], faults := [])
+    assert faults == []
+    return order
 
 
 def chosen(rows, **wanted):
@@ -55,9 +62,14 @@ def statuses(rows):
     return {float(row["steepness"]): row["status"] for row in rows}
 
 
-def finished(out):
+def finished(out, files="trajectories/*.nc"):
     """Finished runs: file name -> (inode, time of writing), which a rewritten file cannot keep."""
-    return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in Path(out, "trajectories").glob("*.nc")}
+    return {path.name: (path.stat().st_ino, path.stat().st_mtime_ns) for path in Path(out).glob(files)}
+
+
+def untimed(rows):
+    """Rows without the time that their runs took."""
+    return [{**row, "wall_s": ""} for row in rows]
 
 
 def forget(out):

@@ -17,6 +17,7 @@ from reports.parts.content import Table
 from tables import names
 from tests.campaigns.conftest import built_twice, chosen, ran, rows_of
 from tests.campaigns.fake_engine import GRID_M, KnownErrors
+from tests.reports.conftest import of_kind
 
 OWN = [method for method in ORDERS if method != "paper-box"]
 
@@ -145,7 +146,6 @@ def test_same_folder_same_report(out):
 def test_a_report_says_what_failed(tmp_path):
     made(tmp_path, "--works", "regular", failing=("midpoint",))
     study = read_study(tmp_path)
-    tables = [item for item in work_items(study, "regular", drawn="regular") if isinstance(item, Table)]
-    rows = [row for table in tables for row in table.rows]
+    rows = [row for table in of_kind(work_items(study, "regular", drawn="regular"), Table) for row in table.rows]
     assert any(row[0] == "midpoint" and row[-1] == "newton-failed" for row in rows)
     assert not any(one.method == "midpoint" for one in study.timed("regular"))

@@ -73,23 +73,40 @@ SEA = {
 }  # fmt: skip
 
 
+OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False)
+
+
+@pytest.mark.parametrize(
+    ("entries", "words"),
+    [
+        ({"sign": "+"}, "never forgets"),
+        ({"sign": "open"}, "not decided"),
+        ({"apart_seas": 8.0}, "more than one response"),
+    ],
+)
+def test_a_sea_whose_start_is_not_forgotten_says_so(entries, words):
+    (starts,) = (
+        line for line in of_sea([SEA | {"together_periods": None} | entries], OPTIONS) if line.startswith("STARTS")
+    )
+    assert words in starts
+
+
 def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_open():
-    options = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False)
-    answer = "\n".join(of_sea([SEA], options))
+    answer = "\n".join(of_sea([SEA], OPTIONS))
+    assert answer.startswith("LOAD     most probable three-hour maximum 12 kN (90 % interval 11 to 14)")
     for words in (
         "forgets how it began after about 100 periods; in 1 of 8 seas its starts were still apart",
         "part the starts again 0.5 times an hour",
         "-0.100 ± 0.010 bits a peak period; it grows in 25% of the windows of 10 periods",
         "large motion 20 % of the time, for 7 periods on average; a slow envelope would give 10 % and 5 periods",
-        "three-hour maximum 12 kN (90 % interval 11 to 14) in a sea of H_s = 2.5 m, 2.0 times that of the regular "
-        "design wave of H_s and 1.5 times that of 1.86 H_s",
+        "in a sea of H_s = 2.5 m, 2.0 times that of the regular design wave of H_s and 1.5 times that of 1.86 H_s",
         "41 an hour (± 3)",
         "1.5 kN a peak period does the damage of the sea (S-N slope 5)",
-        "the line is used to 40%",
+        "DNV-OS-E301, consequence class 1, the line is used to 40%",
         "finer run does NOT agree: -0.050 ± 0.010",
         "differ by 12% in their largest tension",
         "still 0.03 of the motion apart, by the steps of the solver",
     ):
         assert words in answer
-    sure = "\n".join(of_sea([SEA | {"finer_bits_per_period": -0.09, "noise": 0.001, "load_scatter": 0.04}], options))
+    sure = "\n".join(of_sea([SEA | {"finer_bits_per_period": -0.09, "noise": 0.001, "load_scatter": 0.04}], OPTIONS))
     assert "finer run agrees" in sure and "differ by" not in sure and "by the steps" not in sure

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from analysis import joins, settled
-from campaigns.basins import edge, main, read_order
+from campaigns import basins
+from campaigns.basins import edge, main
 from campaigns.basins.answer import _shock
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.shocks import SHARP, Shock, smallest
@@ -15,7 +16,8 @@ from campaigns.explore.starts import KICKS, Start, section_of
 from engine import load_scene, simulate, simulate_each
 from reports.basins.report import report
 from reports.parts.content import Figure, Table
-from tests.campaigns.conftest import finished, rows_of
+from tests.campaigns.conftest import finished, order_of, ran, rows_of
+from tests.reports.conftest import of_kind
 
 COARSE = {"tether.nodes": 9, "water.depth_m": 22.5}
 QUICK = ["--set", "tether.nodes=9", "water.depth_m=21", "waves.steepness=0.05", "--grid", "3", "--kick-speed", "1"]
@@ -106,9 +108,7 @@ def test_a_motion_started_at_another_phase_is_the_same():
 
 
 def test_a_scene_with_one_motion(tmp_path):
-    words = [*QUICK, "--backend", "threading", "--no-report", "--out", str(tmp_path)]
-    assert main(words) == 0
-    rows, (motion,) = rows_of(tmp_path), rows_of(tmp_path, "motions/table.csv")
+    rows, (motion,) = ran(basins, tmp_path, *QUICK), rows_of(tmp_path, "motions/table.csv")
     assert [(row["kick_x_mps"], row["kick_z_mps"]) for row in rows[:4]] == [
         ("-1.0", "-1.0"), ("0.0", "-1.0"), ("1.0", "-1.0"), ("-1.0", "0.0"),
     ]  # fmt: skip
@@ -116,15 +116,15 @@ def test_a_scene_with_one_motion(tmp_path):
     assert (motion["share"], motion["found_by"], motion["regime"]) == ("1.0", "rest", "period-1")
     assert not (tmp_path / "shock").exists() and not (tmp_path / "edge").exists()
     earlier = finished(tmp_path / "starts") | finished(tmp_path / "motions")
-    assert main(words) == 0
+    assert ran(basins, tmp_path, *QUICK) == rows
     assert finished(tmp_path / "starts") | finished(tmp_path / "motions") == earlier
     items = report(tmp_path).items
-    assert any(isinstance(item, Figure) for item in items) and any(isinstance(item, Table) for item in items)
+    assert of_kind(items, Figure) and of_kind(items, Table)
 
 
 def test_a_grid_of_velocity_and_phase_has_every_pair():
-    order = read_order(["--across", "vx", "phase", "--grid", "5", "8", "--out", "new"], faults := [])
-    assert faults == [] and order.options.grid.counts == (5, 8) and len(order.options.grid.points()) == 40
+    order = order_of(basins, "--across", "vx", "phase", "--grid", "5", "8", "--out", "new")
+    assert order.options.grid.counts == (5, 8) and len(order.options.grid.points()) == 40
     assert order.options.grid.values(1)[2] == pytest.approx(0.5 * math.pi)
 
 

@@ -21,8 +21,9 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run_campaign
 from engine import load_scene
-from tests.campaigns.conftest import ROOT, USUAL, VALUES, until
+from tests.campaigns.conftest import USUAL, VALUES, until
 from tests.campaigns.fake_engine import FakeEngine
+from tests.pages import ROOT
 
 distributed = pytest.importorskip("distributed")
 

@@ -5,9 +5,6 @@ A mistake (mistakes.toml) gets exit code 2, no traceback, and nothing is written
 
 import importlib
 import json
-import os
-import subprocess
-import sys
 import tomllib
 from itertools import product
 from pathlib import Path
@@ -23,7 +20,9 @@ from campaigns.machinery.cli import fault_of
 from campaigns.machinery.plausible import doubts
 from engine import load_scene
 from engine.physics.waves import breaking_steepness, wave_number
-from tests.campaigns.conftest import ROOT
+from tests.campaigns.conftest import order_of
+from tests.pages import ROOT
+from tests.processes import python
 
 HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis", "typst"}
 SERIES = "--column --time --step --period --tolerance --out"
@@ -121,10 +120,6 @@ FILES = {
 }
 
 
-def python(*words):
-    return subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True)
-
-
 def test_help_tells_every_option_and_loads_nothing_heavy():
     """All in one process: what is loaded stays so."""
     pages = python("-c", ASKED, *HELPS).stdout.split("\f")[:-1]
@@ -182,14 +177,13 @@ def test_the_tab_key_completes_a_line(tmp_path, line, word):
     requested = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_STDOUT_FILENAME": str(tmp_path / "words"), "COMP_LINE": line}
     requested["COMP_POINT"] = str(len(line))
     program = "from campaigns.__main__ import installed; installed()"
-    subprocess.run([sys.executable, "-c", program], cwd=ROOT, env=os.environ | requested, check=True)
+    python("-c", program, **requested)
     assert word in (tmp_path / "words").read_text().replace("\013", " ").split()
 
 
 def test_no_argument_is_a_complete_order_that_meets_the_papers_two_values():
     assert {0.016, 0.13} <= set(STEEPNESS) and sorted(set(STEEPNESS)) == list(STEEPNESS)
-    order = STUDY.read_order([], faults := [])
-    assert faults == []
+    order = order_of(STUDY)
     assert [case.labels["steepness"] for case in order.cases] == list(STEEPNESS)
     assert all(case.scene.waves.steepness == case.labels["steepness"] for case in order.cases)
     assert order.looks and order.transient is None

@@ -23,7 +23,11 @@ class HenonPlane:
     low, high, value = np.array([-0.6, -1.5]), np.array([4.0, 0.9]), 0.3
     key = SimpleNamespace(column=Column("b", "", "b", "the other parameter of Henon's map", 5))
     line = SimpleNamespace(scenes=SimpleNamespace(key=SimpleNamespace(column=KEY)), size=1.0)
-    maps = OrbitMap(henon, parameter_size=np.ones(2))
+    step = staticmethod(henon)
+
+    @property
+    def maps(self):
+        return OrbitMap(self.step, parameter_size=np.ones(2))
 
     def digest(self):
         return "henon over two parameters"
@@ -50,10 +54,6 @@ def test_a_curve_that_was_stopped_goes_on_from_its_points_with_the_same_bits(tmp
     class Counted(HenonPlane):
         points, calls, allowed = tmp_path / "points", 0, np.inf
 
-        @property
-        def maps(self):
-            return OrbitMap(self.step, parameter_size=np.ones(2))
-
         def step(self, z, p):
             self.calls += 1
             if self.calls > self.allowed:
@@ -75,10 +75,6 @@ def test_a_curve_that_was_stopped_goes_on_from_its_points_with_the_same_bits(tmp
 def test_a_special_point_whose_search_fails_is_a_row_a_mark_and_a_line_of_the_report(tmp_path):
     class Holed(HenonPlane):
         """No image near the 1:2 point (3, -1)."""
-
-        @property
-        def maps(self):
-            return OrbitMap(self.step, parameter_size=np.ones(2))
 
         def step(self, z, p):
             if abs(p[1] + 1.0) < 0.01:

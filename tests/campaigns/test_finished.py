@@ -5,6 +5,7 @@ import pytest
 from campaigns import regime_map
 from campaigns.machinery import finished
 from campaigns.machinery.plan import Summary
+from tests.campaigns.conftest import order_of
 
 VERSIONS = {"numpy": "2.0"}
 
@@ -72,7 +73,7 @@ def test_the_key_tells_the_contents_of_files_apart_that_words_name(wrapped, tmp_
 
 def test_a_finished_map_is_printed_again_without_the_scenes_of_its_cells(tmp_path, capsys, monkeypatch):
     words = ["--vary", *"waves.steepness 0.05 0.1 2 water.depth_m 22 23 2".split(), "--out", str(tmp_path)]
-    order = regime_map.read_order(words, [])
+    order = order_of(regime_map, *words)
     assert len(order.cases) == 4
     (tmp_path / "answer.txt").write_text("the answer\n")
     finished.keep_finished(tmp_path, order.key, Summary([{"status": "ok"}], 4, 0))
@@ -81,4 +82,4 @@ def test_a_finished_map_is_printed_again_without_the_scenes_of_its_cells(tmp_pat
     assert "the answer" in capsys.readouterr().out
     again = [*words, "--starts", "5"]
     monkeypatch.undo()
-    assert len(regime_map.read_order(again, []).cases) == 4
+    assert len(order_of(regime_map, *again).cases) == 4

@@ -16,7 +16,8 @@ from campaigns.orbits.tree import _on, _same
 from engine import load_scene, simulate
 from reports.orbits.report import report
 from reports.parts.content import Figure, Table
-from tests.campaigns.conftest import rows_of
+from tests.campaigns.conftest import finished, order_of, rows_of
+from tests.reports.conftest import of_kind
 
 QUICK = ["--set", "tether.nodes=9", "water.depth_m=25", "--vary", "waves.steepness", "0.1", "0.12", "--values", "2"]
 
@@ -96,15 +97,13 @@ def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(t
     (orbit,) = rows_of(tmp_path, "orbits/table.csv")
     assert 0.0 < float(orbit["multiplier_1_error"]) < 0.02 and (tmp_path / "orbits" / "1_0.csv").exists()
     assert {row["status"] for row in rows_of(tmp_path, "motions/table.csv")} == {"ok"}
-    files = {path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")}
+    files = finished(tmp_path, "branches/*.json")
     (tmp_path / "table.csv").unlink()
     capsys.readouterr()
-    assert main(words) == 0 and files == {
-        path: path.stat().st_mtime_ns for path in (tmp_path / "branches").glob("*.json")
-    }
+    assert main(words) == 0 and finished(tmp_path, "branches/*.json") == files
     assert rows_of(tmp_path) == rows and "0 computed" in capsys.readouterr().out
     items = report(tmp_path).items
-    assert any(isinstance(item, Figure) for item in items) and any(isinstance(item, Table) for item in items)
+    assert of_kind(items, Figure) and of_kind(items, Table)
     run = next((tmp_path / "motions" / "trajectories").glob("*.nc"))
     value_of = ["--vary", "waves.steepness", "0.1", "0.12", "--start-from", str(run), "--orbits", "1"]
     assert main([*value_of, "--no-accuracy", "--no-report", "--out", str(tmp_path / "one")]) == 0
@@ -116,9 +115,9 @@ def test_a_run_that_goes_on_late_begins_orbits_by_its_own_second_half(tmp_path):
     scene = load_scene("tethered_buoy", {"waves.steepness": 0.08, "tether.nodes": 7})
     simulate(scene, periods=40, start=simulate(scene, periods=100)).save(tmp_path / "late.nc")
     words = ["--vary", "waves.steepness", "0.07", "0.09", "--start-from", str(tmp_path / "late.nc")]
-    order = orbits.read_order(words, faults := [])
+    order = order_of(orbits, *words)
     ((_, steepness, period, state),) = orbits._under_file(order, order.cases[0])
-    assert faults == [] and (steepness, period) == (0.08, 3) and state.time_s == 0.0
+    assert (steepness, period) == (0.08, 3) and state.time_s == 0.0
 
 
 @pytest.mark.slow

@@ -14,10 +14,11 @@ from engine import Trajectory, load_scene
 from engine.trajectory import Profiles
 from reports.out_of_plane.report import report
 from reports.out_of_plane.runs import read_study
-from reports.parts.content import Figure, Notice
+from reports.parts.content import Figure
 from tables import names
-from tests.campaigns.conftest import chosen, ran, rows_of
+from tests.campaigns.conftest import chosen, order_of, ran, rows_of
 from tests.campaigns.fake_engine import BURST_M, BURST_PERIODS, LARGE_RATE, SMALL_RATE, SpaceEngine, sines
+from tests.reports.conftest import of_kind, warned
 
 
 def made(place, periods, **engine):
@@ -36,9 +37,9 @@ def rows(place):
 
 
 def test_everything_the_question_needs_is_run_once():
-    order = out_of_plane.read_order([], faults := [])
+    order = order_of(out_of_plane)
     scenes = {out_of_plane.variant(case.labels): case.scene for case in order.cases}
-    assert faults == [] and len({scene.key() for scene in scenes.values()}) == len(order.cases)
+    assert len({scene.key() for scene in scenes.values()}) == len(order.cases)
     planar = [run for run in scenes if run.dimensions == 2]
     assert len(planar) == 10 and all(scenes[run].output.lateral_growth for run in planar)
     compared = [run for run in scenes if out_of_plane.compared(run, out_of_plane.base_of(order))]
@@ -47,15 +48,15 @@ def test_everything_the_question_needs_is_run_once():
 
 
 def test_an_option_of_old_scripts_is_accepted_and_changes_nothing():
-    faults = []
-    plain = out_of_plane.read_order([], faults)
-    with_option = out_of_plane.read_order(["--no-accuracy"], faults)
-    assert faults == [] and [case.key for case in with_option.cases] == [case.key for case in plain.cases]
+    plain, with_option = (
+        [case.key for case in order_of(out_of_plane, *words).cases] for words in ([], ["--no-accuracy"])
+    )
+    assert plain == with_option
     assert "--no-accuracy" not in out_of_plane.parser().format_help()
 
 
 def test_another_scene_becomes_the_base_of_what_is_varied():
-    order = out_of_plane.read_order(["--set", "water.depth_m=23", "tether.nodes=61"], [])
+    order = order_of(out_of_plane, "--set", "water.depth_m=23", "tether.nodes=61")
     base = out_of_plane.base_of(order)
     assert (base.depth_m, base.nodes) == (23.0, 61)
     assert {23.0, 21.0} <= {case.labels["depth_m"] for case in order.cases}
@@ -165,10 +166,6 @@ def test_directions_have_the_size_of_the_push():
     assert velocity(1.0, "mirrored") == [0.0, -1.0, 0.0]
 
 
-def warned(items) -> list[str]:
-    return [line for item in items if isinstance(item, Notice) for line in item.lines]
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(("large", "grows"), [("growth", "holds"), ("decay", "does not hold")])
 def test_the_paper_is_borne_out_where_its_large_wave_grows_to_the_size_of_the_motion(tmp_path, large, grows):
@@ -193,7 +190,7 @@ def test_what_failed_or_is_lost_is_named_and_the_rest_is_shown(failing, figures,
     for path in (tmp_path / "trajectories").glob("*.nc"):
         path.unlink()
     later = report(tmp_path).items
-    assert [[type(item) for item in page].count(Figure) for page in (items, later)] == figures
+    assert [len(of_kind(page, Figure)) for page in (items, later)] == figures
     assert sum("missing" in line for line in warned(later)) > 10
 
 

@@ -21,8 +21,9 @@ from campaigns.machinery.pools import dask_client
 from campaigns.machinery.worker import keep_row, kept_row
 from engine import Trajectory, load_scene, source_hash
 from tables import names
-from tests.campaigns.conftest import ROOT, USUAL, finished, forget
+from tests.campaigns.conftest import USUAL, finished, forget
 from tests.campaigns.fake_engine import FakeEngine
+from tests.pages import ROOT
 
 THREE = "--steepness 0.02 0.05 0.13"
 FOUR = ("0.02", "0.05", "0.08", "0.13")
@@ -136,15 +137,19 @@ def test_the_content_key_follows_everything_that_changes_a_result(monkeypatch):
     assert Job({"steepness": 1}, scenes[0], 6).key == keys[-1]  # a label changes nothing
 
 
+def contents(out, files="trajectories/*.nc"):
+    return {path.name: path.read_bytes() for path in out.glob(files)}
+
+
 @pytest.mark.parametrize("backend", ["loky", pytest.param("dask", marks=pytest.mark.slow)])
 def test_every_backend_gives_the_rows_and_files_of_threads(sweep, backend):
     if backend == "dask":
         pytest.importorskip("distributed")
     threads = sweep("--steepness", *FOUR, raises=(0.08,))
-    content = {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)}
+    content = contents(sweep.out)
     forget(sweep.out)
     assert sweep("--steepness", *FOUR, backend=backend, raises=(0.08,)) == threads
-    assert {name: (sweep.out / "trajectories" / name).read_bytes() for name in finished(sweep.out)} == content
+    assert contents(sweep.out) == content
 
 
 def test_workers_kept_from_a_campaign_elsewhere_write_into_the_folder_of_this_one(tmp_path, monkeypatch):
@@ -224,13 +229,10 @@ def test_dirty_means_changes_that_are_not_committed_and_outside_a_checkout_there
 
 
 def test_a_run_that_computes_nothing_changes_nothing_and_other_parameters_make_a_new_record(sweep):
-    def files():
-        return {path.name: path.read_bytes() for path in sweep.out.glob("[!.]*") if path.is_file()}
-
     sweep("--steepness", "0.02", "0.13")
-    earlier, runs = files(), finished(sweep.out)
+    earlier, runs = contents(sweep.out, "[!.]*.*"), finished(sweep.out)
     code, _, begun = sweep("--steepness", "0.02", "0.13", backend="loky", jobs=1)
-    assert (code, begun, files(), finished(sweep.out)) == (0, [], earlier, runs)
+    assert (code, begun, contents(sweep.out, "[!.]*.*"), finished(sweep.out)) == (0, [], earlier, runs)
     sweep("--steepness", "0.02")
     assert record(sweep.out)["steepness"] == [0.02]
     assert record(sweep.out)["runs"]["found"] == 1

@@ -5,12 +5,10 @@ import pytest
 
 from campaigns import sea
 from campaigns.sea import rows as sea_rows
-from campaigns.sea.answer import sentences
-from campaigns.sea.cells import COLUMNS
 from campaigns.sea.regular import design_loads, folds_of
 from reports import build
 from tables import Column
-from tests.campaigns.conftest import built_twice, finished, ran, rows_of
+from tests.campaigns.conftest import built_twice, finished, order_of, ran, rows_of
 
 SMALL = "water.depth_m=23 buoy.submergence=full waves.jonswap.components=4 tether.nodes=5"
 SHORT = ["--set", *SMALL.split(), "--no-regular", "--hours", "0.03", "--transient", "5", "--most-hours", "0"]
@@ -114,9 +112,7 @@ def test_a_state_without_a_clear_sign_gets_twice_as_many_seas_from_rest_and_a_se
 
 
 def test_a_key_of_the_spectrum_alone_leaves_the_usual_height():
-    faults = []
-    usual, fewer = (sea.read_order(words, faults) for words in ([], ["--set", "waves.jonswap.components=8"]))
-    assert faults == []
+    usual, fewer = (order_of(sea, *words) for words in ([], ["--set", "waves.jonswap.components=8"]))
     heights = {order.cases[0].scene.waves.jonswap.significant_height_m for order in (usual, fewer)}
     assert len(heights) == 1 and fewer.cases[0].scene.waves.jonswap.components == 8
 
@@ -148,44 +144,10 @@ def test_waves_of_one_motion_have_no_folds():
     assert design_loads(FOLDED, 0.61) == [("A", 1600.0), ("B", 6400.0)]
 
 
-UNKNOWN = {column.name: "" if column.digits is None else np.nan for column in COLUMNS}  # as a table is read
-
-
-def cell(**entries):
-    known = {"status": "ok", "seas": 8.0, "apart_seas": 0.0, "snaps_per_hour": 41.0, "equivalent_load_N": 1.0}
-    known |= {"significant_height_m": 2.5}
-    return UNKNOWN | known | entries
-
-
-@pytest.mark.parametrize(
-    ("entries", "words"),
-    [
-        (
-            {"sign": "−", "together_periods": 104.0, "partings_per_hour": 0.0},
-            "forgets how it began after about 100 periods",
-        ),
-        ({"sign": "+"}, "never forgets"),
-        ({"sign": "open"}, "not decided"),
-        ({"sign": "−", "apart_seas": 8.0}, "more than one response"),
-    ],
-)
-def test_the_answer_begins_with_the_load_and_says_whether_the_start_is_forgotten(entries, words):
-    options = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=True)
-    storm = {"storm_maximum_N": 13500.0, "storm_low_N": 12100.0, "storm_high_N": 16800.0, "utilisation": 0.06}
-    first, *lines = sentences([cell(**entries, **storm)], options)
-    assert first.startswith("LOAD     most probable three-hour maximum 13.5 kN (90 % interval 12.1 to 16.8)")
-    assert first.endswith("DNV-OS-E301, consequence class 1, the line is used to 6%.")
-    (starts,) = (line for line in lines if line.startswith("STARTS"))
-    assert words in starts
-
-
 def test_a_map_over_steepness_and_width_draws_every_state_anew_by_its_seed_and_a_single_wave_once():
-    faults = []
     words = "--vary waves.significant_steepness 0.05 0.1 2 --vary waves.relative_width 0 0.05 2 --seeds 2 --starts 1"
-    order = sea.read_order(words.split(), faults)
-    assert not faults
     drawn = []
-    for case in order.cases:
+    for case in order_of(sea, *words.split()).cases:
         waves = case.scene.waves
         drawn.append((waves.significant_steepness, waves.relative_width, case.labels["sea"], waves.seed))
     states = [(0.0, 1, 0), (0.05, 1, 1), (0.05, 2, 2)]

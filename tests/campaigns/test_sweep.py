@@ -16,16 +16,16 @@ import pytest
 
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
-from campaigns.sweep import read_order
 from engine import Trajectory, load_scene, simulate
 from reports import build
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.quantities import measured
 from reports.sweep.report import report
 from tables import Column
-from tests.campaigns.conftest import ROOT, built_twice, ran, rows_of
+from tests.campaigns.conftest import built_twice, order_of, ran, rows_of
 from tests.campaigns.fake_engine import FakeEngine
-from tests.reports.conftest import folder_at
+from tests.pages import ROOT
+from tests.reports.conftest import folder_at, of_kind
 
 PAGE = "developing"
 SHORT = ["--periods", "6", "--transient", "2"]
@@ -37,9 +37,7 @@ def run(out, *words, **fake):
 
 
 def cases_of(*words):
-    order = read_order([*map(str, words), "--out", "new"], faults := [])
-    assert faults == []
-    return order.cases
+    return order_of(sweep_command, *words, "--out", "new").cases
 
 
 def test_two_keys_are_every_pair_of_their_values(tmp_path):
@@ -186,14 +184,14 @@ def test_the_report_of_a_sweep_of_any_key(tmp_path, keys):
     columns, vary = [*map(KEYS.get, keys), *COLUMNS], {key: [1.0, 2.0, 3.0] for key in keys}
     place = folder_at(tmp_path / "out", "sweep", table_of(keys), columns, scene="tethered_buoy", vary=vary)
     items = report(place).items
-    tables = [item for item in items if isinstance(item, Table)]
+    tables = of_kind(items, Table)
     runs = next(table for table in tables[1:] if len(table.rows) == 3 ** len(keys))
     heads = [plain(column.title) for column in runs.columns]
     assert heads[: len(keys)] == ["H", "M"][: len(keys)] and {"Tmin", "Tmax", "σ", "status"} <= set(heads)
     extremes = {row[0]: row for row in tables[0].rows}
     assert set(extremes) == {"least pull", "greatest pull", "growth"}, "what is the same in all runs is no quantity"
     assert extremes["greatest pull"][1:3] == ["N", f"{200 * len(keys)}"]
-    figures = [item for item in items if isinstance(item, Figure)]
+    figures = of_kind(items, Figure)
     assert figures and all("σ" in figure.caption for figure in figures)
     page, _ = built_twice(place)
     assert b"newton-failed" in page

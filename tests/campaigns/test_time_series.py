@@ -18,16 +18,12 @@ from campaigns.time_series.study import successive_maxima
 from reports import build
 from reports.parts.folder import FolderError
 from reports.time_series.report import record_and_spectrum
-from tests.analysis.systems import henon, logistic, states
+from tests.analysis.systems import henon, logistic, normal, states
 from tests.campaigns.conftest import built_twice, rows_of
 
 TIME = np.arange(1500) * 0.4
 FORTY = np.arange(4000) * 2.0 * np.pi / 40.0
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
-
-
-def noise(samples):
-    return np.random.default_rng(0).normal(size=samples)
 
 
 def answered(tmp_path, values, step=None, *options):
@@ -44,7 +40,7 @@ def answered(tmp_path, values, step=None, *options):
 MOTIONS = {
     "sine": (np.sin(TIME), 0.4, (), "period-1"),
     "logistic": (logistic(3.9, 800), None, (), "chaotic"),
-    "white": (noise(800), None, (), "undecided"),
+    "white": (normal(0, 800), None, (), "undecided"),
     "a gap marked": (np.where(np.arange(1500) == 700, -9999.0, np.sin(TIME)), 0.4, (), "undecided"),
     # maxima of one height that come ever faster: alike, and no period
     "chirp": (np.sin(TIME + 2e-4 * TIME**2), 0.4, (), "undecided"),
@@ -57,10 +53,10 @@ SLOW_MOTIONS = {
     "golden": (np.sin(FORTY) + 0.7 * np.sin(GOLDEN * FORTY), 1.0, (), "quasi-periodic"),
     "period 4": (logistic(3.5, 400), None, (), "period-4"),
     "henon": (henon(800)[:, 0], 1.0, ("--period", "1"), "chaotic"),
-    "white, strobed": (noise(800), 1.0, ("--period", "1"), "undecided"),
-    "ar1": (lfilter([1.0], [1.0, -0.95], noise(2500)), 0.1, (), "undecided"),
+    "white, strobed": (normal(0, 800), 1.0, ("--period", "1"), "undecided"),
+    "ar1": (lfilter([1.0], [1.0, -0.95], normal(0, 2500)), 0.1, (), "undecided"),
     "two values": (np.sign(np.sin(TIME) + 0.1), 0.4, (), "period-1"),
-    "random walk": (np.cumsum(noise(4000)), 0.1, (), "transient"),
+    "random walk": (np.cumsum(normal(0, 4000)), 0.1, (), "transient"),
 }
 
 
@@ -193,35 +189,37 @@ def test_tables_of_any_common_shape_are_read(tmp_path, text):
     assert list(first)[:5] == [1.0] * 5 and list(last)[:5] == [2.0] * 5
 
 
+def read(place, rows, time="t"):
+    """The record of x in a table of t and x with these rows, or with those that it has, and its faults."""
+    path, faults = place / "table", []
+    if rows is not None:
+        path.write_text(f"t,x\n{rows}")
+    return read_record(str(path), "x", time, None, faults), faults
+
+
 @pytest.mark.parametrize("cell", ["1_0", "0x10", "1 0", "", "nan", "1e400", "1#0"])
 @pytest.mark.parametrize("row", [1, 47])
 def test_what_is_no_plain_number_is_refused_by_its_row_wherever_it_stands(tmp_path, cell, row):
     cells = ["0.5", "1.5"] * 60
     cells[row - 1] = cell
-    (tmp_path / "table").write_text("t,x\n" + "".join(f"{k},{cell}\n" for k, cell in enumerate(cells)))
-    faults = []
-    assert read_record(str(tmp_path / "table"), "x", "t", None, faults) is None
-    (line,) = faults
+    record, (line,) = read(tmp_path, "".join(f"{k},{cell}\n" for k, cell in enumerate(cells)))
+    assert record is None
     assert line.startswith(f"--column x: row {row} below the names, {cell!r}, is") and "allowed: finite numbers" in line
 
 
 def test_a_row_of_other_length_is_refused_by_its_row(tmp_path):
-    (tmp_path / "table").write_text("t,x\n" + "1,2\n" * 45 + "1\n1,2,3\n")
-    faults = []
-    assert read_record(str(tmp_path / "table"), "x", None, None, faults) is None
-    assert "row 46 below the names has 1 cells, the names are 2" in faults[0]
+    record, faults = read(tmp_path, "1,2\n" * 45 + "1\n1,2,3\n", time=None)
+    assert record is None and "row 46 below the names has 1 cells, the names are 2" in faults[0]
 
 
 @pytest.mark.slow
 def test_a_large_file_takes_little_more_memory_than_its_numbers(tmp_path):
     t = np.arange(300_000)
     x = np.sin(0.1 * t)
-    with open(tmp_path / "table", "w") as file:
-        file.write("t,x\n")
-        file.writelines(f"{k},{value!r}\n" for k, value in zip(t.tolist(), x.tolist(), strict=True))
-    faults = []
+    text = "".join(f"{k},{value!r}\n" for k, value in zip(t.tolist(), x.tolist(), strict=True))
+    read(tmp_path, text)
     tracemalloc.start()
-    record = read_record(str(tmp_path / "table"), "x", "t", None, faults)
+    record, faults = read(tmp_path, None)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert not faults and np.array_equal(record.values, x)

@@ -17,7 +17,7 @@ from engine import load_scene
 from reports import build
 from reports.parts.folder import FolderError
 from reports.validation.report import read_study
-from tests.campaigns.conftest import rows_of
+from tests.campaigns.conftest import ran, rows_of
 
 TAUT = Catenary(H=400.0, V=0.0, w=1e-7, EA=1e4, m=0.5, length=10.0)
 PERIOD_S = 2.5
@@ -133,8 +133,7 @@ def test_a_run_that_ends_early_misses_its_bar_and_a_folder_without_cases_is_refu
     def stopped(scene, periods=None, duration_s=None):
         raise RuntimeError("no such run")
 
-    words = ["--only", "jumper-rest", "--backend", "threading", "--jobs", "1", "--no-report", "--out", str(tmp_path)]
-    assert validation.main(words, simulate=stopped) == 0
+    ran(validation, tmp_path, "--only", "jumper-rest", simulate=stopped)
     (row,) = rows_of(tmp_path, "cases.csv")
     assert (row["verdict"], row["note"]) == (MISSES, "no result")
     (tmp_path / "cases.csv").write_text("case\n")

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine import SceneError, Trajectory, load_scene, simulate
+from engine import SceneError, Trajectory, simulate
 from engine.physics.sea import elevation_m
 from engine.run import Run
 from engine.trajectory.excursions import excursions_of, with_excursions
+from tests.engine.lines import STILL, held, line, ran
 
 TABLE = {"time_s": [0.0, 1.0], "height_m": [0.0, 60.0], "x_m": [0.0], "velocity_z_mps": [[[0.0], [0.0]]] * 2}
 CURRENTS = {
@@ -27,7 +28,7 @@ FLOOR = {"floor": {"stiffness_Npm3": 1e5}}
 def rest_of(changes, depth_m):
     """The run at its start; None where its scene is refused."""
     try:
-        return Run(load_scene("tethered_buoy", {"tether.nodes": 11, **changes, "water.depth_m": depth_m}), 0.0)
+        return Run(line({"tether.nodes": 11, **changes, "water.depth_m": depth_m}), 0.0)
     except SceneError as error:
         assert "spherical-cap" in str(error)
         return None
@@ -68,7 +69,7 @@ SEAS = [
 @pytest.mark.parametrize("waves", SEAS, ids=["along", "against", "ramp", "sea", "space"])
 @pytest.mark.parametrize("anchor_m", [0.0, 1.5])
 def test_a_sphere_is_in_the_air_where_its_lowest_point_is_above_the_wave(waves, anchor_m):
-    scene = load_scene("tethered_buoy", {**waves, "water.depth_m": 23.0, "anchor.position_m": [0.0, 0.0, anchor_m]})
+    scene = line({**waves, "water.depth_m": 23.0, "anchor.position_m": [0.0, 0.0, anchor_m]})
     columns = places(scene, np.linspace(-5.0, 5.0, 401), np.zeros(401))
     touching = scene.water.depth_m + elevation_m(scene, *(columns[name] for name in ("time_s", "x_m", "y_m")))
     columns["z_m"] = touching + 0.75 - anchor_m - 1e-6
@@ -82,7 +83,7 @@ def test_a_sphere_is_in_the_air_where_its_lowest_point_is_above_the_wave(waves, 
 
 
 def test_a_run_that_fails_in_the_air_has_this_for_its_reason_and_one_in_the_water_its_advice():
-    scene, z = load_scene("tethered_buoy", {"waves": None}), np.full(101, 20.0)
+    scene, z = line({"waves": None}), np.full(101, 20.0)
     event, status = "Newton's method did not converge at t = 40 s", "newton-failed"
     advice = f"{event}: lower solver.rtol"
     for part, start in (
@@ -100,14 +101,14 @@ def test_a_line_below_the_bed_is_told_with_its_depth_where_there_is_no_floor():
     high = {"waves": None, "water.depth_m": 25.0, "anchor.position_m": [0.0, 0.0, 3.0]}
     z = np.full(101, 19.0)
     for changes, lowest, depth in ((high, -4.5, "1.5 m"), (high, -3.005, ""), ({**high, **FLOOR}, -4.5, "")):
-        scene = load_scene("tethered_buoy", changes)
+        scene = line(changes)
         words = excursions(scene, places(scene, 0.0 * z, z, lowest))
         assert (f"up to {depth} below the bed" in words and "floor" in words) if depth else words == ""
 
 
 def test_parts_of_a_run_say_together_what_the_whole_says_once():
     """Read from files too: those of older versions have the excursions in the message alone."""
-    scene = load_scene("tethered_buoy", {"tether.nodes": 11})
+    scene = line({"tether.nodes": 11})
     whole, first = simulate(scene, periods=8), simulate(scene, periods=4)
     doubtful = replace(first, message=f"a doubt; {first.message}")
     older = Trajectory.from_bytes(replace(doubtful, excursions="").to_bytes())
@@ -120,14 +121,9 @@ def test_parts_of_a_run_say_together_what_the_whole_says_once():
 @pytest.mark.parametrize("scheme", ["conservation", "paper-box"])
 def test_the_lowest_place_of_a_line_is_that_of_its_nodes(scheme):
     """A line held slack between two points hangs below its anchor, which stands on the bed."""
-    changes = {
-        "output.profiles": True,
-        "solver.scheme": scheme,
-        "tether.nodes": 21,
-        "tether.bending_stiffness_Nm2": 1.0,
-    }
-    held = {"end.kind": "held", "end.position_m": [8.0, 0.0, 0.0], "buoy": None, "waves": None, "water.depth_m": 25.0}
-    run = simulate(load_scene("tethered_buoy", {**changes, **held, "tether.length_m": 10.0}), duration_s=0.5)
-    assert run.status == "ok" and run.columns["line_lowest_m"].min() < -2.0
+    changes = {"output.profiles": True, "solver.scheme": scheme, "tether.bending_stiffness_Nm2": 1.0}
+    scene = line(STILL, held(8.0, 0.0), changes, {"water.depth_m": 25.0}, length_m=10.0, nodes=21)
+    run = ran(scene, duration_s=0.5)
+    assert run.columns["line_lowest_m"].min() < -2.0
     np.testing.assert_allclose(run.columns["line_lowest_m"], run.profiles.z_m.min(axis=1), atol=1e-12)
     assert f"up to {-run.columns['line_lowest_m'].min():.2g} m below the bed" in run.message

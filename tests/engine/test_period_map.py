@@ -6,15 +6,16 @@ import numpy as np
 import pytest
 
 from analysis.orbits import OrbitMap, find_orbit
-from engine import load_scene, simulate
+from engine import simulate
 from engine.run.period_map import PeriodMap
+from tests.engine.lines import line
 
 SMALL = {"tether.nodes": 9, "water.depth_m": 25.0, "solver.rtol": 1e-3}
 AT = 0.13
 
 
 def scene_at(value, **changes):
-    return load_scene("tethered_buoy", {**SMALL, "waves.steepness": value, **changes})
+    return line({**SMALL, "waves.steepness": value, **changes})
 
 
 def of_run(cable, z, periods):
@@ -80,7 +81,7 @@ def test_an_orbit_is_what_the_run_settles_on_and_what_a_run_from_its_state_keeps
 
 def test_a_period_that_changes_keeps_the_steps_as_shares_of_it(settled):
     def of_period(value):
-        return load_scene("tethered_buoy", {**SMALL, "waves.steepness": AT, "waves.period_s": value})
+        return line({**SMALL, "waves.steepness": AT, "waves.period_s": value})
 
     period_s = of_period(5.0).waves.period_s
     cable = PeriodMap(of_period, simulate(of_period(period_s), periods=10).final_state, period_s)

@@ -1,10 +1,10 @@
 """Pieces of machine code: a run needs no other, and no two processes compile the same."""
 
 import json
-import subprocess
-import sys
 
 import pytest
+
+from tests.processes import python
 
 PROGRAM = """
 import json, sys
@@ -33,8 +33,7 @@ print(json.dumps([pieces, loaded()]))
 
 def loaded(which):
     """Kernels with the types of their arguments that a process has: after the pieces, and after runs as well."""
-    printed = subprocess.run([sys.executable, "-c", PROGRAM, which], capture_output=True, text=True, check=True)
-    return json.loads(printed.stdout)
+    return json.loads(python("-c", PROGRAM, which).stdout)
 
 
 @pytest.mark.slow

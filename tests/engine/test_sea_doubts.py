@@ -2,14 +2,15 @@
 
 import pytest
 
-from engine import load_scene, simulate
+from engine import simulate
+from tests.engine.lines import line
 
 USUAL = {"tether.nodes": 5, "water.depth_m": 22.5, "waves.period_s": 6.0, "buoy.submergence": "spherical-cap"}
 
 
 def message(significant_height_m, periods=2, **changes):
     jonswap = {"significant_height_m": significant_height_m, "components": 16}
-    scene = load_scene("tethered_buoy", USUAL | {"waves.jonswap": jonswap} | changes)
+    scene = line(USUAL, {"waves.jonswap": jonswap}, changes)
     return simulate(scene, periods=periods).message
 
 

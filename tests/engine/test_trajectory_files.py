@@ -2,15 +2,17 @@
 
 import errno
 import json
+import math
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray
 
-from engine import Trajectory, load_scene
-from engine.trajectory import COLUMNS, Profiles, TrajectoryError
-from tests.engine.lines import assert_same
+from engine import Trajectory
+from engine.trajectory import COLUMNS, Profiles, TangentGrowth, TrajectoryError
+from tests.engine.lines import assert_same, line
 
 
 def run_of(samples: int, profiles: int | None = None, status: str = "ok", message: str = "") -> Trajectory:
@@ -20,7 +22,7 @@ def run_of(samples: int, profiles: int | None = None, status: str = "ok", messag
     if profiles is not None:
         lines = Profiles(np.arange(profiles) * 0.5, np.linspace(0, 20, 5), *random.normal(size=(6, profiles, 5)))
     statistics = {"steps": 123456789012, "newton_iterations": np.int64(7), "min_strain": np.float64(-0.25)}
-    return Trajectory(load_scene("tethered_buoy", {"title": "Bøje ✓"}), status, message, columns, statistics, lines)
+    return Trajectory(line({"title": "Bøje ✓"}), status, message, columns, statistics, lines)
 
 
 @pytest.mark.parametrize("profiles", [None, 0, 1, 40])
@@ -50,6 +52,22 @@ def test_the_table_has_the_agreed_columns():
     )
     assert list(table.columns) == agreed.split()
     assert len(table) == 3 and len(run_of(0).table()) == 0
+
+
+@pytest.mark.parametrize(("vectors", "across"), [(2, False), (0, True), (2, True)])
+@pytest.mark.parametrize("periods", [0, 6])
+def test_perturbations_are_read_as_they_were_written(periods, vectors, across, tmp_path):
+    """Also without a complete period, and with one of many digits."""
+    period_s, random = 5.0 + 1e-13 * math.pi, np.random.default_rng(periods)
+    lateral = random.normal(size=periods) if across else None
+    tangent = TangentGrowth(period_s, random.normal(size=(periods, vectors)), np.zeros(periods), lateral)
+    requested = {"output.tangent_vectors": vectors, "output.lateral_growth": across, "waves.period_s": period_s}
+    run = replace(run_of(5), scene=line(requested), tangent=tangent)
+    run.save(tmp_path / "run.nc")
+    assert_same(Trajectory.load(tmp_path / "run.nc"), run)
+    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
+        for name in {"growth_nats", "released", "lateral_nats"} & set(data):
+            assert data[name].dims[0] == "period" and data[name].attrs["long_name"]
 
 
 UNITS = {"m": "m", "s": "s", "N": "N", "rad": "rad", "mps": "m s-1", "radps": "rad s-1", "strain": "1"}

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import simulate
 from engine.parameters.scales import jumps_of
 from engine.run import Run
 from engine.run.trust import blows, errors_of_ringing, unresolved
@@ -60,7 +60,7 @@ def test_a_small_part_of_the_largest_tension_is_not_told():
 )
 def test_waves_that_are_not_linear_are_told(period_s, steepness, statement):
     """T = 50 s in 21 m: L = 712 m, and H L^2/depth^3 = 198 of kA = 0.016; deep water breaks at 0.142 pi."""
-    scene = load_scene("tethered_buoy", {"waves.period_s": period_s, "waves.steepness": steepness, "tether.nodes": 9})
+    scene = line({"waves.period_s": period_s, "waves.steepness": steepness, "tether.nodes": 9})
     message = simulate(scene, duration_s=0.1).message
     assert (statement in message) if statement else message == ""
 
@@ -131,7 +131,7 @@ def test_what_is_lost_in_the_step_to_the_largest_tension_is_its_error_though_it_
 ])  # fmt: skip
 def test_a_slack_line_that_nothing_calms_is_told(overrides, warned):
     undamped = {"tether.drag_normal": 0.0, "tether.drag_tangential": 0.0, "tether.nodes": 11, "waves.steepness": 0.1}
-    run = simulate(load_scene("tethered_buoy", undamped | overrides), periods=6)
+    run = simulate(line(undamped | overrides), periods=6)
     assert ("neither drag nor damping" in run.message) == warned
 
 
@@ -185,7 +185,7 @@ def kicked(speed_mps):
 @pytest.mark.parametrize("speed_mps, nodes, warned", [(0.01, 21, False), (0.4, 21, True), (0.4, 31, True)])
 def test_a_largest_tension_that_the_grid_decides_is_told(speed_mps, nodes, warned):
     coarse, fine = (
-        simulate(load_scene("tethered_buoy", kicked(speed_mps) | {"tether.nodes": count}), duration_s=4.0)
+        simulate(line(kicked(speed_mps) | {"tether.nodes": count}), duration_s=4.0)
         for count in (nodes, 4 * (nodes - 1) + 1)
     )
     largest_N = [run.columns["tension_top_high_N"].max() for run in (coarse, fine)]

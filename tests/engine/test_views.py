@@ -12,6 +12,7 @@ from engine.natural_frequencies import axial_period_s, impact_Nspm
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
 from engine.views import facts
+from tests.engine.lines import line
 
 PERIODS, STEPS = 310, 100
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
@@ -51,10 +52,11 @@ def test_a_torus_needs_perturbations_to_be_told():
 
 
 def test_the_exponent_is_that_of_the_tangent_dynamics_where_it_was_carried():
-    computed = moved(GOLDEN, 0.05).exponent()
+    run = moved(GOLDEN, 0.05)
+    computed, later = run.exponent(), run.exponent(transient_periods=100)
     assert abs(computed.value - 0.05 / np.log(2.0)) < 2.0 * computed.error + 1e-3 and "tangent" in computed.method
-    assert computed.details["periods"] == PERIODS - PERIODS // 3
-    assert moved(GOLDEN, 0.05).exponent(transient_periods=100).details["periods"] == PERIODS - 100
+    for exponent, begin in ((computed, PERIODS // 3), (later, 100)):
+        assert exponent.details["periods"] == PERIODS - begin and f"over periods {begin} to {PERIODS}" in str(exponent)
     assert "Wolf" in moved(0.5).exponent().method
 
 
@@ -103,8 +105,14 @@ def test_a_notebook_shows_what_the_run_did():
     assert len(repr(moved(0.5))) < 100
 
 
-def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
+def pulled(run):
     """The largest tension is at t = 5 s, within every beginning; the largest after t = 40 s is at t = 900 s."""
+    time_s = run.columns["time_s"]
+    run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
+    return run
+
+
+def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
     sea = {"waves.jonswap.significant_height_m": 1.0}
     largest, late_largest = "7000.00 N at the top (t = 5 s)", "5000.00 N at the top (t = 900 s)"
     for changes, later in (
@@ -113,23 +121,14 @@ def test_extremes_are_those_of_the_whole_run_and_those_after_its_beginning():
         (sea, ""),
         ({**sea, "waves.ramp_s": 40.0}, f"after t = 40 s: 0.00 (t = 40 s) to {late_largest}"),
     ):
-        run = replace(moved(0.5, -0.2), scene=load_scene("tethered_buoy", changes))
-        time_s = run.columns["time_s"]
-        run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
+        run = replace(pulled(moved(0.5, -0.2)), scene=line(changes))
         text = "; ".join(filter(None, (f"whole run: 0.00 (t = 0 s) to {largest}", later)))
         assert facts(run)["tension"] == text
 
 
-def test_an_exponent_says_over_which_periods():
-    assert f"over periods {PERIODS // 3} to {PERIODS}" in moved(GOLDEN, 0.05).exponent().method
-    assert "over periods 100 to 310" in str(moved(GOLDEN, 0.05).exponent(transient_periods=100))
-
-
 def test_the_table_of_extremes_has_both_parts_with_moments():
-    run = moved(0.5, -0.2)
-    time_s = run.columns["time_s"]
-    run.columns["tension_top_high_N"] = np.where(time_s == 5.0, 7e3, np.where(time_s == 900.0, 5e3, 1.0))
-    run.columns["tension_max_N"] = np.where(time_s == 700.0, 8e3, 0.0)
+    run = pulled(moved(0.5, -0.2))
+    run.columns["tension_max_N"] = np.where(run.columns["time_s"] == 700.0, 8e3, 0.0)
     table = run.extremes()
     assert list(table.index.unique("part")) == ["whole run", "after t = 516.65 s"]
     assert table.loc[("whole run", "tension_top_N"), ["largest", "largest_s"]].tolist() == [7e3, 5.0]
@@ -176,7 +175,7 @@ def test_a_line_without_tension_at_rest_needs_one_for_its_snaps():
 
 def test_ringing_of_the_line_is_that_of_a_wave_to_the_anchor_and_back():
     """2 l sqrt(m/EA) of the shipped rope: 53.5 ms."""
-    scene = load_scene("tethered_buoy")
+    scene = line()
     assert axial_period_s(scene, 2e3) == pytest.approx(2.0 * 20.0 * np.sqrt(1140.0 * 7.85e-5 / 5e4), rel=1e-6)
     assert impact_Nspm(load_scene("hanging_line"), 10.0) is None
 
@@ -205,7 +204,7 @@ def test_mistakes_get_one_line(tmp_path):
 
 def test_a_name_is_a_scene_and_a_run_with_shapes_moves(tmp_path):
     changes = {"tether.nodes": 5, "waves.steepness": 0.01, "output.profiles": True}
-    run = simulate(load_scene("tethered_buoy", changes), periods=2)
+    run = simulate(line(changes), periods=2)
     run.animate(tmp_path / "run.gif", begin_s=1.0, duration_s=2.0)
     assert (tmp_path / "run.gif").read_bytes().startswith(b"GIF")
     (tmp_path / "mine.toml").write_text(run.scene.to_toml())
@@ -273,7 +272,7 @@ def test_the_command_lists_the_scenes(capsys):
 
 
 def test_the_static_tension_of_a_run_that_goes_on_is_that_of_rest_and_not_its_first():
-    scene = load_scene("tethered_buoy", {"tether.nodes": 9})
+    scene = line({"tether.nodes": 9})
     first = simulate(scene, periods=2)
     later = simulate(scene, periods=1, start=first)
     assert static_tension_N(scene, first.columns) == first.columns["tension_top_N"][0]

@@ -228,6 +228,11 @@ def of_kind(items, kind):
     return [item for item in items if isinstance(item, kind)]
 
 
+def warned(items):
+    """The lines of all notices of a report."""
+    return [line for notice in of_kind(items, Notice) for line in notice.lines]
+
+
 def panel_of(figure, label):
     """The axes whose label of y begins so."""
     return next(axes for axes in figure.axes if axes.get_ylabel().startswith(label))

@@ -3,12 +3,9 @@ folders that a sweep can leave behind when things go wrong, which still give a r
 """
 
 import json
-import os
 import re
 import shutil
 import subprocess
-import sys
-from pathlib import Path
 
 import matplotlib
 import pandas
@@ -23,9 +20,9 @@ from reports.buoy_sweep.report import report
 from reports.parts.content import Bullets, Figure, Heading, Notice, Picture, Report, Sheet, Text, plain
 from reports.parts.pdf import render_pdf
 from tables import read_rows
-from tests.reports.conftest import campaign, folder_at, of_kind
+from tests.processes import OTHERWISE, python
+from tests.reports.conftest import campaign, folder_at, of_kind, warned
 
-ROOT = Path(__file__).parents[2]
 LINK, PAGE = re.compile(rb"/Subtype ?/Link\b"), re.compile(rb"/Type ?/Page\b")
 needs_pdftotext = pytest.mark.skipif(shutil.which("pdftotext") is None, reason="no pdftotext to read the PDF with")
 
@@ -38,8 +35,7 @@ def words_of(pdf, *options):
 @pytest.mark.slow
 def test_a_copy_elsewhere_in_another_process_gives_the_same_bytes(folder, built, tmp_path):
     copy = shutil.copytree(folder, tmp_path / "elsewhere", ignore=shutil.ignore_patterns("report.*"))
-    environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
-    subprocess.run([sys.executable, "-m", "reports", str(copy)], cwd=ROOT, env=environment, check=True)
+    assert python("-m", "reports", copy, **OTHERWISE).returncode == 0
     for path in built:
         assert (copy / path.name).read_bytes() == path.read_bytes()
 
@@ -108,9 +104,8 @@ def test_the_first_picture_shrinks_to_the_page_of_the_answer(height):
 def content(folder):
     """What a report says in its boxes, its bullets and its sheets, and the number of its figures."""
     items = report(folder).items
-    boxes = [line for notice in of_kind(items, Notice) for line in notice.lines]
     sheets = [line for sheet in of_kind(items, Sheet) for line in sheet.lines]
-    return boxes, sheets, len(of_kind(items, Figure))
+    return warned(items), sheets, len(of_kind(items, Figure))
 
 
 def test_runs_that_failed_are_named_with_their_reason_and_message_which_is_told_once(tmp_path):

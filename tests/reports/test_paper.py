@@ -14,13 +14,13 @@ from campaigns.statements import write_statements
 from reports.figures.line_panels import LinePanel, limits
 from reports.paper.index import entries, markdown, named_in
 from reports.paper.report import report, short_answer
-from reports.parts.content import Links, Notice, Table, Text
+from reports.parts.content import Links, Table, Text
 from reports.parts.html import render_html
 from reports.parts.judged import read_statements, statements_table
 from tables import FAILS, HOLDS_IF, STATEMENT_COLUMNS
-from tests.campaigns.conftest import ROOT
 from tests.campaigns.paper.test_statements import deep, world
-from tests.reports.conftest import folder_at, of_kind, write
+from tests.pages import ROOT
+from tests.reports.conftest import folder_at, of_kind, warned, write
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,7 @@ def content(tmp_path_factory):
 
 
 def test_parts_that_are_missing_are_told_and_the_rest_is_there(content):
-    lines = [line for notice in of_kind(content.items, Notice) for line in notice.lines]
+    lines = warned(content.items)
     assert any("`sweep`" in line for line in lines) and not any("`dependence`" in line for line in lines)
     assert any(row[0] == "eq. (6), C₃₁" for table in of_kind(content.items, Table) for row in table.rows)
     assert any("took 1.5 minutes" in item.text for item in of_kind(content.items, Text))

@@ -6,14 +6,15 @@ from campaigns import out_of_plane
 from campaigns.out_of_plane.pairs import APART_M
 from reports.buoy_sweep.tables import COMPARED
 from tables import read_table
+from tests.campaigns.conftest import order_of
 
 
 @pytest.mark.slow
 def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_path):
     """kA = 0.13 at three depths, 200 periods after a transient of 50, planar and in three dimensions."""
     words = ["--jobs", "2", "--no-report", "--out", str(tmp_path / "out")]
-    order = out_of_plane.read_order(words, faults := [])
-    assert not faults and order.periods - order.transient == 200
+    order = order_of(out_of_plane, *words)
+    assert order.periods - order.transient == 200
     base = out_of_plane.base_of(order)
     order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case.labels), base)]
     assert out_of_plane.STUDY.conduct(order, words) == 0

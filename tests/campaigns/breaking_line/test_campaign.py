@@ -9,7 +9,7 @@ from campaigns import breaking_line
 from campaigns.breaking_line import CASES, LENGTHS_S
 from engine import load_scene, simulate
 from reports import build
-from tests.campaigns.conftest import built_twice, ran, rows_of
+from tests.campaigns.conftest import built_twice, order_of, ran, rows_of
 
 
 def failing(scene, periods=None, duration_s=None):
@@ -30,9 +30,7 @@ def made(place, *words, simulate=None):
 
 
 def runs_of(*words):
-    order = breaking_line.read_order(list(words), faults := [])
-    assert faults == []
-    return order.cases
+    return order_of(breaking_line, *words).cases
 
 
 def of_kind(runs, *kinds):

@@ -15,10 +15,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.breaking_line import LENGTHS_S, read_order
+from campaigns import breaking_line
+from campaigns.breaking_line import LENGTHS_S
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
+from tests.campaigns.conftest import order_of
 from tests.engine.physics.test_shock_capturing import CASES, theory
 
 LENGTH = 60.0
@@ -105,8 +107,7 @@ def test_recoil_of_a_line_that_moves_as_told():
 
 def scene_of(case, **changes):
     settings = ["--set", *(f"{key}={value}" for key, value in changes.items())] if changes else []
-    (run,) = read_order(["--cases", case, "--no-companions", *settings], faults := []).cases
-    assert not faults
+    (run,) = order_of(breaking_line, "--cases", case, "--no-companions", *settings).cases
     return run.scene
 
 

@@ -1,10 +1,7 @@
 """The campaign of the whole paper: its parts are run once, found again, and what stops one stops all."""
 
 import json
-import os
 import shutil
-import subprocess
-import sys
 from collections import Counter
 from itertools import product
 from pathlib import Path
@@ -18,7 +15,8 @@ from campaigns.paper import dependence, parts, results
 from campaigns.paper.figures import FIGURES, place_of
 from engine import load_scene
 from reports.paper.figures import figures_of, left_out, pictures
-from tests.campaigns.conftest import ROOT, rows_of
+from tests.campaigns.conftest import rows_of
+from tests.processes import OTHERWISE, python
 
 
 @pytest.fixture
@@ -131,8 +129,7 @@ def assert_drawn_alike_elsewhere(out, elsewhere):
         "import sys\nfrom pathlib import Path\nfrom reports.paper.figures import pictures\n"
         "for path, content in pictures(Path(sys.argv[1])).items():\n    path.write_bytes(content)\n"
     )
-    environment = {**os.environ, "PYTHONHASHSEED": "77", "TZ": "Asia/Tokyo", "SOURCE_DATE_EPOCH": "1"}
-    subprocess.run([sys.executable, "-c", code, str(elsewhere)], cwd=ROOT, env=environment, check=True)
+    assert python("-c", code, elsewhere, **OTHERWISE).returncode == 0
     drawn = pictures(out)
     assert len(drawn) == 2 * len(FIGURES)
     for path, content in drawn.items():

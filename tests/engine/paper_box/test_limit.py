@@ -10,7 +10,7 @@ import math
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import simulate
 from engine.paper_box.driver import run as run_boxed
 from tests.engine.lines import held, line, linear, orders
 
@@ -86,7 +86,7 @@ SNAP = {"solver.scheme": "paper-box", "waves.steepness": 0.13, "water.depth_m": 
 
 
 def small(**overrides):
-    return load_scene("tethered_buoy", {**SMALL, **overrides})
+    return line({**SMALL, **overrides})
 
 
 def test_progress_is_told_and_every_sample_is_there():
@@ -101,7 +101,7 @@ def test_progress_is_told_and_every_sample_is_there():
 @pytest.mark.slow
 def test_turns_that_the_nodes_do_not_resolve():
     """With the other guard away the turns reach the bound next; both numbers are in the statistics."""
-    scene = load_scene("tethered_buoy", {**SNAP, "tether.nodes": 21, "solver.step_s": 0.005})
+    scene = line({**SNAP, "tether.nodes": 21, "solver.step_s": 0.005})
     computed = run_boxed(scene, 8.0, most_gap=math.inf)
     assert computed.status == "turn-unresolved"
     assert computed.statistics["max_turn_rad"] > math.pi / 2 and computed.statistics["closure_m"] > 0.2

@@ -6,11 +6,10 @@ import math
 
 import numpy as np
 import pytest
-import xarray
 
-from engine import Trajectory, simulate, simulate_batch
+from engine import simulate, simulate_batch
 from engine.perturbations.tangent import period_of
-from tests.engine.lines import assert_same, line, ran
+from tests.engine.lines import line, ran
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6, "tether.nodes": 21}
 CARRIED = {
@@ -18,7 +17,6 @@ CARRIED = {
     "across": {"output.lateral_growth": True},
     "both": {"output.tangent_vectors": 2, "output.lateral_growth": True},
 }
-PARTS = ("growth_nats", "released", "lateral_nats")
 
 
 @pytest.mark.parametrize("carried", CARRIED)
@@ -57,21 +55,6 @@ def test_releases_are_told_in_their_period(carried):
 
 def test_a_step_that_ends_with_a_period_belongs_to_it():
     assert [period_of(t, 5.0, 3) for t in (0.1, 5.0, 5.001, 10.0, 99.0)] == [0, 0, 1, 1, 2]
-
-
-@pytest.mark.parametrize("carried", CARRIED)
-@pytest.mark.parametrize("periods", [6.5, 0.5])
-def test_saved_and_loaded(periods, carried, tmp_path):
-    """Also without a complete period, and with one of many digits."""
-    run = ran(line(STEEP, CARRIED[carried], {"waves.period_s": 5.0 + 1e-13 * math.pi}), periods)
-    run.save(tmp_path / "run.nc")
-    again = Trajectory.load(tmp_path / "run.nc")
-    assert_same(again, run)
-    assert run.tangent.period_s == 5.0 + 1e-13 * math.pi
-    again.save(tmp_path / "again.nc")
-    assert (tmp_path / "again.nc").read_bytes() == (tmp_path / "run.nc").read_bytes()
-    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
-        assert all(data[name].dims[0] == "period" and data[name].attrs["long_name"] for name in PARTS if name in data)
 
 
 @pytest.mark.slow

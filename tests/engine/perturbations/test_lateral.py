@@ -15,7 +15,6 @@ rounding, and growth of e^10 and decay of e^-30 on the way leave 1e-7 of that.
 import numpy as np
 import pytest
 
-from engine import load_scene
 from engine.scene import build_scene
 from tests.engine.box_equations import LAWS, across, lifted, response, state_of
 from tests.engine.kernels import Stage
@@ -29,9 +28,7 @@ ENDS = {"buoy": {}, "held": held(3.0, 18.0), "free": free(300.0, 900.0)}
 
 def scene_of(end, wet, **tether):
     usual = {"nodes": NODES, "bending_stiffness_Nm2": 24.0, "grid_stretching": 1.5, "diameter_m": 0.05}
-    return load_scene(
-        "tethered_buoy", {f"tether.{k}": v for k, v in (usual | tether).items()} | ENDS[end] | ({} if wet else DRY)
-    )
+    return line(ENDS[end], {} if wet else DRY, **usual | tether)
 
 
 def angles(rng, turns):

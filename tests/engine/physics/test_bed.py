@@ -52,7 +52,6 @@ def test_friction_is_coulombs_above_its_speed():
 
 
 @pytest.mark.parametrize("zeta", [0.1, 0.4])
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_an_inclined_throw_loses_what_theory_says(dimensions, zeta):
     """The nodes of a line of next to no tension are such masses."""
     mass, width, mu, limp = WEIGHT / G, math.sqrt(4e-4 / math.pi), 0.1, 1e-4
@@ -87,7 +86,6 @@ def catenary(x, z):
     return fsolve(miss, (10.0, 10.0), xtol=1e-12)
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_a_line_that_lies_on_the_bed_in_part(dimensions):
     x, z = 18.6, 5.0
     H, lying = catenary(x, z)

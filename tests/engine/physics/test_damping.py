@@ -14,7 +14,7 @@ import pytest
 
 from engine import simulate
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, SPACE, line
+from tests.engine.lines import DRY, line, ran
 
 EA, C, L, M = 5e4, 4e3, 20.0, 1611.0
 LINE_M = 1140.0 * 7.85e-5
@@ -32,8 +32,7 @@ def root(c):
 
 
 def ringing(nodes, *changes):
-    run = simulate(line(RINGING, {"tether.damping_Ns": C}, *changes, nodes=nodes), duration_s=20.0)
-    assert run.status == "ok", run.message
+    run = ran(line(RINGING, *changes, nodes=nodes, damping_Ns=C), duration_s=20.0)
     t, z = run.columns["time_s"], run.columns["z_m"] - run.columns["z_m"][0]
     late = t > 5.0  # faster motions are gone
     computed = root(C)
@@ -41,7 +40,6 @@ def ringing(nodes, *changes):
     return np.linalg.lstsq(shapes[:, late].T, z[late])[1][0] / np.sum(z[late] ** 2)
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_a_mass_on_the_line_rings_as_it_should(dimensions):
     assert root(0.0).real == pytest.approx(0.0, abs=1e-9)
     assert root(C).real < -0.02
@@ -49,12 +47,12 @@ def test_a_mass_on_the_line_rings_as_it_should(dimensions):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("space", [{}, SPACE], ids=["plane", "space"])
-def test_the_budget_has_what_the_damping_takes(space):
+def test_the_budget_has_what_the_damping_takes(dimensions):
     budgets = []
     for step_s in (0.02, 0.01):
         more = {"solver.integrator": "midpoint", "solver.step_s": step_s, "output.energy": True}
-        scene = line(DRY, more, space, {"start.buoy_velocity_mps": [0.3, 0.0, 1.0], "tether.damping_Ns": C}, nodes=9)
+        more |= {"start.buoy_velocity_mps": [0.3, 0.0, 1.0], "motion.dimensions": dimensions}
+        scene = line(DRY, more, nodes=9, damping_Ns=C)
         budgets.append(simulate(scene, duration_s=10.0).energy)
     assert budgets[1].viscous_J[-1] > 100.0
     assert np.all(np.diff(budgets[1].viscous_J) >= 0.0)
@@ -65,11 +63,10 @@ def test_the_budget_has_what_the_damping_takes(space):
 
 
 @pytest.mark.parametrize("integrator", ["esdirk43", "midpoint"])
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_what_is_told_as_tension_has_the_damping(dimensions, integrator):
     more = {"motion.dimensions": dimensions, "solver.integrator": integrator, "solver.step_s": 0.005}
     more |= {"start.buoy_velocity_mps": [0.0, 0.0, 0.3], "output.profiles": True}
-    run = simulate(line(RINGING, more, {"tether.damping_Ns": 5 * C}, nodes=9), duration_s=2.0)
+    run = simulate(line(RINGING, more, nodes=9, damping_Ns=5 * C), duration_s=2.0)
     strain, tension_N = run.profiles.strain[:, -1], run.columns["tension_top_N"]
     viscous = 5 * C * np.gradient(strain, 0.05, edge_order=2)
     assert np.abs(viscous[1:-1]).max() > 290.0

@@ -81,12 +81,12 @@ def test_an_end_is_held_up_to_its_release_and_free_after_it(force):
     p, tables = parameters_of(line(STILL, held(3.0, 19.0, release_s=2.5, force_N=force)))
     N, V, V_tilde = np.array([700.0, 800.0]), np.array([0.2, 0.3]), np.array([0.1, 0.1])
     f = np.array(force or [0.0, 0.0, 0.0])[[0, 2]]
-    for t in (0.0, 2.0, 2.5, np.nextafter(2.5, 3.0)):  # a step that ends at the release may miss it by rounding
-        e, e_N, D = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
-        assert np.array_equal(e, V) and e_N == 0.0 and np.array_equal(D, np.eye(2))
-    for t in (2.5 + 1e-9, 2.6, 1e6):
-        e, e_N, D = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
-        assert np.array_equal(e, N - f) and e_N == 1.0 and not D.any()
+    # a step that ends at the release may miss it by rounding
+    held_s, free_s = (0.0, 2.0, 2.5, np.nextafter(2.5, 3.0)), (2.5 + 1e-9, 2.6, 1e6)
+    for times, expected in ((held_s, (V, 0.0, np.eye(2))), (free_s, (N - f, 1.0, np.zeros((2, 2))))):
+        for t in times:
+            computed = upper_end_of(p, tables, t, 8.0, 1.0, N, V, V_tilde, np.zeros(4))
+            assert all(map(np.array_equal, computed, expected))
 
 
 def test_an_end_that_was_let_go_bears_nothing_at_any_sample():

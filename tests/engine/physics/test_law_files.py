@@ -9,12 +9,11 @@ and are linearised there by complex step.
 
 import os
 import shutil
-import subprocess
-import sys
 
 import pytest
 
 from tests.pages import ROOT, blocks
+from tests.processes import python
 
 TENSION = """
 import numpy as np
@@ -88,6 +87,5 @@ def test_the_file_of_the_page_is_all_that_a_law_takes(law, check, tmp_path):
         shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
     (tmp_path / text[2:].partition(":")[0]).write_text(text)
     paths = os.pathsep.join([str(tmp_path), str(ROOT)])  # the tests themselves from here
-    environment = os.environ | {"PYTHONPATH": paths, "TETHER_CACHE_DIR": str(tmp_path / "kernels")}
-    done = subprocess.run([sys.executable, "-c", check], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    done = python("-c", check, cwd=tmp_path, PYTHONPATH=paths, TETHER_CACHE_DIR=str(tmp_path / "kernels"))
     assert done.returncode == 0, done.stderr

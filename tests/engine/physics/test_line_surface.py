@@ -8,12 +8,11 @@ import math
 import numpy as np
 import pytest
 
-from engine import simulate
 from engine.physics.extras import surface_load, wetting
 from engine.physics.strains import tension_at
 from engine.scene import build_scene
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, STILL, equilibrium, held, line
+from tests.engine.lines import DRY, STILL, equilibrium, held, line, ran
 
 FREE = {"tether.submergence": "free-surface", "tether.diameter_m": 0.04, "tether.area_m2": math.pi * 0.02**2}
 TIGHT = {"solver.step_s": 0.01, "solver.newton_tolerance": 1e-12, "solver.max_newton_iterations": 40}
@@ -21,12 +20,10 @@ SHAKEN = {"law": "harmonic", "amplitude_m": [0.3, 0.0, 0.5], "period_s": 2.0}
 
 
 def tensions(*changes):
-    run = simulate(line(held(12.0, 9.0, motion=SHAKEN), FREE, TIGHT, *changes, nodes=9), duration_s=3.0)
-    assert run.status == "ok", run.message
-    return run.columns["tension_top_N"]
+    scene = line(held(12.0, 9.0, motion=SHAKEN), FREE, TIGHT, *changes, nodes=9)
+    return ran(scene, duration_s=3.0).columns["tension_top_N"]
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_far_above_and_far_below(dimensions):
     space = {"motion.dimensions": dimensions}
     above = {"anchor.position_m": [0.0, 0.0, 60.0]}

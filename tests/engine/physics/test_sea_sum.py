@@ -7,11 +7,12 @@ run in a lane is the run alone, a run that goes on is the whole run, and a sea i
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
+from engine import simulate
 from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, rows_of
 from engine.physics.sea_series import LEFT_OUT, ORDER, WIDTH, sea_in_plane
 from engine.run.simulation import simulate_batch
 from tests.engine.kernels import parameters_of, waves_at
+from tests.engine.lines import line
 
 RNG = np.random.default_rng(7)
 DEPTH = 22.5
@@ -21,7 +22,7 @@ CAP = {"buoy.submergence": "spherical-cap"}
 def sea(seed, dimensions=2, **changes):
     jonswap = {"significant_height_m": 1.6, "seed": seed, "components": int(RNG.choice([2, 8, 37, 64]))}
     keys = {"water.depth_m": DEPTH, "motion.dimensions": dimensions, "waves.jonswap": jonswap, "tether.nodes": 11}
-    return load_scene("tethered_buoy", keys | changes)
+    return line(keys, changes)
 
 
 def plain_sum(scene, t, X):
@@ -186,7 +187,7 @@ def test_a_drawn_sea_has_more_waves_for_a_longer_run_unless_a_key_says_how_many(
     assert enough_waves(stated_sea, 1000 * period_s) == {}
     keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1, "waves.relative_width": 0.2}
     assert enough_waves(sea(0, **keys), 1000 * period_s) == {"waves.component_count": 128}
-    assert enough_waves(load_scene("tethered_buoy"), 1000 * period_s) == {}
+    assert enough_waves(line(), 1000 * period_s) == {}
 
 
 def test_a_gaussian_sea_has_its_energy_and_its_width_and_without_width_is_a_regular_wave():

@@ -105,7 +105,6 @@ RESTS = [
 ]
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 @pytest.mark.parametrize("changes, low, high", RESTS)
 def test_at_rest_the_line_pulls_with_the_weight_of_the_displaced_water_less_the_buoys(changes, low, high, dimensions):
     """Archimedes: N = (rho pi h^2 (3R - h)/3 - M) g z."""
@@ -117,7 +116,6 @@ def test_at_rest_the_line_pulls_with_the_weight_of_the_displaced_water_less_the_
     assert low < lift < high
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_a_buoy_that_stays_under_water_moves_as_the_whole_sphere(dimensions):
     """Bit for bit, in small waves over 25 m of water: its top stays below the troughs."""
     deep = {"water.depth_m": 25.0, "waves.steepness": 0.08, "tether.nodes": 21, "motion.dimensions": dimensions}

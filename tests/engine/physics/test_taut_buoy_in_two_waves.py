@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from engine import load_scene, simulate
+from engine import simulate
 from engine.physics.sea import rows_of
+from tests.engine.lines import line
 
 WAVES = [
     {"period_s": 6.0, "amplitude_m": 0.0004, "phase_rad": 0.3},
@@ -22,13 +23,13 @@ def test_surge_is_duhamels_integral():
     keys = {"waves.components": WAVES, "waves.steepness": None, "water.depth_m": 25.0, "tether.nodes": 11}
     keys |= {"tether.tension": {"law": "linear", "stiffness_N": 1.0e6}, "solver.max_step_s": 0.05}
     keys |= {"tether.drag_normal": 0.0, "tether.drag_tangential": 0.0, "buoy.drag": 0.0, "buoy.submergence": "full"}
-    scene = load_scene("tethered_buoy", keys)
+    scene = line(keys)
     run = simulate(scene, duration_s=40.0)
     buoy, height = scene.buoy, run["z_m"][0]
     displaced = scene.water.density_kgpm3 * np.pi * buoy.diameter_m**3 / 6.0
     tether, density = scene.tether, scene.water.density_kgpm3
-    line = tether.density_kgpm3 * tether.area_m2 + tether.added_mass * density * np.pi * tether.diameter_m**2 / 4.0
-    moved = buoy.mass_kg + buoy.added_mass_kg + line * tether.length_m / 3.0
+    own_mass = tether.density_kgpm3 * tether.area_m2 + tether.added_mass * density * np.pi * tether.diameter_m**2 / 4.0
+    moved = buoy.mass_kg + buoy.added_mass_kg + own_mass * tether.length_m / 3.0
     driven = displaced + buoy.added_mass_kg
     own = np.sqrt((displaced - buoy.mass_kg) * scene.gravity_mps2 / height / moved)
     k, omega, phase, *_, amplitude = rows_of(scene).T

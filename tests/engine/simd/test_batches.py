@@ -9,10 +9,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from engine import goes_in_lanes, load_scene, simulate, simulate_batch, simulate_each
+from engine import goes_in_lanes, simulate, simulate_batch, simulate_each
 from engine.run import Run
 from engine.time.status import WORDS
-from tests.engine.lines import DRY, STILL, assert_same, free, held
+from tests.engine.lines import DRY, STILL, assert_same, free, held, line
 from tests.engine.physics.caps import CAP
 
 STEEP = {"waves.steepness": 0.13, "water.depth_m": 21.6}
@@ -73,7 +73,7 @@ def steep(*parts):
     changes = dict(STEEP)
     for part in parts:
         changes |= part
-    return load_scene("tethered_buoy", changes)
+    return line(changes)
 
 
 def lots(base, values=(0.05, 0.1, 0.13, 0.16), key="waves.steepness"):

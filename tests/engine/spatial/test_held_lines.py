@@ -29,7 +29,6 @@ LENGTH, G = 1.022, 9.81
 TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5], [1.5, -1.0, 0.5], [0.5, 0.0, 0.0]])
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_an_end_moved_by_a_table_passes_its_rows(dimensions):
     way = TABLE_M * [1, dimensions - 2, 1]
     end = held(10.0, 0.0, 16.0, motion={"law": "table", "time_s": TABLE_S, "displacement_m": way.tolist()})
@@ -112,7 +111,6 @@ MASS, EA, JERKED = 0.5, 5e4, 20.0  # kg/m, N, m of the jerked line
 C = np.sqrt(EA / MASS)
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_the_force_of_a_jerk(dimensions):
     stretch, amplitude, period = 1e-3, 0.1, 1.0
     motion = {"law": "harmonic", "amplitude_m": [amplitude, 0.0, 0.0], "period_s": period}
@@ -129,7 +127,6 @@ def test_the_force_of_a_jerk(dimensions):
     assert np.abs(run.columns["tension_top_N"] - expected)[1:].max() < 0.01 * jump
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 @pytest.mark.parametrize("EI, period_s", [(0.4, 2.0), (50.0, 0.5)])
 @pytest.mark.parametrize("position", [[15.0, 0.0, 8.0], [5.0, 0.0, 18.0]])
 def test_a_slack_line_stands_a_jerk(dimensions, EI, position, period_s):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from engine import Trajectory, load_scene, simulate, simulate_each
+from engine import Trajectory, simulate, simulate_each
+from tests.engine.lines import assert_same, line
 
 SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5}
 CARRIED = {"output.tangent_vectors": 2, "output.lateral_growth": True}
@@ -18,13 +19,8 @@ KINDS = {
     "loop releases": {**RELEASES, **CARRIED},
     "loop releases in space": {**RELEASES, "motion.dimensions": 3},
 }
-PROFILES = ("time_s", "s_m", "x_m", "tension_N")
 PARTS = (3.5, 2.0, 4.5)  # wave periods; the first ends within a period of growth
 LONGER = (11.5, 2.0, 5.5)  # with a loop release in each of the last two
-
-
-def scene_of(changes):
-    return load_scene("tethered_buoy", changes)
 
 
 def parts_of(scene, lengths):
@@ -39,20 +35,12 @@ def assert_continues(uninterrupted, parts):
     joined = parts[0]
     for part in parts[1:]:
         joined = joined.followed_by(part)
-    for name, values in uninterrupted.columns.items():
-        assert joined.columns[name].tobytes() == values.tobytes(), name
-    for record, names in (("tangent", ("growth_nats", "lateral_nats", "released")), ("profiles", PROFILES)):
-        if getattr(uninterrupted, record) is not None:
-            for name in names:
-                values, expected = (getattr(getattr(run, record), name) for run in (joined, uninterrupted))
-                assert np.array_equal(values, expected), name
-    counted = {name: number for name, number in uninterrupted.statistics.items() if name != "wall_s"}
-    assert {name: joined.statistics[name] for name in counted} == counted
+    assert_same(joined, uninterrupted)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_parts_make_the_whole(kind):
-    scene = scene_of(KINDS[kind])
+    scene = line(KINDS[kind])
     lengths = LONGER if "releases" in kind else PARTS
     uninterrupted = simulate(scene, periods=sum(lengths))
     assert uninterrupted.status == "ok"
@@ -64,7 +52,7 @@ def test_parts_make_the_whole(kind):
 
 
 def test_a_hundred_restarts():
-    scene = scene_of(RELEASES)
+    scene = line(RELEASES)
     uninterrupted = simulate(scene, periods=20)
     assert uninterrupted.statistics["loop_releases"] >= 2
     assert_continues(uninterrupted, parts_of(scene, (0.2,) * 100))
@@ -73,7 +61,7 @@ def test_a_hundred_restarts():
 @pytest.mark.parametrize("of, lengths", [(SMALL, PARTS), (RELEASES, LONGER)], ids=["calm", "loop releases"])
 def test_in_lanes_too_and_through_files(tmp_path, of, lengths):
     shares = (1 / 3, 2 / 3, 1.0)
-    scenes = [scene_of({**of, **CARRIED, "waves.steepness": share * of["waves.steepness"]}) for share in shares]
+    scenes = [line({**of, **CARRIED, "waves.steepness": share * of["waves.steepness"]}) for share in shares]
     parts, starts = [[], [], []], None
     for number, length in enumerate(lengths):
         for i, part in simulate_each(scenes, periods=length, starts=starts):
@@ -94,10 +82,10 @@ def test_a_run_that_ends_goes_on_among_the_others_as_long_as_somebody_says():
         pieces[number] = pieces[number].followed_by(part) if number in pieces else part
         periods = round(pieces[number].columns["time_s"][-1] / part.scene.waves.period_s)
         perturbations = CARRIED if periods >= 6 else {}
-        return (scene_of({**SMALL, **perturbations, **kA[number]}), 3, part) if periods < lengths[number] else None
+        return (line({**SMALL, **perturbations, **kA[number]}), 3, part) if periods < lengths[number] else None
 
     kA = [{"waves.steepness": value} for value in steepness]
-    scenes = [scene_of({**SMALL, **value}) for value in kA]
+    scenes = [line({**SMALL, **value}) for value in kA]
     assert len(list(simulate_each(scenes, periods=[3, 3, 3], progress=shares.append, then=then))) == 6
     assert all(0.0 <= share <= 1.0 for share in shares) and shares[-1] == 1.0
     for scene, length, run in zip(scenes, lengths, pieces.values(), strict=True):

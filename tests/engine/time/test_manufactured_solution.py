@@ -31,7 +31,7 @@ import pytest
 from numpy.polynomial import Polynomial
 from scipy.interpolate import CubicSpline
 
-from tests.engine.lines import Motion, axes_of, held, line, linear, positions
+from tests.engine.lines import Motion, axes_of, held, line, linear, orders, positions
 from tests.engine.rotations import carried
 
 L, M_LINE, EA, EI, GI, RHO, D, C_N, C_T = 20.0, 3.5, 1e3, 1e3, 1.2e3, 1000.0, 1e-6, 1e5, 3e4
@@ -203,8 +203,7 @@ def errors(run, t, plane):
 def assert_second_order(errors_of_grids):
     """Within 0.1; within 0.3 for O1, whose error, below 5e-6 /m, is a small difference of larger ones."""
     for key in errors_of_grids[0]:
-        sizes = np.array([errors[key] for errors in errors_of_grids])
-        slopes = np.log2(sizes[:-1] / sizes[1:])
+        slopes = orders([errors[key] for errors in errors_of_grids])
         assert np.all(np.abs(slopes - 2) < (0.3 if key == "O1" else 0.1)), (key, slopes)
 
 

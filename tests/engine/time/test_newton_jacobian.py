@@ -12,7 +12,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from engine import load_scene
 from tests.engine.box_equations import LAWS, equations, jacobian, state_of, unknowns
 from tests.engine.kernels import Stage
 from tests.engine.lines import Motion, line
@@ -63,7 +62,7 @@ def scene_of(dimensions, law, end, wet, EI, stretching=0.0, tangents=None, **cha
     for i, part in enumerate(("anchor", "end")):
         if overrides.get(f"{part}.rotation") == "clamped":
             overrides[f"{part}.direction"] = tangents[i].tolist()
-    return load_scene("tethered_buoy", overrides)
+    return line(overrides)
 
 
 def directions(rng, turn, dimensions):
@@ -107,7 +106,6 @@ def test_update_solves_the_linearised_box_equations(dimensions, end, EI, stage, 
         assert_solved(scene, STAGES[stage], *state_of(rng, scene, turns))
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 @pytest.mark.parametrize("EI", [0.0, 24.0])
 @pytest.mark.parametrize("law", ["linear", "tanh"])
 def test_with_shock_viscosity(law, EI, dimensions):
@@ -139,7 +137,6 @@ EXTRAS = {  # scene, and what its record has for the stage: the line is lifted, 
 
 @pytest.mark.parametrize("name", EXTRAS)
 @pytest.mark.parametrize("EI", [0.4, 0.0], ids=["bent", "unbent"])
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_newton_is_quadratic_with_each_law_of_few_scenes(dimensions, EI, name):
     """Still water, a line that moves and turns: nothing is left out of the matrix."""
     changes, record = EXTRAS[name]

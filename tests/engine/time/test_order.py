@@ -63,7 +63,6 @@ def run_of(*parts, duration_s, **solver):
     return run
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 @pytest.mark.parametrize(
     "name, integrator, spectral_radius, order, steps",
     [

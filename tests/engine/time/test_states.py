@@ -5,26 +5,23 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engine import Trajectory, __main__, load_scene, simulate
+from engine import Trajectory, __main__, simulate
 from engine.planar import columns as col
 from engine.record import RELEASES
 from engine.run.going_on import between
 from engine.run.start import taken_over
 from engine.spatial import lift
 from engine.trajectory.final_state import NONE
+from tests.engine.lines import held, line
 
 SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5, "solver.rtol": 1e-3}
 SLACK = {"tether.nodes": 21, "waves.steepness": 0.13, "water.depth_m": 21.0}  # folded after 12.6 periods
 SEEN = ("time_s", "x_m", "z_m", "radius_m", "tension_top_N")
 
 
-def scene_of(changes):
-    return load_scene("tethered_buoy", changes)
-
-
 @pytest.fixture(scope="module")
 def first():
-    return simulate(scene_of(SMALL), periods=4)
+    return simulate(line(SMALL), periods=4)
 
 
 CHANGES = {
@@ -45,7 +42,7 @@ CHANGES = {
 @pytest.mark.parametrize("key", CHANGES)
 def test_another_scene_takes_the_state_over_and_says_so(key, first):
     value, statement = CHANGES[key]
-    later_run = simulate(scene_of({**SMALL, key: value}), periods=1, start=first.final_state)
+    later_run = simulate(line({**SMALL, key: value}), periods=1, start=first.final_state)
     assert later_run.status == "ok" and statement in later_run.began
     assert bool(statement) == later_run.began.startswith("went on at t = 20 s")
     for name in SEEN if "clock" not in statement else ():
@@ -75,7 +72,7 @@ def test_a_state_with_its_clock_at_zero_goes_the_same_way(first):
     assert restarted.columns["time_s"] == pytest.approx(continued.columns["time_s"] - 20.0, abs=1e-12)
     assert restarted.columns["radius_m"] == pytest.approx(continued.columns["radius_m"], abs=2e-4)
     assert state.at_zero().digest() == state.digest()
-    assert replace(state, scene=scene_of({**SMALL, "tether.drag_normal": 2.0})).digest() != state.digest()
+    assert replace(state, scene=line({**SMALL, "tether.drag_normal": 2.0})).digest() != state.digest()
 
 
 def test_with_its_clock_at_zero_loops_are_counted_anew(first):
@@ -88,8 +85,8 @@ def test_with_its_clock_at_zero_loops_are_counted_anew(first):
 
 def test_the_grid_may_change_in_slack():
     """The end stays in its place and the line without a blow; on a nested grid and back the state is nearly the old."""
-    fine = scene_of({**SLACK, "tether.nodes": 41})
-    coarse = simulate(scene_of(SLACK), periods=12.6)
+    fine = line({**SLACK, "tether.nodes": 41})
+    coarse = simulate(line(SLACK), periods=12.6)
     unchanged, refined = (simulate(scene, periods=1, start=coarse) for scene in (coarse.scene, fine))
     assert refined.columns["radius_m"] == pytest.approx(unchanged.columns["radius_m"], abs=0.02)
     assert (
@@ -104,11 +101,8 @@ def test_the_grid_may_change_in_slack():
     assert not back.C[0, 2:].any()
 
 
-@pytest.mark.parametrize("dimensions", [2, 3])
 def test_between_two_states(dimensions):
-    scenes = [
-        scene_of({**SMALL, "motion.dimensions": dimensions, "start.buoy_velocity_mps": [u, 0, 0]}) for u in (0, 2)
-    ]
+    scenes = [line({**SMALL, "motion.dimensions": dimensions, "start.buoy_velocity_mps": [u, 0, 0]}) for u in (0, 2)]
     a, b = (simulate(scene, periods=2).final_state for scene in scenes)
     released = b.Y.copy()
     if dimensions == 2:
@@ -127,15 +121,15 @@ def test_between_two_states(dimensions):
     with pytest.raises(ValueError, match="of one time"):
         between(a, b.at_zero(), 0.5)
     with pytest.raises(ValueError, match="one grid"):
-        between(a, simulate(scene_of({**SMALL, "tether.nodes": 11}), periods=2).final_state, 0.5)
+        between(a, simulate(line({**SMALL, "tether.nodes": 11}), periods=2).final_state, 0.5)
 
 
-HELD = {"end": {"kind": "held", "position_m": [0.0, 0.0, 20.5]}, "buoy": None}
+HELD = held(0.0, 20.5)
 FAULTY = {
     "the paper's scheme": (lambda state: state, {"solver.scheme": "paper-box"}, "only start from rest"),
     "another end": (lambda state: state, HELD, "end.kind = 'buoy' for a scene with 'held'"),
     "an end elsewhere": (
-        lambda state: simulate(scene_of({**SMALL, **HELD}), duration_s=1),
+        lambda state: simulate(line({**SMALL, **HELD}), duration_s=1),
         {**HELD, "end.position_m": [0.0, 0.0, 20.4]},
         "end.position_m",
     ),
@@ -143,9 +137,9 @@ FAULTY = {
     "another engine": (lambda state: replace(state, numbers=state.numbers[1:]), {}, "another version of the engine"),
     "half a file": (lambda state: replace(state, K=NONE), {}, "K of shape"),
     "no state": (lambda state: 7, {}, "given 7; allowed: a Trajectory"),
-    "space": (lambda state: simulate(scene_of({**SMALL, "motion.dimensions": 3}), duration_s=1), {}, "in 3 dimensions"),
+    "space": (lambda state: simulate(line({**SMALL, "motion.dimensions": 3}), duration_s=1), {}, "in 3 dimensions"),
     "ended early": (
-        lambda state: simulate(scene_of({**SMALL, FAR[0]: [1e4, 0.0, 0.0]}), duration_s=1),
+        lambda state: simulate(line({**SMALL, FAR[0]: [1e4, 0.0, 0.0]}), duration_s=1),
         {},
         "without a final state",
     ),
@@ -157,7 +151,7 @@ FAR = "start.buoy_velocity_mps", "start.buoy_displacement_m"
 def test_a_run_that_cannot_go_on_says_why(kind, first):
     start_of, changes, words = FAULTY[kind]
     with pytest.raises(ValueError, match=words):
-        simulate(scene_of({**SMALL, **changes}), duration_s=1.0, start=start_of(first.final_state))
+        simulate(line({**SMALL, **changes}), duration_s=1.0, start=start_of(first.final_state))
 
 
 def test_on_the_command_line(first, tmp_path, capsys):
@@ -182,7 +176,7 @@ def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, 
     from engine.natural_frequencies import natural_frequencies
 
     place = [0.0, 0.0, displacement] if axis == "radial" else [displacement, 0.0, 0.0]
-    scene = scene_of({**CALM, FAR[1]: place})
+    scene = line({**CALM, FAR[1]: place})
     run = simulate(scene, duration_s=13.0 if axis == "radial" else 40.0)
     swing = run.columns["z_m"] - run.columns["z_m"][0] + displacement if axis == "radial" else run.columns["x_m"]
     assert swing[0] == pytest.approx(displacement, abs=1e-9) and abs(run.columns["radius_rate_mps"][0]) < 1e-9
@@ -194,12 +188,11 @@ def test_a_displaced_buoy_swings_with_its_natural_frequency(axis, displacement, 
 
 @pytest.mark.parametrize("place", [[3.0, 0.0, -4.0], [-2.0, 0.0, 1.0]], ids=["slack", "stretched"])
 def test_a_displaced_line_begins_as_one_that_is_held_there(place):
-    scene = scene_of({**CALM, FAR[1]: place, "output.profiles": True})
+    scene = line({**CALM, FAR[1]: place, "output.profiles": True})
     run = simulate(scene, duration_s=1.0)
-    end = {name: float(run.columns[name][0]) for name in ("x_m", "y_m", "z_m")}
-    held = {"end": {"kind": "held", "position_m": list(end.values())}, "buoy": None, "output.profiles": True}
-    held_run = simulate(scene_of({**CALM, **held}), duration_s=0.1)
+    end = (run.columns[name][0] for name in ("x_m", "y_m", "z_m"))
+    held_run = simulate(line({**CALM, **held(*end), "output.profiles": True}), duration_s=0.1)
     for name in ("x_m", "z_m", "tension_N"):
         assert getattr(run.profiles, name)[0] == pytest.approx(getattr(held_run.profiles, name)[0], abs=1e-6)
-    space = simulate(scene_of({**CALM, FAR[1]: place, "motion.dimensions": 3}), duration_s=1.0)
+    space = simulate(line({**CALM, FAR[1]: place, "motion.dimensions": 3}), duration_s=1.0)
     assert space.columns["radius_m"] == pytest.approx(run.columns["radius_m"], abs=1e-6)

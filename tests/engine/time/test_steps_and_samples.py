@@ -9,14 +9,13 @@ Samples lie on an even grid that does not depend on the steps, and are as accura
 import numpy as np
 import pytest
 
-from engine import load_scene, simulate
 from engine.run import Run
 from engine.simd.elementary import strain_within
 from engine.time.integrators import esdirk43, trbdf2
 from engine.time.steps import embedded_error
 from engine.time.time_loop import weights_within
 from tests.engine.kernels import Stage
-from tests.engine.lines import Motion, line, orders, ran
+from tests.engine.lines import STILL, Motion, held, line, orders, ran
 from tests.engine.time.test_order import ASIDE, SCENES
 
 REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
@@ -240,12 +239,9 @@ def test_between_steps_that_damp_the_waves_of_a_held_line_its_tension_swings_no_
         "time_s": [0.0, 1.0, 5.0],
         "displacement_m": [[0.0] * 3, [0.0, 0.0, -2.0], [0.0, 0.0, -2.0]],
     }
-    changes = {"waves": None, "buoy": None, "end": {"kind": "held", "position_m": [16.0, 0.0, 4.0], "motion": motion}}
-    changes |= {"floor": {"stiffness_Npm3": 1e4, "damping_Nspm3": 1e3, "friction": 0.3}, "output.step_s": 0.01}
-    loose, tight = (
-        simulate(load_scene("tethered_buoy", changes | {"solver.rtol": rtol, "output.profiles": True}), duration_s=2.0)
-        for rtol in (0.03, 1e-4)
-    )
+    changes = {"floor": {"stiffness_Npm3": 1e4, "damping_Nspm3": 1e3, "friction": 0.3}, "output.profiles": True}
+    changes |= STILL | held(16.0, 4.0, motion=motion) | {"output.step_s": 0.01}
+    loose, tight = (ran(line(changes, {"solver.rtol": rtol}), duration_s=2.0) for rtol in (0.03, 1e-4))
     assert "solver" not in loose.message and loose.statistics["steps"] < 0.5 * tight.statistics["steps"]
     for name in ("tension_top_N", "tension_top_high_N"):
         assert loose.columns[name].max() == pytest.approx(tight.columns[name].max(), rel=0.05)

@@ -11,7 +11,7 @@ import pytest
 
 from engine import load_scene, simulate
 from engine.time.status import WORDS
-from tests.engine.lines import SPACE, STILL, held
+from tests.engine.lines import SPACE, STILL, held, line
 
 NO_COMPRESSION = {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}
 PAPER = {"solver.scheme": "paper-box", "tether.nodes": 11, "water.depth_m": 21.6}
@@ -74,7 +74,7 @@ def cases():
 def test_a_run_ends_with_its_reason(name, dimensions):
     overrides, duration_s, allowed = ENDS[name]
     struck = STRUCK if dimensions == 3 and name not in IN_A_PLANE else {}
-    scene = load_scene("tethered_buoy", struck | overrides | {"motion.dimensions": dimensions})
+    scene = line(struck | overrides | {"motion.dimensions": dimensions})
     began = time.process_time()
     run = simulate(scene, duration_s=duration_s)
     assert time.process_time() - began < 60  # of this process: a busy machine does not count
@@ -99,7 +99,7 @@ def test_a_run_ends_with_its_reason(name, dimensions):
     {"tether.length_m": 1e30, **held(13.0, 18.0)},
 ], ids=["profiles of the paper's scheme", "a line folded into nothing"])  # fmt: skip
 def test_without_a_rest_there_is_a_record_all_the_same(changes):
-    run = simulate(load_scene("tethered_buoy", {**STILL, **changes}), duration_s=1.0)
+    run = simulate(line({**STILL, **changes}), duration_s=1.0)
     assert run.status == "statics-failed" and run.message
     assert len(run.columns["time_s"]) == 0
     assert run.profiles is None or run.profiles.x_m.shape == (0, run.scene.tether.nodes)
@@ -115,7 +115,7 @@ def test_a_twist_that_is_too_much_ends_as_a_row_too(turns):
     """Up to 160 N m put within 2 s into a slack line of EI = 0.4: a status and finite samples, whatever it does."""
     end = held(12.0, 3.0, 8.0, rotation="clamped", twist_rad=2 * np.pi * turns, twist_ramp_s=2.0)
     scene = {**STILL, **end, "anchor.rotation": "clamped", "tether.torsion_stiffness_Nm2": 5.0, **SPACE}
-    run = simulate(load_scene("tethered_buoy", scene), duration_s=3.0)
+    run = simulate(line(scene), duration_s=3.0)
     assert run.status == "ok" or run.message
     assert turns > 1 or run.status == "ok"
     assert all(np.all(np.isfinite(column)) for column in run.columns.values())
