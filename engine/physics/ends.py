@@ -134,9 +134,11 @@ def upper_end(p, tables, stage, N, V, V_tilde, F):
     """
     if p.end != BUOY:
         end, force = (p.end_x, 0.0, p.end_z), (p.end_fx, 0.0, p.end_fz)
-        eN, share, given = _given_end(p, tables, stage, end, force)
-        own = N if eN > 0.0 else V
-        return own[0] - share * given[0], own[1] - share * given[2], eN, 1.0 - eN, 0.0, 1.0 - eN
+        eN, share, target = _given_end(p, tables, stage, end, force)
+        actual = V
+        if eN > 0.0:
+            actual = N
+        return actual[0] - share * target[0], actual[1] - share * target[2], eN, 1.0 - eN, 0.0, 1.0 - eN
     return _buoy_end(p, tables, stage, N, V, V_tilde, F)
 
 
@@ -173,9 +175,11 @@ def upper_end_3d(p, tables, stage, N, V, V_tilde, F):
     """
     if p.end != BUOY:
         end, force = (p.end_x, p.end_y, p.end_z), (p.end_fx, p.end_fy, p.end_fz)
-        eN, share, given = _given_end(p, tables, stage, end, force)
-        own = N if eN > 0.0 else V
-        return mixed(-share, given, 1.0, own), eN, (1.0 - eN, 0.0, 0.0, 1.0 - eN, 0.0, 1.0 - eN)
+        eN, share, target = _given_end(p, tables, stage, end, force)
+        actual = V
+        if eN > 0.0:
+            actual = N
+        return mixed(-share, target, 1.0, actual), eN, (1.0 - eN, 0.0, 0.0, 1.0 - eN, 0.0, 1.0 - eN)
     inertia = p.M_total * stage.cv
     ex, ey, ez = mixed(inertia, minus(V, V_tilde), 1.0, N)
     e = ex, ey, ez - p.lift

@@ -58,8 +58,8 @@ def surface_at(p, tables, t, in_motion, x):
     eta = slope = curve = rate = rate_slope = where(x > x, x, 0.0)
     if p.waves and in_motion > 0.0:
         for b in range(lane_count(x)):
-            own, ramp = in_lane(tables, b), lane_of(p.ramp, b)
-            sea = surface_of_sea(own, p.sea_at, p.sea_n, ramp, lane_of(t, b), lane_of(x, b), 0.0)
+            lane_tables, ramp = in_lane(tables, b), lane_of(p.ramp, b)
+            sea = surface_of_sea(lane_tables, p.sea_at, p.sea_n, ramp, lane_of(t, b), lane_of(x, b), 0.0)
             eta, slope, curve = with_lane(eta, b, sea[0]), with_lane(slope, b, sea[1]), with_lane(curve, b, sea[3])
             rate, rate_slope = with_lane(rate, b, sea[6]), with_lane(rate_slope, b, sea[7])
     return eta, slope, curve, rate, rate_slope

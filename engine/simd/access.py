@@ -23,7 +23,7 @@ def _index(number):
 @intrinsic
 def lane_count(context, value):
     """How many lanes a value has; one where it is a number."""
-    count = value.count if isinstance(value, Lanes) else 1
+    count = getattr(value, "count", 1)
 
     def generate(context, builder, signature, values):
         return context.get_constant(types.intp, count)
