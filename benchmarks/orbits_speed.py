@@ -65,7 +65,7 @@ def measure(name, system, start, low, value, high, orbits):
 
 
 def main():
-    options = parser(__doc__, 1)
+    options = parser(__doc__, 1, on_one_core=True)
     options.add_argument("--cable", action="store_true", help="the cable too: some minutes")
     arguments = options.parse_args()
     on_one_core(arguments.core)

@@ -61,7 +61,7 @@ def toolbox(oscillator: SnapOscillator):
 
 
 def main() -> None:
-    arguments = parser(__doc__, 5).parse_args()
+    arguments = parser(__doc__, 5, on_one_core=True).parse_args()
     on_one_core(arguments.core)
     print_load()
     oscillator = SnapOscillator()

@@ -15,11 +15,12 @@ def command_line(doc: str) -> argparse.ArgumentParser:
     return argparse.ArgumentParser(description=doc.split("\n\n")[0])
 
 
-def parser(doc: str, rounds: int) -> argparse.ArgumentParser:
-    """A command line with --rounds and --core."""
+def parser(doc: str, rounds: int, on_one_core: bool = False) -> argparse.ArgumentParser:
+    """A command line with --rounds, and with --core for `on_one_core`."""
     parser = command_line(doc)
     parser.add_argument("--rounds", type=int, default=rounds, help=f"turns of every setting (default {rounds})")
-    parser.add_argument("--core", type=int, help="the core to run on (default: the last one allowed; Linux)")
+    if on_one_core:
+        parser.add_argument("--core", type=int, help="the core to run on (default: the last one allowed; Linux)")
     return parser
 
 

@@ -33,7 +33,7 @@ def run(kernels: Path, *words: str) -> float:
 
 def main() -> None:
     mains = [*sorted((ROOT / "campaigns").rglob("__main__.py")), *sorted((ROOT / "reports").rglob("__main__.py"))]
-    options = parser(__doc__, 7)
+    options = parser(__doc__, 7, on_one_core=True)
     options.add_argument("--cold-rounds", type=int, default=3, help="cold compiles (default 3)")
     arguments = options.parse_args()
     on_one_core(arguments.core)

@@ -5,13 +5,12 @@ The command `tether` is one name for all commands: `tether NAME ...` runs a camp
 
 import argparse
 import ast
-import difflib
 import importlib
 import os
 import sys
 from pathlib import Path
 
-from engine.streams import open_streams, printed
+from engine.streams import close_to, open_streams, printed
 
 COMMANDS = {  # of `tether`, beside the campaigns: module, what it does
     "new": ("engine.own_mooring.command", "Your own mooring: asks for buoy, rope, water and wave, writes a scene."),
@@ -49,10 +48,8 @@ def _run(called: str, commands: dict[str, tuple[str, str]], argv: list[str] | No
     if name in campaigns:
         return importlib.import_module(f"campaigns.{name}").main(words)
     names = [*commands, *campaigns]
-    close = difflib.get_close_matches(name, names, n=1)
-    hint = f"; did you mean {close[0]!r}?" if close else ""
     kind = "command" if commands else "campaign"
-    print(f"{called}: no {kind} {argv[0]!r}{hint}; allowed: {', '.join(names)}", file=sys.stderr)
+    print(f"{called}: no {kind} {argv[0]!r}{close_to(name, names)}; allowed: {', '.join(names)}", file=sys.stderr)
     return 2
 
 

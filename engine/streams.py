@@ -7,7 +7,7 @@ import argparse
 import difflib
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 
 class Parser(argparse.ArgumentParser):
@@ -24,6 +24,13 @@ class Parser(argparse.ArgumentParser):
         for name in difflib.get_close_matches(word.partition("=")[0], names, n=1, cutoff=0.75):
             return f"; did you mean {name}?"
         return ""
+
+
+def close_to(name: str, names: Iterable[str]) -> str:
+    """ "; did you mean ...?" where a name is close to one of these, else ""."""
+    for close in difflib.get_close_matches(name, list(names), n=1):
+        return f"; did you mean {close!r}?"
+    return ""
 
 
 def refused(command: str, faults: list[str], consequence: str) -> int:

@@ -131,8 +131,10 @@ def find_orbit(
         solved = solved_near(system, points, parameter, Newton(tolerance, iterations, halvings))
         if (least := _least_period(system, solved.points)) == period:
             return described(solved, count)[0]
-        settings = {"count": count, "tolerance": tolerance, "iterations": iterations, "halvings": halvings}
-        return find_orbit(system, solved.points[:least], parameter, least, **settings)
+        start = solved.points[:least]
+        return find_orbit(
+            system, start, parameter, least, count=count, tolerance=tolerance, iterations=iterations, halvings=halvings
+        )
     except ArithmeticError as why:
         return not_found(np.atleast_2d(guess), parameter, why)
 

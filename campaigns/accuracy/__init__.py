@@ -49,10 +49,7 @@ class Options(cli.Options):
 
 
 def perform(order: Order):
-    """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them.
-
-    Returns times and summary.
-    """
+    """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
     from campaigns.machinery.folder import made_by
@@ -111,8 +108,9 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
         for row in rows:
             if row["work"] == name and shipped.items() <= row.items():
                 times_s.append(row["wall_s"])
-                if isfinite(number_of(row, "error")):
-                    errors.append(number_of(row, "error"))
+                error = number_of(row, "error")
+                if isfinite(error):
+                    errors.append(error)
         if errors:
             wall_ms = 1e3 * median(times_s) * work.period_s / work.duration_s
             sentences.append(f"{name} {median(errors):.2g} {UNITS[work.measure]} in {wall_ms:.2g} ms")

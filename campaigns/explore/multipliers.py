@@ -138,8 +138,9 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
         cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
-        newton = {"tolerance": GAPS, "iterations": iterations, "halvings": HALVINGS}
-        orbit = find_orbit(system, cable.first, 0.0, period, count=2, **newton)
+        orbit = find_orbit(
+            system, cable.first, 0.0, period, count=2, tolerance=GAPS, iterations=iterations, halvings=HALVINGS
+        )
         if not orbit.found:
             return {"reason": orbit.reason}
         history = cable.history(orbit.points, 0.0)

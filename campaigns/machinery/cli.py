@@ -11,7 +11,6 @@ imported, because `--help` has to appear at once (libraries weighed: docs/develo
 """
 
 import argparse
-import difflib
 import inspect
 import json
 import math
@@ -25,6 +24,7 @@ from typing import Any
 import engine
 import engine.scene
 from engine.atomic import can_be_written, is_netcdf
+from engine.streams import Parser
 
 BACKENDS = ("loky", "threading", "dask")
 EXIT_OK, EXIT_FAILED, EXIT_BAD_INPUT, EXIT_INTERRUPTED = 0, 1, 2, 130
@@ -210,16 +210,10 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
         return action.metavar or ""
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message):
-        # argparse could not even split the line into options: its message is the fault
-        raise ValueError(message)
-
-
-def parser(module: str, description: str, epilog: str = EXITS) -> argparse.ArgumentParser:
+def parser(module: str, description: str, epilog: str = EXITS) -> Parser:
     """An empty parser for `python -m module`; read the line with `split`."""
     words = {"description": description, "epilog": epilog, "formatter_class": _Formatter}
-    return _Parser(prog=f"python -m {module}", allow_abbrev=False, **words)
+    return Parser(prog=f"python -m {module}", allow_abbrev=False, **words)
 
 
 def add_options(group, record: type[Options]) -> None:
@@ -269,7 +263,7 @@ def running(values: argparse.Namespace, places: tuple[str, ...], campaign: str, 
     return how
 
 
-def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -> argparse.Namespace:
+def split(parser: Parser, argv: list[str], faults: list[str]) -> argparse.Namespace:
     """The values of the options, or their words where an option has no kind; what is not allowed becomes faults.
 
     `mistyped` of the values: whether a word of the line is no option of the parser and belongs to none.
@@ -285,19 +279,14 @@ def split(parser: argparse.ArgumentParser, argv: list[str], faults: list[str]) -
             others = [word for word in argv if word.partition("=")[0] not in (option or "").split("/")]
             argv = others if len(others) < len(argv) else []
     values.mistyped = bool(unknown)
-    known = [name for action in parser._actions for name in action.option_strings]
     for word in unknown:
         if not word.startswith("-") and unknown[0].startswith("-"):
             continue  # the value of an unknown option, which has been named
-        name = word.partition("=")[0]
-        fault = f"{name}: no such option"
         meant = _with_option(word, parser)
-        close = difflib.get_close_matches(name, known, n=1, cutoff=0.75)
         if meant:
-            fault = f"{word}: given without its option; did you mean {meant}?"
-        elif close:
-            fault += f"; did you mean {close[0]}?"
-        faults.append(fault)
+            faults.append(f"{word}: given without its option; did you mean {meant}?")
+        else:
+            faults.append(f"{word.partition('=')[0]}: no such option{parser.close_to(word)}")
     for action in parser._actions:
         if hasattr(action, "option"):
             words = getattr(values, action.dest)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import csv
-import difflib
 import os
 import re
 import warnings
@@ -19,6 +18,8 @@ from itertools import islice
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from engine.streams import close_to
 
 if TYPE_CHECKING:
     import numpy as np
@@ -228,14 +229,6 @@ def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
         # Within one digit of the even grid, as times written with few digits are.
         allowed += f", or, where times are only rounded, give --step {step:.6g} in the place of --time"
     yield f"{fault}; allowed: {allowed}"
-
-
-def close_to(name: str, names: Iterable[str]) -> str:
-    """ "; did you mean ...?" where a name is close to one of these, else ""."""
-    close = difflib.get_close_matches(name, list(names), n=1)
-    if close:
-        return f"; did you mean {close[0]!r}?"
-    return ""
 
 
 def read_table(path: Path) -> Table:
