@@ -159,7 +159,7 @@ def by_orbits(motions: Motions, values: Sequence[float], ends: Sequence[_End], s
             low, high = sorted((value, end.outside + BEYOND * (end.outside - end.inside)))
             line = Line(scene_at, low, high, span, state, value)
             tasks[end] = line_task(lost, line, (period, float(end.step), value, state, end.inside, end.state))
-    title, folder = "ends of ranges by their orbits", motions.plan.how.out / FOLDER
+    title, folder = "ends of ranges by their orbits", motions.plan.out / FOLDER
     results, _ = work(motions.plan, folder, title, list(tasks.values()))
     exact = {}
     for end, (result, _) in zip(tasks, results, strict=True):

@@ -52,7 +52,7 @@ OF_A_BRANCH = (
 
 def tables(tree: Tree, key: Column) -> list[dict]:
     """Write all tables; returns the rows of table.csv. Raises OSError."""
-    out, rows, strobes = tree.plan.how.out, [], []
+    out, rows, strobes = tree.plan.out, [], []
     for branch in tree.branches:
         for place, orbit in enumerate(branch.orbits):
             label = {"branch": branch.name, "place": place, key.name: orbit["value"]}

@@ -72,7 +72,7 @@ class Tree:
 
     def __init__(self, plan: Plan, line: Line, most: int, room: int):
         self.plan, self.line, self.most, self.room = plan, line, most, room
-        (plan.how.out / FOLDER).mkdir(exist_ok=True)
+        (plan.out / FOLDER).mkdir(exist_ok=True)
         self.branches: list[Branch] = []
         self.chosen: list[dict] = []  # orbits with errors and history
         self.failed: list[tuple[Seed, str]] = []  # orbits without a branch, and why
@@ -80,7 +80,7 @@ class Tree:
 
     def work(self, title: str, tasks: Sequence[Task]) -> list[Solved]:
         """Results of tasks, in their order. Raises CampaignStopped."""
-        results, there = work(self.plan, self.plan.how.out / FOLDER, title, tasks)
+        results, there = work(self.plan, self.plan.out / FOLDER, title, tasks)
         self.there, self.computed = self.there + there, self.computed + len(tasks) - there
         return results
 

@@ -84,7 +84,7 @@ def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(t
     monkeypatch.setattr(edge, "Edge", lambda *_: SimpleNamespace(**vars(fake), scale=np.ones(4)))
     monkeypatch.setattr(edge, "section_of", lambda run: (np.zeros((together + 1, 4)),))
     motions = [SimpleNamespace(branch=SimpleNamespace(letter=letter)) for letter in "AB"]
-    row = edge.edge_state(SimpleNamespace(plan=SimpleNamespace(how=SimpleNamespace(out=tmp_path))), *motions)
+    row = edge.edge_state(SimpleNamespace(plan=SimpleNamespace(out=tmp_path)), *motions)
     assert row["growth_bits_per_period"] == pytest.approx(1.0) and row["strobed_period"] == 1
     assert (row["status"], row["periods"]) == ("ok", together * math.ceil(edge.MOST / together))
 

@@ -80,7 +80,7 @@ def companion_of(run, regime, monkeypatch):
     state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
     monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
     row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 90.0}
-    return state, errors._companion(SimpleNamespace(how=SimpleNamespace(out=None)), row)
+    return state, errors._companion(SimpleNamespace(out=None), row)
 
 
 @pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])

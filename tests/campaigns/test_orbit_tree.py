@@ -1,13 +1,14 @@
 """`campaigns.orbits`: the tree of orbits of a map with known folds and flips, and what is refused."""
 
 from dataclasses import dataclass
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap
 from campaigns.explore.tracing import sharper
+from campaigns.machinery.cli import Running
+from campaigns.machinery.plan import Plan
 from campaigns.orbits.tables import tables
 from campaigns.orbits.tree import SHARP, Tree
 from tables import Column
@@ -58,8 +59,8 @@ def fixed(a, way):
 
 def grown(out, branches=8, starts=None, line=None):
     """The tree of these starts with its tables."""
-    how = SimpleNamespace(out=out, jobs=2, backend="threading", dask_address=None)
-    tree = Tree(SimpleNamespace(how=how, sends=False, spare=[]), line or HenonLine(), 60, branches)
+    plan = Plan(Running(out, 2, "threading"), None, None, ())
+    tree = Tree(plan, line or HenonLine(), 60, branches)
     tree.grow(starts or [("A", 0.2, 1, fixed(0.2, 1)), ("B", 0.2, 1, fixed(0.2, -1))])
     tree.across([0.2])
     tables(tree, KEY)

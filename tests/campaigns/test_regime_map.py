@@ -157,7 +157,7 @@ def test_a_cheap_verdict_needs_a_close_return_or_perturbations_that_do_not_grow(
 
 @pytest.mark.slow
 def test_a_massless_screen_computes_no_cell(tmp_path):
-    ran(regime_map, tmp_path, *VARY, "--screen", simulate=FakeEngine())
+    assert regime_map.main([*map(str, VARY), "--screen", "--out", str(tmp_path)], simulate=FakeEngine()) == 0
     cells = rows_of(tmp_path, "cells/table.csv")
     assert {cell_of_table["source"] for cell_of_table in cells} == {"screened"} and len(cells) == 6
     assert all(float(cell_of_table["tension_over_static"]) > 1.0 for cell_of_table in cells)

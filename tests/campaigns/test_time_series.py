@@ -128,7 +128,7 @@ def test_no_false_alarm_in_regular_records(kind):
     for number in range(3):
         known = REGULAR[kind](np.random.default_rng([number, 301]))
         view = study.seen(known.series, known.step, known.period)
-        verdict = study.judged(known.series, view, study.least_tolerance(view), number)
+        verdict = study.judged(known.series, view, study.least_tolerance(view))
         assert verdict.regime != "chaotic", (number, known.name, verdict.reason)
 
 

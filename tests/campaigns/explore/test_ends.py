@@ -17,7 +17,7 @@ def told(monkeypatch, inside, outside, **result):
     monkeypatch.setattr(tracing, "work", lambda *_: ([({"reason": ""} | result, [])], 0))
     motion = SimpleNamespace(settled=SimpleNamespace(period=2), place=0, state=None)
     end = ends._End(motion, UP, inside, outside, None, None, {"status": "ok"})
-    motions = SimpleNamespace(keys=[KEY], plan=SimpleNamespace(how=SimpleNamespace(out=tracing.Path())))
+    motions = SimpleNamespace(keys=[KEY], plan=SimpleNamespace(out=tracing.Path()))
     (columns,) = ends.by_orbits(motions, [0.09, 0.1], [end], None).values()
     return columns
 
