@@ -76,7 +76,7 @@ def bed_powers(p, z, V):
 
 @kernel
 def _last_of(p, *arguments):
-    """As the two below where there is no bed: what they are given to raise."""
+    """Without a bed the size of an update, or the error of a step, stays as it is: it is the last argument."""
     return arguments[-1]
 
 
