@@ -135,6 +135,21 @@ def test_a_slack_line_that_nothing_calms_is_told(overrides, warned):
     assert ("neither drag nor damping" in run.message) == warned
 
 
+@pytest.mark.parametrize("drag_normal", [0.0, 1.0])
+def test_a_held_slack_line_that_no_drag_across_it_calms_is_told(drag_normal):
+    """A short rope is eased by a quarter and pulled taut again, in water, with drag along it."""
+    eased = {"law": "table", "time_s": [0.0, 1.0, 2.0], "displacement_m": [[0.0] * 3, [-0.5, 0.0, -0.5], [0.0] * 3]}
+    rope = {"tether.length_m": 3.0, "tether.drag_normal": drag_normal, "tether.drag_tangential": 0.2}
+    scene = line(STILL, held(2.0, 2.25, motion=eased), rope, nodes=41, tension=linear(1e5))
+    assert ("nor damping, so that its folds" in simulate(scene, duration_s=4.0).message) == (drag_normal == 0.0)
+
+
+@pytest.mark.parametrize("density_kgpm3, warned", [(1140.0, False), (5e5, True)])
+def test_a_buoy_that_does_not_carry_its_line_is_told(density_kgpm3, warned):
+    run = ran(line({"tether.density_kgpm3": density_kgpm3, "waves": None}, nodes=11), duration_s=0.5)
+    assert (run.columns["tension_top_N"][0] < 0.0) == warned == ("does not carry the line" in run.message)
+
+
 LOWERED = {"law": "table", "time_s": [0.0, 3.0], "displacement_m": [[0.0, 0.0, 0.0], [-4.0, 0.0, -5.0]]}
 
 
