@@ -42,12 +42,12 @@ def _dtype(counts, values):
 RECORD = np.dtype(
     _dtype(
         "nodes grid_at law law_at law_n drag drag_at drag_n wet waves current cur_at cur_nx cur_ny cur_nz cur_nt "
-        "above end end_motion end_at end_n sea_n sea_at spherical_cap bent viscous method stages method_at adaptive "
-        "max_newton loop_release max_releases at_rest all_waves",
+        "above end end_motion end_at end_n sea_n sea_at sea_few sea_few_at spherical_cap bent viscous method stages "
+        "method_at adaptive max_newton loop_release max_releases at_rest all_waves",
         "m w0 EI p1 p2 p3 p4 p5 diameter ct cn drag1 drag2 drag3 drag4 ma Rw depth k omega amplitude phase "
         "direction ramp M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release "
-        "end_fx end_fz end_decay barrier c_quadratic c_linear sea_reach sea_span per_strain per_force per_speed "
-        "per_curvature order rtol newton_tolerance fixed_step max_step min_step start_x start_z inertia per_ringing "
+        "end_fx end_fz end_decay barrier c_quadratic c_linear sea_reach sea_span sea_wide sea_top per_strain per_force "
+        "per_speed per_curvature order rtol newton_tolerance fixed_step max_step min_step start_x start_z inertia per_ringing "
         "phase_per_step shortest output_step release_step turn_step growth_per_step shortest_wave profile_step "
         "window alpha_m alpha_f gamma pace",
     )

@@ -12,6 +12,7 @@ import numpy as np
 
 from .. import record as codes
 from ..physics import drag, ends, sea, tension, waves
+from ..physics.sea_basis import few_waves
 from ..physics.sea_series import LEFT_OUT, reach_of
 from ..physics.sea_sum import STILL
 from ..scene.models import Scene
@@ -173,6 +174,10 @@ def _water(record, scene, place):
         if several:
             groups = sea.groups_of(scene)
             _fill(record, amplitude=0.0, sea_n=len(groups), sea_at=place(groups))
+            if not codes.is_spatial(record):
+                few = few_waves(scene)
+                _fill(record, sea_few=len(few.groups), sea_few_at=place(few.groups), sea_wide=few.wide, sea_top=few.top)
+                place(few.shares)
     if current is not None:
         _current(record, current, place)
 

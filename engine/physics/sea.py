@@ -32,6 +32,7 @@ J. Geophys. Res. 69 (1964) 5181.
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -148,6 +149,7 @@ def direction_of(angle: float) -> tuple[float, float]:
     return round(math.cos(angle), 15), round(math.sin(angle), 15)
 
 
+@lru_cache(maxsize=16)
 def rows_of(scene: Scene) -> np.ndarray:
     """k, omega, phase, cos a, sin a, A omega/(1 - exp(-2 k H)) and A of every wave of a scene: (n, 7)."""
     depth, rows = scene.water.depth_m, []
@@ -155,7 +157,9 @@ def rows_of(scene: Scene) -> np.ndarray:
         k, omega = _wave_number_in(scene, period), 2.0 * math.pi / period
         speed = amplitude * omega / (1.0 - math.exp(-2.0 * k * depth))
         rows.append((k, omega, phase, *direction_of(angle), speed, amplitude))
-    return np.array(rows)
+    waves = np.array(rows)
+    waves.flags.writeable = False  # because it is kept
+    return waves
 
 
 def groups_of(scene: Scene) -> np.ndarray:

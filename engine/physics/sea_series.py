@@ -29,11 +29,11 @@ import numpy as np
 from ..compiled import kernel
 from ..record import WHEELER, ZERO
 from ..scene.models import Scene
-from ..simd.access import in_lane, lane_count, lane_of, read_vector, total, write_vector
+from ..simd.access import in_lane, lane_count, lane_of, read_vector, total, vector_at, write_vector
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, where
 from ..simd.vector import COUNT
-from .sea import AMPLITUDE, OMEGA, K, rows_of
+from .sea import AMPLITUDE, OMEGA, ROW, K, rows_of
 from .sea_sum import TAKEN, TIME, division_of, exponential, phase_at, raised, stretching, turned, waves_of
 from .waves import put_slopes
 
@@ -128,37 +128,84 @@ def put_sums(weights, parts, of_part, groups, row, first):
 
 
 @kernel
-def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
-    """The series of a sea about time t (s) and places X (n, 2), into Work.sea."""
-    n = X.shape[0]
-    gain = smooth_start(t, ramp)[0]
-    weights = np.empty(groups * TERMS * COUNT)
-    # of each group: k, amplitude, speed and phase at x = 0; sine, cosine, exponential up and down; what is summed
-    waves, running, parts = np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
+def put_phases(tables, at, groups, t, x, phases):
+    """Cosine and sine of the phase of every wave at t (s) and x (m), into phases: two vectors a group."""
     for group in range(groups):
-        k, omega, phase, _, _, speed, amplitude = waves_of(tables, at, group)
+        k, omega, phase, _, _, _, _ = waves_of(tables, at, group)
+        s, c = sincos(k * x + phase_at(omega, phase, t))
+        write_vector(phases, 2 * COUNT * group, c)
+        write_vector(phases, 2 * COUNT * group + COUNT, s)
+
+
+@kernel
+def combine(tables, at, few, groups, phases, combined):
+    """Real and imaginary parts sum T_mi e^(i phase_i) of few waves (`engine.physics.sea_basis`), two vectors a group.
+
+    at: of the shares T in tables; few, groups: of the few and of all waves; phases: of all waves, as from `put_phases`.
+    """
+    for wave in range(few * COUNT):
+        re = im = 0.0 * read_vector(phases, 0)
+        for group in range(groups):
+            share = vector_at(tables, at)
+            re += share * read_vector(phases, 2 * COUNT * group)
+            im += share * read_vector(phases, 2 * COUNT * group + COUNT)
+            at += COUNT
+        place = 2 * COUNT * (wave // COUNT) + wave % COUNT
+        combined[place], combined[place + COUNT] = total(re), total(im)
+
+
+@kernel
+def near_anchor(X, wide, top):
+    """Whether all places X (n, 2) lie where few waves stand for all."""
+    farthest = highest = 0.0
+    for j in range(X.shape[0]):
+        farthest, highest = max(farthest, abs(X[j, 0] - X[0, 0])), max(highest, X[j, 1])
+    return farthest <= wide and highest <= top
+
+
+@kernel
+def take_series(tables, at, groups, few, region, wheeler, depth, ramp, t, X, sea):
+    """The series of a sea about time t (s) and places X (n, 2), into Work.sea.
+
+    at, groups: of all waves; few: of the few that stand for them, groups and place in tables; region: where they do.
+    """
+    n, anchor_x = X.shape[0], X[0, 0]
+    gain = smooth_start(t, ramp)[0]
+    phases = np.empty(2 * groups * COUNT)
+    put_phases(tables, at, groups, t, anchor_x, phases)
+    if few[0] > 0 and near_anchor(X, region[0], region[1]):
+        combined, all_groups = np.empty(2 * few[0] * COUNT), groups
+        groups, at = few
+        combine(tables, at + groups * ROW * COUNT, groups, all_groups, phases, combined)
+        phases = combined
+    weights = np.empty(groups * TERMS * COUNT)
+    # of each group: k, amplitude and speed; sine, cosine, exponential up and down; what is summed
+    waves, running, parts = np.empty(3 * groups * COUNT), np.empty(4 * groups * COUNT), np.empty(4 * groups * COUNT)
+    for group in range(groups):
+        k, omega, _, _, _, speed, amplitude = waves_of(tables, at, group)
         weights_of(k, omega, weights, group * TERMS * COUNT)
-        place = 4 * COUNT * group
+        place = 3 * COUNT * group
         write_vector(waves, place, k)
         write_vector(waves, place + COUNT, amplitude)
         write_vector(waves, place + 2 * COUNT, speed)
-        write_vector(waves, place + 3 * COUNT, phase_at(omega, phase, t))
     for j in range(n - 1, -1, -1):
         x, top = X[j, 0], j == n - 1
         dx = 0.0 if top else x - X[j + 1, 0]
         for group in range(groups):
-            place = 4 * COUNT * group
-            k = read_vector(waves, place)
-            anew, squarings, share = division_of(waves[place + COUNT - 1], abs(dx), depth)
+            wave, place = 3 * COUNT * group, 4 * COUNT * group
+            k = read_vector(waves, wave)
+            anew, squarings, share = division_of(waves[wave + COUNT - 1], abs(dx), depth)
             if top or anew:
-                s, c = sincos(k * x + read_vector(waves, place + 3 * COUNT))
+                ds, dc = sincos(k * (x - anchor_x))
+                c, s = read_vector(phases, 2 * COUNT * group), read_vector(phases, 2 * COUNT * group + COUNT)
+                s, c = s * dc + c * ds, c * dc - s * ds
             else:
                 s, c = read_vector(running, place), read_vector(running, place + COUNT)
                 s, c = turned(s, c, (share * k) * dx, squarings)
             write_vector(running, place, s)
             write_vector(running, place + COUNT, c)
             if wheeler:
-                amplitude = read_vector(waves, place + COUNT)
+                amplitude = read_vector(waves, wave + COUNT)
                 write_vector(parts, place, amplitude * c)
                 write_vector(parts, place + COUNT, amplitude * s)
         z = max(X[j, 1], 0.0)
@@ -167,11 +214,11 @@ def take_series(tables, at, groups, wheeler, depth, ramp, t, X, sea):
             z *= stretching(depth, gain * sea[j, SURFACE])
         dz = 0.0 if top else z - sea[j + 1, PLACE_Z]
         for group in range(groups):
-            place = 4 * COUNT * group
-            k = read_vector(waves, place)
-            anew, squarings, share = division_of(waves[place + COUNT - 1], abs(dz), depth)
+            wave, place = 3 * COUNT * group, 4 * COUNT * group
+            k = read_vector(waves, wave)
+            anew, squarings, share = division_of(waves[wave + COUNT - 1], abs(dz), depth)
             if top or anew:
-                speed = read_vector(waves, place + 2 * COUNT)
+                speed = read_vector(waves, wave + 2 * COUNT)
                 up, down = speed * exponential(k * (z - depth)), speed * exponential(-(k * (z + depth)))
             else:
                 up, down = read_vector(running, place + 2 * COUNT), read_vector(running, place + 3 * COUNT)
@@ -229,7 +276,9 @@ def sea_in_plane(p, tables, t, X, F, J, sea):
             taken = True
             depth, ramp = lane_of(p.depth, b), lane_of(p.ramp, b)
             own, places, into = in_lane(tables, b), in_lane(X, b), in_lane(sea, b)
-            take_series(own, p.sea_at, p.sea_n, p.above == WHEELER, depth, ramp, lane_of(t, b), places, into)
+            few, region = (p.sea_few, p.sea_few_at), (lane_of(p.sea_wide, b), lane_of(p.sea_top, b))
+            wheeler = p.above == WHEELER
+            take_series(own, p.sea_at, p.sea_n, few, region, wheeler, depth, ramp, lane_of(t, b), places, into)
     if taken:
         put_heights(p, t, X, sea)
     _add_series(p, t, X, F, J, sea)
