@@ -47,9 +47,9 @@ RECORD = np.dtype(
         "m w0 EI p1 p2 p3 p4 p5 diameter ct cn drag1 drag2 drag3 drag4 ma Rw depth k omega amplitude phase "
         "direction ramp M_total M_wave lift C_buoy D_buoy M_added B_whole impact_loss end_x end_z end_release "
         "end_fx end_fz end_decay barrier c_quadratic c_linear sea_reach sea_span sea_wide sea_top per_strain per_force "
-        "per_speed per_curvature order rtol newton_tolerance fixed_step max_step min_step start_x start_z inertia per_ringing "
-        "phase_per_step shortest output_step release_step turn_step growth_per_step shortest_wave profile_step "
-        "window alpha_m alpha_f gamma pace",
+        "per_speed per_curvature order rtol newton_tolerance fixed_step max_step min_step start_x start_z inertia "
+        "per_ringing phase_per_step shortest output_step release_step turn_step growth_per_step shortest_wave "
+        "profile_step window alpha_m alpha_f gamma pace",
     )
 )
 # Three dimensions have a type of their own: a kernel that serves both is compiled for each on its first use. Their own

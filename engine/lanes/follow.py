@@ -160,7 +160,7 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         if sideways:
             keep(begun, across.K, across.Ks[0])
             known_part(turn.a, latest, across.C, across.Ks, across.C_tilde)
-            lateral_stage(p, grid, base, work.X, work.Q, work.F, across.C_tilde, across.H, across.E, across.C_new)
+            lateral_stage(p, grid, base, work, across.C_tilde, across.H, across.E, across.C_new)
             stage_rate(base.rate, across.C_new, across.C_tilde, across.K_new)
             end_stage(rows, across.C_new, across.K_new, across.C, across.K, across.Ks)
             if some(ended):

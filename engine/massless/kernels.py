@@ -35,7 +35,7 @@ def _cap(p, tables, t, x, z, U, W):
     """Added mass (kg) that the dry part of a cap lacks; depth h (m) of its lowest point, and its rate (m/s)."""
     if not p.spherical_cap:
         return 0.0, 2.0 * p.D_buoy, 0.0
-    eta, slope, _, rate, _ = surface_at(p, tables, t, 1.0, x)
+    eta, slope, _, rate, _ = surface_at(p, t, 1.0, x, None)
     h = p.depth + eta - z + 0.5 * p.D_buoy
     return p.M_added * wetted(p, h)[0], h, rate + slope * U - W
 
@@ -65,7 +65,7 @@ def rates(p, tables, length, t, y, X, F):
     ex, ez, _, _, _, _ = planar_end(p, tables, stage, (pull * x, pull * z), V, V, F[0])
     mass = p.M_total - _part(p, tables, t, x, z, U, W)[0]
     if p.spherical_cap:
-        cap = end_of_cap(p, tables, stage, X[0], V, V, F[0])
+        cap = end_of_cap(p, stage, X[0], V, V, F[0], None)
         ex, ez = ex + cap[0], ez + cap[1]
     return -ex / mass, -ez / mass
 

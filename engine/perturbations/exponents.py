@@ -68,7 +68,7 @@ def carry(p, tables, period, count, trail, tangent, across):
                 flow(p, tables, base.t, 1.0, work.X, work.F, work.sea)
             if across is not None:
                 known_part(a, so_far, vector, dK, known)
-                lateral_stage(p, tables, base, work.X, work.Q, work.F, known, H, E, dC_y)
+                lateral_stage(p, tables, base, work, known, H, E, dC_y)
                 stage_rate(rate, dC_y, known, dK[i])
         if tangent is not None:
             orthonormalise(p.per_speed * p.per_speed, True, vectors, rates, lengths)

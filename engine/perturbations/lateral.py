@@ -131,13 +131,13 @@ def _in_above(X0, X1, x, P0, P1):
 
 
 @kernel
-def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
+def lateral_stage(p, tables, base, work, dC_tilde, H, E, dC):
     """dC (n, 2) = (q_y, V_y) of one stage, q_y,t = rate (q_y - q~_y) and V_y,t likewise, from dC_tilde (n, 2).
 
-    base: Base, the planar stage (`engine.perturbations.tangent`); X, Q: its places and directions (`node.shape`); F:
-    the water there. H (n, 10), E (n, 15): work.
+    base: Base, the planar stage (`engine.perturbations.tangent`); work: Work, whose X and Q are its places and
+    directions (`node.shape`), F and sea the water there. H (n, 10), E (n, 15): work.
     """
-    rate, Y = base.rate, base.Y
+    rate, Y, X, Q, F = base.rate, base.Y, work.X, work.Q, work.F
     n = Y.shape[0]
     _coefficients(p, tables, base, Q, F, H)
     more_across(p, base, X, Q, F, H)
@@ -188,7 +188,7 @@ def lateral_stage(p, tables, base, X, Q, F, dC_tilde, H, E, dC):
     b = n - 1
     of_N, of_V, known = _lateral_end(p, base.t, rate, Y[b], F[b], dC_tilde[b, VY])
     if p.spherical_cap:
-        cap = across_cap(p, tables, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY])
+        cap = across_cap(p, base.t, rate, X[b], Y[b], F[b], dC_tilde[b, VY], work.sea)
         of_V, known = of_V + cap[0], known + cap[1]
     A00 = of_N * (H[b, N_TAU] + H[b, N_RHO] * R20) + of_V * R00
     A01 = of_N * (H[b, N_RHO] * R21 - 1.0) + of_V * R01

@@ -137,7 +137,7 @@ def _end_change(p, tables, base, work, dV_tilde, dX_tilde, dF):
     buoy = 1.0 if p.end == BUOY else 0.0
     x, z = buoy * x, buoy * z
     if p.spherical_cap:
-        cap = change_of_cap(p, tables, base.t, base.rate, work.X[last], Y, base.K[last], F, dV_tilde, dX_tilde, dF)
+        cap = change_of_cap(p, base, work.X[last], F, dV_tilde, dX_tilde, dF, work.sea)
         x, z = x + cap[0], z + cap[1]
     return x, z
 

@@ -87,6 +87,7 @@ def combinations(samples: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray
         direction = left[:, column] / math.sqrt(squares[column])
         parts.append(np.sum(direction[:, None] * left, axis=0))
         left -= direction[:, None] * parts[-1]
+        left[:, column] = 0.0  # without rounding, which might be the most that is left
         columns.append(column)
         squares = np.sum(left * left, axis=0)
     shares = np.zeros((len(columns), samples.shape[1]))

@@ -41,6 +41,8 @@ ORDER = 3
 TERMS = (ORDER + 1) * (ORDER + 2) // 2  # S_mn of one function, ordered by m, then n
 UPPER, LOWER, SURFACE = 0, 2 * TERMS, 4 * TERMS  # columns of Work.sea: real and imaginary parts of S of F, G and E
 PLACE_X, PLACE_Z, HEIGHT = range(6 * TERMS, 6 * TERMS + 3)  # of the series; and where the water of a node is taken now
+SQUARE, CUBE = (SURFACE + m * (2 * ORDER + 3 - m) for m in (2, 3))  # S_20, before S_21, and S_30 of the surface
+TOP_ETA = 2  # in the last row, after TIME and TAKEN: the surface at the buoy (`put_surface`)
 WIDTH = 6 * TERMS + 3
 LEFT_OUT = 0.3  # standard deviation of the error of the water's velocity, over the tolerance of Newton's method
 
@@ -204,13 +206,14 @@ def take_series(tables, at, groups, few, region, wheeler, depth, ramp, t, X, sea
                 s, c = turned(s, c, (share * k) * dx, squarings)
             write_vector(running, place, s)
             write_vector(running, place + COUNT, c)
-            if wheeler:
+            if wheeler or top:
                 amplitude = read_vector(waves, wave + COUNT)
                 write_vector(parts, place, amplitude * c)
                 write_vector(parts, place + COUNT, amplitude * s)
         z = max(X[j, 1], 0.0)
-        if wheeler:
+        if wheeler or top:
             put_sums(weights, parts, 0, groups, sea[j], SURFACE)
+        if wheeler:
             z *= stretching(depth, gain * sea[j, SURFACE])
         dz = 0.0 if top else z - sea[j + 1, PLACE_Z]
         for group in range(groups):
@@ -282,6 +285,29 @@ def sea_in_plane(p, tables, t, X, F, J, sea):
     if taken:
         put_heights(p, t, X, sea)
     _add_series(p, t, X, F, J, sea)
+    if p.spherical_cap:
+        put_surface(p, t, X[X.shape[0] - 1, 0], sea)
+
+
+@kernel
+def put_surface(p, t, x, sea):
+    """The surface at the upper end, x (m): eta, eta_x, eta_xx, eta_t and eta_tx, into the last row of Work.sea."""
+    last = sea.shape[0] - 1
+    row, kept = sea[last - 1], sea[last]
+    gain, gain_rate = smooth_start(t, p.ramp)
+    dt, dx = t - kept[TIME], x - row[PLACE_X]
+    eta, rate, slope, rising = series(row, SURFACE, dt, (0.0, dx))
+    curve = 6.0 * dx * row[CUBE + 1] - 2.0 * (row[SQUARE] + dt * row[SQUARE + 3])
+    kept[TOP_ETA], kept[TOP_ETA + 1], kept[TOP_ETA + 2] = gain * eta[0], -gain * slope[1], gain * curve
+    kept[TOP_ETA + 3] = gain * rate[0] + gain_rate * eta[0]
+    kept[TOP_ETA + 4] = -gain * rising[1] - gain_rate * slope[1]
+
+
+@kernel
+def surface_of_series(sea):
+    """What `put_surface` has put there."""
+    kept = sea[sea.shape[0] - 1]
+    return kept[TOP_ETA], kept[TOP_ETA + 1], kept[TOP_ETA + 2], kept[TOP_ETA + 3], kept[TOP_ETA + 4]
 
 
 @kernel

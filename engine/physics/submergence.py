@@ -26,10 +26,10 @@ import math
 from ..arrays import Stage
 from ..compiled import by_kind, kernel
 from ..planar import columns as col
-from ..simd.access import in_lane, lane_count, lane_of, with_lane
 from ..simd.elementary import sincos, smooth_start
 from ..simd.select import larger, smaller, where
 from ..spatial.vectors import dot, minus, mixed, multiple, pair, plus, plus_diagonal, vector
+from .sea_series import surface_of_series
 from .sea_sum import surface_of_sea
 
 
@@ -50,19 +50,23 @@ def surface(p, t, in_motion, distance):
 
 
 @kernel
-def surface_at(p, tables, t, in_motion, x):
-    """The surface at x (m) in a plane: eta, eta_x, eta_xx, eta_t, eta_tx; zeros in statics."""
-    if p.sea_n == 0:
-        eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
-        return eta, p.direction * slope, curve, rate, p.direction * rate_slope
-    eta = slope = curve = rate = rate_slope = where(x > x, x, 0.0)
-    if p.waves and in_motion > 0.0:
-        for b in range(lane_count(x)):
-            lane_tables, ramp = in_lane(tables, b), lane_of(p.ramp, b)
-            sea = surface_of_sea(lane_tables, p.sea_at, p.sea_n, ramp, lane_of(t, b), lane_of(x, b), 0.0)
-            eta, slope, curve = with_lane(eta, b, sea[0]), with_lane(slope, b, sea[1]), with_lane(curve, b, sea[3])
-            rate, rate_slope = with_lane(rate, b, sea[6]), with_lane(rate_slope, b, sea[7])
-    return eta, slope, curve, rate, rate_slope
+def _surface_in_wave(p, t, in_motion, x):
+    """As `surface_at`, of one wave."""
+    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, p.direction * x)
+    return eta, p.direction * slope, curve, rate, p.direction * rate_slope
+
+
+@kernel
+def surface_at(p, t, in_motion, x, sea):
+    """The surface at x (m) in a plane: eta, eta_x, eta_xx, eta_t, eta_tx; zeros in statics.
+
+    sea: of Work, whose water was taken at t, the buoy at x; or None, where there is one wave.
+    """
+    if sea is None:
+        return _surface_in_wave(p, t, in_motion, x)
+    if p.sea_n > 0 and p.waves and in_motion > 0.0:
+        return surface_of_series(sea)
+    return _surface_in_wave(p, t, in_motion, x)
 
 
 @kernel
@@ -98,9 +102,9 @@ def wetted(p, h):
 
 
 @kernel
-def _passage(p, tables, t, in_motion, X, V, F):
+def _passage(p, t, in_motion, X, V, F, sea):
     """Where a buoy at X = (x, z) meets the surface: -eta_x, eta_xx and eta_tx; `wetted`; v, |v|^2; h_t."""
-    eta, slope, curve, rate, rate_slope = surface_at(p, tables, t, in_motion, X[0])
+    eta, slope, curve, rate, rate_slope = surface_at(p, t, in_motion, X[0], sea)
     shares = wetted(p, p.depth + eta - X[1] + 0.5 * p.D_buoy)
     u, w = in_motion * V[0] - F[0], in_motion * V[1] - F[1]
     sinking = in_motion * (rate + slope * V[0] - V[1])
@@ -108,22 +112,22 @@ def _passage(p, tables, t, in_motion, X, V, F):
 
 
 @kernel
-def cap_end(p, tables, stage, X, V, V_tilde, F):
+def cap_end(p, stage, X, V, V_tilde, F, sea):
     """What the cap adds to `engine.physics.ends.upper_end` of a buoy at X = (x, z), m, and to its derivatives.
 
     Other arguments as there. Returns ex, ez, Dxx, Dxz, Dzx, Dzz.
     """
     cv, over = stage.cv, 1.0 / stage.cq
     A = cv * (V[0] - V_tilde[0]), cv * (V[1] - V_tilde[1])
-    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, tables, stage, X, V, A, F)
+    ex, ez, Dxx, Dxz, Dzx, Dzz, Gxx, Gxz, Gzx, Gzz = _loads(p, stage, X, V, A, F, sea)
     return ex, ez, Dxx + over * Gxx, Dxz + over * Gxz, Dzx + over * Gzx, Dzz + over * Gzz
 
 
 @kernel
-def _loads(p, tables, stage, X, V, A, F):
+def _loads(p, stage, X, V, A, F, sea):
     """Loads of the cap less those of the sphere, their derivatives D by the velocity and G by the place."""
     t, in_motion, _, cv = stage
-    met, shares, (u, w), square, sinking = _passage(p, tables, t, in_motion, X, V, F)
+    met, shares, (u, w), square, sinking = _passage(p, t, in_motion, X, V, F, sea)
     nx, curve, rate_slope = met
     dry, ds, bend, bare, da = shares
     speed, (ax, az) = math.sqrt(square), A
@@ -154,15 +158,16 @@ def _loads(p, tables, stage, X, V, A, F):
 
 
 @kernel
-def cap_change(p, tables, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
+def cap_change(p, base, X, F, dV_tilde, dX_tilde, dF, sea):
     """Known part of the linearised `cap_end` in the tangent dynamics (`engine.perturbations.tangent`): x and z.
 
-    X (2,), Y (6,), K (4,): place, state and rates of the last node; dV_tilde, dX_tilde: what the perturbation of C~
-    makes of velocity and place there; dF (4,): of the water.
+    base: Base (`engine.perturbations.tangent`); X (2,), F (4,): place of the last node, and the water there; dV_tilde,
+    dX_tilde: what the perturbation of C~ makes of velocity and place there; dF (4,): of the water; sea: of Work.
     """
-    V, A = pair(Y, col.VX), pair(K, col.VX)
-    G = _loads(p, tables, Stage(t, 1.0, cv, cv), X, V, A, F)
-    met, shares, (u, w), square, sinking = _passage(p, tables, t, 1.0, X, V, F)
+    last, cv = base.Y.shape[0] - 1, base.rate
+    V, A = pair(base.Y[last], col.VX), pair(base.K[last], col.VX)
+    G = _loads(p, Stage(base.t, 1.0, cv, cv), X, V, A, F, sea)
+    met, shares, (u, w), square, sinking = _passage(p, base.t, 1.0, X, V, F, sea)
     nx, dry, ds, bare = met[0], shares[0], shares[1], shares[3]
     speed = math.sqrt(square)
     product = u * dF[0] + w * dF[1]
@@ -176,9 +181,9 @@ def cap_change(p, tables, t, cv, X, Y, K, F, dV_tilde, dX_tilde, dF):
 
 
 @kernel
-def cap_across(p, tables, t, cv, X, Y, F, V_tilde):
+def cap_across(p, t, cv, X, Y, F, V_tilde, sea):
     """What the cap adds to the lateral condition of a buoy: factor of V_y, and the known part."""
-    _, (dry, ds, _, bare, _), _, square, sinking = _passage(p, tables, t, 1.0, X, pair(Y, col.VX), F)
+    _, (dry, ds, _, bare, _), _, square, sinking = _passage(p, t, 1.0, X, pair(Y, col.VX), F, sea)
     inertia = p.M_added * dry * cv
     of_V = p.M_added * ds * sinking - inertia - p.C_buoy * bare * math.sqrt(square)
     return of_V, inertia * V_tilde

@@ -136,7 +136,7 @@ def eliminate(p, tables, stage, Y, work):
     ex, ez, eN, Dxx, Dxz, Dzz = planar_end(p, tables, stage, N, V, V_tilde, work.F[b])
     Dzx = Dxz
     if p.spherical_cap:
-        cap = end_of_cap(p, tables, stage, work.X[b], V, V_tilde, work.F[b])
+        cap = end_of_cap(p, stage, work.X[b], V, V_tilde, work.F[b], work.sea)
         ex, ez, Dxx = ex + cap[0], ez + cap[1], Dxx + cap[2]
         Dxz, Dzx, Dzz = Dxz + cap[3], Dzx + cap[4], Dzz + cap[5]
     if wide:

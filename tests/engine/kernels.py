@@ -89,7 +89,7 @@ class Stage:
         work = np.zeros((self.n, COEFFICIENTS)), np.zeros((self.n, WIDTH))
         self.places(Y)
         base = Base(0.0, rate, 1.0, Y, K)
-        lateral_stage(self.p, self.tables, base, self.X, self.Q, F, dC_tilde, *work, dC)
+        lateral_stage(self.p, self.tables, base, self.work._replace(F=F), dC_tilde, *work, dC)
         return dC
 
 

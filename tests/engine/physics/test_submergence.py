@@ -12,6 +12,7 @@ import pytest
 
 from engine import simulate
 from engine.arrays import Stage
+from engine.physics.sea_series import WIDTH, sea_in_plane
 from engine.physics.submergence import cap_across, cap_end, cap_end_3d
 from tests.engine.kernels import parameters_of, upper_end_of
 from tests.engine.lines import STILL, Motion, equilibrium, forces, line, mean, positions
@@ -26,6 +27,15 @@ HEADINGS = [(2, 0.0), (2, np.pi), (3, 0.7)]
 HEIGHTS = [DEPTH + 0.7 * step for step in (-2.5, -1.5, -0.6, 0.1, 0.9, 1.8, 3.0)]  # from under water to the air
 
 
+def sea_at(p, tables, place):
+    """Work.sea of a line whose upper end is at a place (2,); None in a regular wave."""
+    if not p["sea_n"]:
+        return None
+    sea = np.zeros((3, WIDTH))
+    sea_in_plane(p, tables, T, np.array([[0.0, 0.0], place]), np.zeros((2, 4)), None, sea)
+    return sea
+
+
 def total(p, tables, in_motion, place, V, V_tilde, N, F):
     """e and D of the end with its cap."""
     e, _, whole = upper_end_of(p, tables, T, CV, in_motion, N, V, V_tilde, F)
@@ -33,7 +43,7 @@ def total(p, tables, in_motion, place, V, V_tilde, N, F):
     if len(V) == 3:
         of_cap, rows = cap_end_3d(p, tables, stage, tuple(place), tuple(V), tuple(V_tilde), F)
     else:
-        computed = cap_end(p, tables, stage, tuple(place), tuple(V), tuple(V_tilde), F)
+        computed = cap_end(p, stage, tuple(place), tuple(V), tuple(V_tilde), F, sea_at(p, tables, place))
         of_cap, rows = computed[:2], (computed[2:4], computed[4:])
     return e + of_cap, whole + rows
 
@@ -83,7 +93,7 @@ def test_across_the_plane_it_is_the_condition_in_space(height):
     (flat, tables), (space, _) = (parameters_of(line(CAP, {"motion.dimensions": axes})) for axes in (2, 3))
     V, V_tilde, _, F = drawn(2)
     Y = np.array([0.0, 0.0, *V, 0.0, 0.0])
-    factor, known = cap_across(flat, tables, T, CV, np.array([0.4, height]), Y, F, 0.3)
+    factor, known = cap_across(flat, T, CV, np.array([0.4, height]), Y, F, 0.3, None)
     place, v, water = (0.4, 0.0, height), (V[0], 0.0, V[1]), np.insert(F, [1, 3], 0.0)
     e, rows = cap_end_3d(space, tables, Stage(T, 1.0, 1e30, CV), place, v, (V_tilde[0], 0.3, V_tilde[1]), water)
     assert factor == pytest.approx(rows[1][1], rel=1e-12, abs=1e-9)
