@@ -153,10 +153,10 @@ def detect_snaps(
         if high[peak] < snap_N or counted_s < transient_s:
             continue
         onset_s = step_s * _crossing(mean, first - 1, slack_N) if first > 0 else np.nan
-        speed_mps = np.interp(taut_s / step_s, np.arange(len(rate)), rate)
         peak_s = max(step_s * peak, taut_s)
-        rows.append((onset_s, taut_s, counted_s, speed_mps, high[peak], peak_s))
-    onset_s, taut_s, counted_s, speed_mps, peak_N, peak_s = np.array(rows, dtype=float).reshape(-1, 6).T
+        rows.append((onset_s, taut_s, counted_s, high[peak], peak_s))
+    onset_s, taut_s, counted_s, peak_N, peak_s = np.array(rows, dtype=float).reshape(-1, 5).T
+    speed_mps = np.interp(taut_s / step_s, np.arange(len(rate)), rate)
     impact_N = np.where(speed_mps > 0.0, speed_mps, np.nan) * impact_Nspm
     return Snaps(
         onset_s=onset_s,
