@@ -229,6 +229,8 @@ def sweep(
     numbers = [float(value) for value in values if isinstance(value, Real) and math.isfinite(value)]
     if not values or len(numbers) < len(values):
         faults.append(f"values: given {values}; allowed: finite numbers, one or more")
+    if not isinstance(out, (str, Path)):
+        faults.append(f"out: given {out!r}; allowed: a folder")
     options = cli.split(STUDY.parser(), words, faults)
     how = cli.running(options, STUDY.places, STUDY.name, faults)
     varied_key = varied([str(key)], faults, "key", numbers=numbers or [0.0])

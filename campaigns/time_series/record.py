@@ -67,6 +67,8 @@ def read_record(
         table = read_table(Path(path))
         if column is None and len(table.names) == 1:
             column = table.names[0]
+        if column is None and any(fault.startswith("--column:") for fault in faults):
+            return None  # it was given, and is at fault
         faults.extend(_unknown_columns(table, column, time))
         if len(faults) > faults_before:
             return None

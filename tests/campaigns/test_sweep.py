@@ -251,6 +251,7 @@ def test_from_python_a_sweep_is_the_table_of_its_folder_with_units(tmp_path):
         ("tethered_buoy", "waves.steepness", [], {}, "values: given"),
         ("tethered_buoy", "waves.steepness", [0.1, "x"], {}, "values: given"),
         ("tethered_buoy", "waves.steepness", None, {}, "values: given"),
+        ("tethered_buoy", "waves.steepness", [0.1], {"out": 5}, "out: given 5"),
         ("tethered_buoy", None, [0.1], {}, "key None: no such key"),
         ("tethered_buoy", "waves.steepness", [0.1], {"periods": "x"}, "--periods: given 'x'"),
         ("tethered_bouy", "waves.steepness", [0.1], {}, "did you mean 'tethered_buoy'"),
@@ -259,5 +260,5 @@ def test_from_python_a_sweep_is_the_table_of_its_folder_with_units(tmp_path):
 )
 def test_from_python_a_sweep_refuses_as_the_command_does(tmp_path, scene, key, values, options, fault):
     with pytest.raises(ValueError, match=fault):
-        sweep_command.sweep(scene, key, values, out=tmp_path / "out", **options)
+        sweep_command.sweep(scene, key, values, **{"out": tmp_path / "out"} | options)
     assert not (tmp_path / "out").exists()
