@@ -36,15 +36,15 @@ def outer(a, u, v):
 
 
 @kernel
-def wetting(p, t, in_motion, ahead, x, V):
+def wetting(p, t, in_motion, heading, x, V):
     """At the place x (m) with the velocity V: s, s' (1/m), s'' (1/m2), h_t (m/s), n, and slopes of h_t and n along
-    `ahead`, the direction of the waves."""
-    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, dot(ahead, x))
+    `heading`, the direction of the waves."""
+    eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, dot(heading, x))
     inverse = 1.0 / p.diameter
     y = min(max((p.depth + eta - x[2]) * inverse + 0.5, 0.0), 1.0)
     bend = 6.0 * inverse * inverse * (1.0 - 2.0 * y) if 0.0 < y < 1.0 else 0.0
-    n = (-ahead[0] * slope, -ahead[1] * slope, 1.0)
-    faster = in_motion * (rate_slope + curve * dot(ahead, V))
+    n = (-heading[0] * slope, -heading[1] * slope, 1.0)
+    faster = in_motion * (rate_slope + curve * dot(heading, V))
     share = y * y * (3.0 - 2.0 * y)
     return share, 6.0 * inverse * y * (1.0 - y), bend, in_motion * (rate - dot(n, V)), n, faster, -curve
 
@@ -57,7 +57,7 @@ def across_of(v, tangent):
 
 
 @kernel
-def surface_load(p, in_motion, ahead, wet, v, tangent, fluid):
+def surface_load(p, in_motion, heading, wet, v, tangent, fluid):
     """What the surface adds to the load of a metre of line, and rows of its derivatives.
 
     wet: of `wetting`; fluid (N/m): load of the fluid on a line that is all in the water. Returns the load; its
@@ -73,7 +73,7 @@ def surface_load(p, in_motion, ahead, wet, v, tangent, fluid):
     gain = slam * sinking * in_motion
     by_v = plus_diagonal(sum_of(outer(slam * in_motion, n, vp), outer(-gain, tangent, tangent)), gain)
     of_place = outer(-1.0, mixed(ds, lost, p.ma * bend, impact), n)
-    of_place = sum_of(of_place, outer(slam, mixed(faster, vp, half * turning, ahead), ahead))
+    of_place = sum_of(of_place, outer(slam, mixed(faster, vp, half * turning, heading), heading))
     return load, by_v, outer(-slam * in_motion, vp, n), of_place
 
 

@@ -48,16 +48,16 @@ def ursell_number(k: float, height_m: float, depth_m: float) -> float:
 
 
 @kernel
-def _ahead_in_plane(p):
+def _heading_in_plane(p):
     return p.direction, 0.0
 
 
 @kernel
-def _ahead_in_space(p):
+def _heading_in_space(p):
     return p.dir_x, p.dir_y
 
 
-ahead = by_kind(_ahead_in_plane, _ahead_in_space)  # cosine and sine of the direction of the waves
+heading = by_kind(_heading_in_plane, _heading_in_space)  # cosine and sine of the direction of the waves
 
 
 @kernel
@@ -82,7 +82,7 @@ def wave_field(p, tables, t, X, F):
     """
     n, size = X.shape
     k, om = p.k, p.omega
-    cosine, sine = ahead(p)
+    cosine, sine = heading(p)
     gain, gain_rate = smooth_start(t, p.ramp)
     speed = p.amplitude * om / (1.0 - math.exp(-2.0 * k * p.depth))
     u0, u1 = speed * gain, speed * gain_rate  # under the ramp of the waves; their rate

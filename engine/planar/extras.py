@@ -17,7 +17,7 @@ SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(
 def more_loads(p, tables, stage, Y, work):
     """Add to Q, as `node_quantities` left it, what these laws do at every node, at X~ + V/cq (THEORY.md, section 5)."""
     t, in_motion, cq, cv = stage
-    ahead, over, known = (p.direction, 0.0, 0.0), 1.0 / cq, (p.anchor_x, 0.0, p.anchor_z)
+    heading, over, known = (p.direction, 0.0, 0.0), 1.0 / cq, (p.anchor_x, 0.0, p.anchor_z)
     for k in range(Y.shape[0]):
         row, F, C_tilde = work.Q[k], work.F[k], work.C_tilde[k]
         c, s = pair(row, col.COS)
@@ -41,9 +41,9 @@ def more_loads(p, tables, stage, Y, work):
             ax, az = V[0] - C_tilde[col.VX], V[2] - C_tilde[col.VZ]
             fluid = (row[col.GX] - inertia * ax, 0.0, row[col.GZ] - inertia * az - p.w0)
             v = (in_motion * V[0] - F[col.UX], 0.0, in_motion * V[2] - F[col.UZ])
-            wet = wetting(p, t, in_motion, ahead, x, V)
+            wet = wetting(p, t, in_motion, heading, x, V)
             share = row[col.SHARE] = wet[0]
-            load, by_v, by_velocity, place = surface_load(p, in_motion, ahead, wet, v, tangent, fluid)
+            load, by_v, by_velocity, place = surface_load(p, in_motion, heading, wet, v, tangent, fluid)
             turn = surface_turn(p, wet, v, tangent, (-s, 0.0, c))
             row[col.GX_EPS] *= share
             row[col.GZ_EPS] *= share
@@ -113,7 +113,7 @@ def known_end(p, t, x, z):
 @of_extras()
 def more_across(p, base, X, Q, F, H):
     """Change the coefficients H of lateral perturbations (`engine.perturbations.lateral`) of every node."""
-    Y, K, ahead = base.Y, base.K, (p.direction, 0.0, 0.0)
+    Y, K, heading = base.Y, base.K, (p.direction, 0.0, 0.0)
     for k in range(Y.shape[0]):
         row, h = Q[k], H[k]
         c, s = pair(row, col.COS)
@@ -123,7 +123,7 @@ def more_across(p, base, X, Q, F, H):
         h[N_TAU] += viscous * h[COS_HALF]
         h[N_RHO] -= viscous * h[SIN_HALF]
         if p.surfaced:
-            share, ds, _, sinking, _, _, _ = wetting(p, base.t, 1.0, ahead, x, V)
+            share, ds, _, sinking, _, _, _ = wetting(p, base.t, 1.0, heading, x, V)
             row[col.SHARE] = share
             slam = p.ma * ds * sinking
             vt = (V[0] - F[k, col.UX]) * c + (V[2] - F[k, col.UZ]) * s

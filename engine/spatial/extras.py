@@ -25,7 +25,7 @@ from .vectors import (
 def more_loads(p, tables, stage, Y, work):
     """Add to Q, as `node_quantities` left it, what these laws do at every node, at X~ + V/cq (THEORY.md, section 5)."""
     t, in_motion, cq, cv = stage
-    ahead, over, known = (p.dir_x, p.dir_y, 0.0), 1.0 / cq, (p.anchor_x, p.anchor_y, p.anchor_z)
+    heading, over, known = (p.dir_x, p.dir_y, 0.0), 1.0 / cq, (p.anchor_x, p.anchor_y, p.anchor_z)
     for k in range(Y.shape[0]):
         row, F, V = work.Q[k], work.F[k], vector(Y[k], col.V)
         tangent, n, b = rows_of(row, col.T_VECTOR)
@@ -46,8 +46,8 @@ def more_loads(p, tables, stage, Y, work):
             inertia = p.m * cv
             gx, gy, gz = mixed(1.0, G, -inertia, minus(V, vector(work.C_tilde[k], col.V)))
             v = mixed(in_motion, V, -1.0, vector(F, 0))
-            wet = wetting(p, t, in_motion, ahead, x, V)
-            load, by_v, by_velocity, place = surface_load(p, in_motion, ahead, wet, v, tangent, (gx, gy, gz - p.w0))
+            wet = wetting(p, t, in_motion, heading, x, V)
+            load, by_v, by_velocity, place = surface_load(p, in_motion, heading, wet, v, tangent, (gx, gy, gz - p.w0))
             share = wet[0]
             put(row, col.G_EPS, multiple(share, vector(row, col.G_EPS)))
             for at, dt in ((col.G_THETA2, mixed(-1.0, b, 0.0, b)), (col.G_THETA3, n)):
