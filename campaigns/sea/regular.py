@@ -12,7 +12,7 @@ from operator import itemgetter
 import numpy as np
 
 from analysis import slow_forecast
-from campaigns.answers import lasting, numbers_of
+from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
 from campaigns.machinery.folder import CampaignStopped
@@ -173,11 +173,22 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Rows, wave
 def design_loads(rows: Rows, amplitude_m: float) -> list[tuple[str, float]]:
     """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
 
-    Of the sweep, the nearest wave within NEAR counts; an empty list where there is none.
+    A wave of the sweep within NEAR counts as this one. Else the tension of a motion lies between those of the next
+    smaller and the next larger wave; a motion that only one of them has counts where that one is the nearer. Outside
+    the sweep the list is empty.
     """
-    known = lasting(rows)
-    nearest = min(numbers_of(known, KEY), key=lambda value: abs(value - amplitude_m), default=math.inf)
-    if abs(nearest - amplitude_m) > NEAR * amplitude_m:
-        return []
-    loads = [(str(row["motion"]), row[PEAK]) for row in known if row[KEY] == nearest]
-    return sorted(loads, key=itemgetter(1))
+    waves: dict[float, dict[str, float]] = {}
+    for row in lasting(rows):
+        waves.setdefault(row[KEY], {})[str(row["motion"])] = row[PEAK]
+    nearest = min(waves, key=lambda value: abs(value - amplitude_m), default=math.inf)
+    if abs(nearest - amplitude_m) <= NEAR * amplitude_m:
+        loads = waves[nearest]
+    elif min(waves, default=math.inf) < amplitude_m < max(waves):
+        loads = dict(waves[nearest])
+        smaller, larger = max(a for a in waves if a < amplitude_m), min(a for a in waves if a > amplitude_m)
+        share = (amplitude_m - smaller) / (larger - smaller)
+        for letter in waves[smaller].keys() & waves[larger].keys():
+            loads[letter] = (1.0 - share) * waves[smaller][letter] + share * waves[larger][letter]
+    else:
+        loads = {}
+    return sorted(loads.items(), key=itemgetter(1))

@@ -141,7 +141,21 @@ def test_folds_lie_where_the_motions_end():
 def test_waves_of_one_motion_have_no_folds():
     assert folds_of(FOLDED[:4], ()) is None
     assert folds_of([*FOLDED[:4], motion(0.4, "B", 1450.0)], ()) is None
+
+
+def test_a_design_wave_between_two_waves_of_the_sweep_bears_what_lies_between():
     assert design_loads(FOLDED, 0.61) == [("A", 1600.0), ("B", 6400.0)]
+    assert design_loads(FOLDED, 0.7) == [("A", pytest.approx(1700.0)), ("B", pytest.approx(6800.0))]
+    assert design_loads(FOLDED, 0.52) == [("A", pytest.approx(1520.0)), ("B", 6400.0)]
+    assert design_loads(FOLDED, 0.48) == [("A", pytest.approx(1480.0))]
+    assert design_loads(FOLDED, 1.5) == design_loads((), 0.5) == []
+
+
+def test_eight_seas_carry_a_perturbation_or_as_many_as_most_hours_has():
+    for hours, carrying in (("3", 8), ("1", 12)):
+        cases = order_of(sea, "--hours", hours, "--seeds", "20", "--starts", "1").cases
+        given = [case.scene.output.tangent_vectors for case in cases if not case.labels["solver"]]
+        assert given == [1] * carrying + [0] * (20 - carrying)
 
 
 def test_a_map_over_steepness_and_width_draws_every_state_anew_by_its_seed_and_a_single_wave_once():
