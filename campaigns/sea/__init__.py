@@ -8,9 +8,10 @@
 Protocol: every sea is drawn anew for each of --seeds, and runs from rest and from kicks of the buoy, with the same
 waves for all starts. The run from rest gives the loads. In the first eight seas, and in more up to --most-hours of all
 seas, it carries a perturbation, whose mean growth is the exponent of the sea. While the exponent is within three errors
-of 0, twice as many seas run from rest, up to --most-hours. One run goes on with twice the elements and a quarter of the
-tolerance beside the others. Motions of regular waves up to 1.86 times the significant height are looked for as in
-`campaigns.sweep`; the folds between two of them give the forecast of a slow envelope. Kicks are drawn by --seed.
+of 0, twice as many seas run from rest, up to --most-hours; in a map only where that is given. One run goes on with
+twice the elements and a quarter of the tolerance beside the others. Motions of regular waves up to 1.86 times the
+significant height are looked for as in `campaigns.sweep`; the folds between two of them give the forecast of a slow
+envelope. Kicks are drawn by --seed.
 """
 
 import math
@@ -40,6 +41,7 @@ AS_GIVEN, FINER = "", "finer"
 SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
 EXPONENT_SEAS = 8
+MOST_HOURS = 12.0
 
 
 @dataclass
@@ -50,11 +52,11 @@ class Options(cli.Options):
     seeds: int = cli.option("N", "seas of each state, with seeds 1 to N", cli.whole(1, 1000), 8)
     starts: int = cli.option("N", "starts in each sea: from rest, and N - 1 kicks", cli.whole(1, 100), 4)
     hours: float = cli.option("H", "length of every run after the transient, hours", cli.POSITIVE, 0.25)
-    most_hours: float = cli.option(
+    most_hours: float | None = cli.option(
         "H",
-        "hours of all seas of a state, up to which more are run until its exponent is beyond three errors of 0",
+        "hours of all seas of a state, up to which more are run until its exponent is beyond three errors of 0 "
+        f"(default: {MOST_HOURS:g}, in a map 0)",
         cli.number("a finite number, at least 0", lambda hours: 0.0 <= hours < math.inf),
-        12.0,
     )
     transient: int = cli.option("N", "peak periods left out of exponent, events and loads", cli.whole(0), 40)
     kick_speed: float = kick_speed()
@@ -78,6 +80,8 @@ class Options(cli.Options):
         if self.screen:
             self.starts = 1
         self.grid = grid_of(self.vary or [], faults)
+        if self.most_hours is None:
+            self.most_hours = 0.0 if self.grid.keys else MOST_HOURS
         if not self.slack_share < self.snap_share:
             allowed = f"above --slack-share {self.slack_share:g}"
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")

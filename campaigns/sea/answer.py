@@ -157,10 +157,14 @@ def _doubts(cell: Row, options) -> Iterator[str]:
 
 def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
     signs = Counter(str(cell["sign"] or "open") for cell in cells)
-    yield (
-        f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and "
-        f"{count - signs['−'] - signs['+']} are not decided."
+    undecided = count - signs["−"] - signs["+"]
+    words = (
+        f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and {undecided} "
+        "are not decided"
     )
+    if undecided:
+        words += "; --most-hours draws more seas of these"
+    yield f"{words}."
     keys = [key.key for key in options.grid.keys]
     for name, words in (
         ("large_share", "The share of the large motion is largest"),

@@ -43,7 +43,8 @@ def few_waves(scene: Scene) -> FewWaves:
     height_m = 4.0 * math.sqrt(0.5 * np.sum(groups[:, AMPLITUDE] ** 2))
     rows = groups.transpose(0, 2, 1).reshape(-1, ROW)
     most, chosen = int(WORTH * len(rows)), []
-    if 2.0 / math.pi * np.ptp(rows[:, K]) * wide <= most:  # so many functions at least differ within the reach
+    differ = 2.0 / math.pi * np.ptp(rows[:, K]) * wide  # so many functions at least
+    if height_m > 0.0 and differ <= most:
         chosen, shares = combinations(contributions(rows, depth_m, wide, 2.0 * height_m), most)
     if not len(chosen):
         return FewWaves(groups[:0], np.empty((0, len(rows))), wide, 0.0)
