@@ -50,10 +50,13 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     Without a length, `periods` or `duration`, the scene runs until its verdict.
     """
     try:
-        options = parser().parse_args(argv)
+        options, unknown = parser().parse_known_args(argv)
     except ValueError as error:
-        faults.append(f"{error}{_hint(str(error))}")
+        faults.append(str(error))
         return None
+    for before, word in zip(["", *unknown], unknown, strict=False):
+        if word.startswith("-") or not before.startswith("-"):  # else the value of an unknown option
+            faults.append(f"{word}: no such option{_hint(word)}")
     name, options.scene, options.start = options.scene, None, None
     changes = {}
     for word in options.set:
@@ -105,17 +108,13 @@ def _length(name: str, text: str | None, faults: list[str]) -> float | None:
     return length
 
 
-def _hint(message: str) -> str:
-    """What may have been meant by the first word that argparse does not know."""
-    _, unknown, words = message.partition("unrecognized arguments: ")
-    if not unknown:
-        return ""
-    word = words.split()[0]
+def _hint(word: str) -> str:
+    """What may have been meant by a word that is no option."""
     if close := parser().close_to(word, "--new"):
         return close
     if "=" in word and not word.startswith("-"):
         return f"; did you mean --set {word}?"
-    return "; keys of the scene are given as --set KEY=VALUE"
+    return "" if word.startswith("-") else "; keys of the scene are given as --set KEY=VALUE"
 
 
 def _faults_of_run(options: argparse.Namespace) -> list[str]:
