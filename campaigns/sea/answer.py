@@ -73,7 +73,7 @@ def _exponent(cell: Row, options) -> str:
     value, error = cell[TANGENT_EXPONENT], cell[TANGENT_ERROR]
     share = cell["growing_share"]
     return (
-        f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in {share:.0%} of the "
+        f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in {100 * share:.0f} % of the "
         f"windows of {options.window} periods."
     )
 
@@ -122,7 +122,7 @@ def _load(cell: Row) -> str:
         words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
     used = cell["utilisation"]
     if math.isfinite(used):
-        return f"{words}; with the factors of DNV-OS-E301, consequence class 1, the line is used to {used:.0%}."
+        return f"{words}; with the factors of DNV-OS-E301, consequence class 1, the line is used to {100 * used:.0f} %."
     return f"{words}; tether.breaking_load_N gives the utilisation."
 
 
@@ -144,7 +144,7 @@ def _doubts(cell: Row, options) -> Iterator[str]:
     scatter = cell["load_scatter"]
     if scatter > SCATTERED:
         yield (
-            f"Runs in the same waves, from other starts or with finer steps, differ by {scatter:.0%} in their largest "
+            f"Runs in the same waves, from other starts or with finer steps, differ by {100 * scatter:.0f} % in their largest "
             "tension; the interval of LOAD has only those from rest."
         )
     noise = cell["noise"]

@@ -75,7 +75,7 @@ def _radius_panel(axes, time: np.ndarray, runs, shown: slice, together: float) -
         radius_m = run.columns["radius_m"][shown]
         line = thinned(time[: len(radius_m)], radius_m, _BINS)
         axes.plot(*line, color=_STARTS[number % len(_STARTS)], linewidth=0.8, label=name, rasterized=True)
-    if math.isfinite(together):
+    if len(runs) > 1 and math.isfinite(together):
         axes.axvline(together, color=INK, linewidth=1.0, linestyle="--", label="all starts together")
     axes.set_ylabel("$r$ (m)")
 
