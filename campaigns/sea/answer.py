@@ -73,8 +73,8 @@ def _exponent(cell: Row, options) -> str:
     value, error = cell[TANGENT_EXPONENT], cell[TANGENT_ERROR]
     share = cell["growing_share"]
     return (
-        f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in {100 * share:.0f} % of the "
-        f"windows of {options.window} periods."
+        f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in "
+        f"{100 * share:.0f} % of the windows of {options.window} periods."
     )
 
 
@@ -144,8 +144,8 @@ def _doubts(cell: Row, options) -> Iterator[str]:
     scatter = cell["load_scatter"]
     if scatter > SCATTERED:
         yield (
-            f"Runs in the same waves, from other starts or with finer steps, differ by {100 * scatter:.0f} % in their largest "
-            "tension; the interval of LOAD has only those from rest."
+            f"Runs in the same waves, from other starts or with finer steps, differ by {100 * scatter:.0f} % in their "
+            "largest tension; the interval of LOAD has only those from rest."
         )
     noise = cell["noise"]
     if noise * WELL_ABOVE > options.distance:
