@@ -11,6 +11,7 @@ is the exponent that tells chaos from other motions.
 
 import argparse
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import engine.scene
@@ -54,7 +55,7 @@ def read_order(argv: list[str], faults: list[str]) -> argparse.Namespace | None:
     except ValueError as error:
         faults.append(str(error))
         return None
-    for before, word in zip(["", *unknown], unknown, strict=False):
+    for before, word in pairwise(["", *unknown]):
         if word.startswith("-") or not before.startswith("-"):  # else the value of an unknown option
             faults.append(f"{word}: no such option{_hint(word)}")
     name, options.scene, options.start = options.scene, None, None

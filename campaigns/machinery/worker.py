@@ -93,7 +93,7 @@ def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], repo
             saved_s[number] = time.monotonic()
         if part is None:
             outcomes[run.job.key] = outcome
-            under_way[number] = None  # its record, some 20 MB of a sea of three hours, is on disk
+            under_way[number] = None  # its record has been saved: some 20 MB of a sea of three hours
             return None
         length_s += _length_s(part)
         return part.scene, part.periods, part.start

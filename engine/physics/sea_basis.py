@@ -24,8 +24,11 @@ ON_SIDE = 10  # samples
 
 
 class FewWaves(NamedTuple):
-    """groups: of the few, as `sea.groups_of` gives all, and the `shares` T (few, waves) of all waves in them; both are
-    empty where all count. wide: reach (m) of x from the anchor; top: greatest z (m)."""
+    """The few waves, and where they stand for all: the line reaches at most `wide` (m) from its anchor along x, and at
+    most to the height `top` (m).
+
+    groups: as `sea.groups_of` gives all waves. shares: T (few, waves). Both are empty where all waves count.
+    """
 
     groups: np.ndarray
     shares: np.ndarray
@@ -35,16 +38,17 @@ class FewWaves(NamedTuple):
 
 @lru_cache(maxsize=16)
 def few_waves(scene: Scene) -> FewWaves:
-    """The few waves of a scene in a plane, for a line not further from its anchor than it is long.
+    """The few waves of a scene in a plane: within a length of the line from its anchor, and up to a significant height
+    above still water.
 
-    Nor is it more than a significant height above still water; Wheeler's stretching may take the field twice as high.
+    Samples go up to twice this height, because Wheeler's stretching takes the field higher up than the line is.
     """
     groups, depth_m, wide = groups_of(scene), scene.water.depth_m, scene.tether.length_m
     height_m = 4.0 * math.sqrt(0.5 * np.sum(groups[:, AMPLITUDE] ** 2))
     rows = groups.transpose(0, 2, 1).reshape(-1, ROW)
     most, chosen = int(WORTH * len(rows)), []
-    differ = 2.0 / math.pi * np.ptp(rows[:, K]) * wide  # so many functions at least
-    if height_m > 0.0 and differ <= most:
+    fewest = 2.0 / math.pi * np.ptp(rows[:, K]) * wide  # of a band of wave numbers within this reach
+    if height_m > 0.0 and fewest <= most:
         chosen, shares = combinations(contributions(rows, depth_m, wide, 2.0 * height_m), most)
     if not len(chosen):
         return FewWaves(groups[:0], np.empty((0, len(rows))), wide, 0.0)

@@ -169,7 +169,8 @@ def near_anchor(X, wide, top):
 def take_series(tables, at, groups, few, region, wheeler, depth, ramp, t, X, sea):
     """The series of a sea about time t (s) and places X (n, 2), into Work.sea.
 
-    at, groups: of all waves; few: of the few that stand for them, groups and place in tables; region: where they do.
+    at, groups: of all waves; few: groups of the few that stand for them, and their place in tables, behind which the
+    shares T are; region: (wide, top) in which they do (`engine.physics.sea_basis`).
     """
     n, anchor_x = X.shape[0], X[0, 0]
     gain = smooth_start(t, ramp)[0]

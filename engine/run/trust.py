@@ -139,7 +139,7 @@ def _undamped(run, columns):
 
 
 def _unsteady_at_rest(run):
-    """Says that a buoy rests on top of a line which it does not carry, an equilibrium that the first motion ends."""
+    """Says that at rest a buoy lies below its line and presses it upwards: the first motion ends this equilibrium."""
     scene, rest = run.scene, run.rest
     if scene.buoy is None or rest is None or any(scene.start.buoy_displacement_m):
         return ""

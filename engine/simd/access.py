@@ -45,18 +45,6 @@ def lane_of(context, value, lane):
 
 
 @intrinsic
-def with_lane(context, value, lane, number):
-    """The vector with another number in one lane; in the place of a number that other one."""
-
-    def generate(context, builder, signature, values):
-        if not isinstance(value, Lanes):
-            return values[2]
-        return builder.insert_element(values[0], values[2], builder.trunc(values[1], ir.IntType(32)))
-
-    return value(value, types.intp, types.float64), generate
-
-
-@intrinsic
 def in_lane(context, array, lane):
     """View of one lane of an array (...) of vectors, as an array (...) of floats; an array of floats itself."""
     if not isinstance(array.dtype, Lanes):
