@@ -99,14 +99,14 @@ def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_o
     for words in (
         "forgets how it began after about 100 periods; in 1 of 8 seas its starts were still apart",
         "part the starts again 0.5 times an hour",
-        "-0.100 ± 0.010 bits a peak period; it grows in 25% of the windows of 10 periods",
+        "-0.100 ± 0.010 bits a peak period; it grows in 25 % of the windows of 10 periods",
         "large motion 20 % of the time, for 7 periods on average; a slow envelope would give 10 % and 5 periods",
         "in a sea of H_s = 2.5 m, 2.0 times that of the regular design wave of H_s and 1.5 times that of 1.86 H_s",
         "41 an hour (± 3)",
         "1.5 kN a peak period does the damage of the sea (S-N slope 5)",
-        "DNV-OS-E301, consequence class 1, the line is used to 40%",
+        "DNV-OS-E301, consequence class 1, the line is used to 40 %",
         "finer run does NOT agree: -0.050 ± 0.010",
-        "differ by 12% in their largest tension",
+        "differ by 12 % in their largest tension",
         "still 0.03 of the motion apart, by the steps of the solver",
     ):
         assert words in answer
