@@ -48,7 +48,6 @@ class Options(motions.Starts):
         "2, 3, or auto: 3 where the planar run released loops (default: as the scene says; the shipped one says 2)",
         cli.one_of(DIMENSIONS),
     )
-    no_accuracy: bool = cli.flag("leave out the errors of the largest tensions and the runs with the wetted cap")
     no_between: bool = cli.flag(
         "do not run further values between for the orbit diagram of a sweep of nine values or more"
     )

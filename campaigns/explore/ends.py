@@ -80,10 +80,11 @@ def columns(key: Column) -> tuple[Column, ...]:
     )
 
 
-def find_ends(motions: Motions, scene_at: Callable) -> list[Row]:
+def find_ends(motions: Motions, scene_at: Callable, exact: bool = True) -> list[Row]:
     """The ends of all branches of a sweep, each bisected with the state of its motion; rows of `columns`.
 
     scene_at: the scene of a value; None where there is none, as between two whole numbers.
+    exact: whether orbits tell the ends better than the bisection does.
     Writes ends/table.csv. Raises as `runner.run`.
     """
     (key,) = motions.keys
@@ -100,8 +101,8 @@ def find_ends(motions: Motions, scene_at: Callable) -> list[Row]:
             requests.append(Request({key.name: end.middle()}, scene_at(end.middle()), start, most=MOST))
         for end, ending in zip(wide, motions.starts.run("ends of ranges", requests), strict=True):
             _narrow(motions, end, ending)
-    exact = by_orbits(motions, values, ends, scene_at)
-    rows = [{**end.columns(key), **exact.get(end, {})} for end in ends]
+    of_orbits = by_orbits(motions, values, ends, scene_at) if exact else {}
+    rows = [{**end.columns(key), **of_orbits.get(end, {})} for end in ends]
     write_table(subfolder(motions.plan, FOLDER) / "table.csv", columns(key), rows)
     return rows
 

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import engine
 from campaigns.machinery import cli
@@ -14,6 +14,9 @@ from campaigns.machinery.runner import run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
 from tables import Columns, Rows, names, read_table
+
+if TYPE_CHECKING:
+    from campaigns.explore.motions import Motions
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -59,6 +62,10 @@ class Starts(cli.Options):
         "dynamics, or full: Wolf's exponent and the tests for records of unknown origin as well, seconds a run",
         cli.one_of(("dynamics", FULL)),
         "dynamics",
+    )
+    no_accuracy: bool = cli.flag(
+        "leave out the errors of the largest tensions, the runs with the wetted cap, and the orbits that tell where a "
+        "range of a motion ends better than bisection"
     )
 
 
@@ -117,45 +124,42 @@ def parameters(order: Order) -> dict:
 
 
 def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
-    """In place of `runner.run`: runs from rest only, or every motion of the only key of the order's grid."""
+    """In place of `runner.run`: runs from rest only, or every motion of each value of the only key of the order's grid,
+    with the ends of their ranges.
+    """
     kicks = kicks_of(order)
     if kicks is None:
         return run(plan, jobs)
-    return every_motion(order, plan, jobs, kicks, order.options.kick_speed, order.options.seed)
+    from campaigns.explore.ends import confirm, find_ends
+    from campaigns.explore.tracing import Scenes
+
+    (key,), options = order.options.grid.keys, order.options
+
+    def ends(motions: "Motions") -> None:
+        if len(jobs) > 1:
+            find_ends(motions, Scenes(motions.jobs[0].scene, key), exact=not options.no_accuracy)
+
+    return every_motion(order, plan, jobs, (kicks, options.kick_speed, options.seed), ends, confirm)
 
 
 def every_motion(
-    order: Order,
-    plan: Plan,
-    jobs: Jobs,
-    kicks: int,
-    speed_mps: float,
-    seed: int,
-    named: Callable[[], None] = lambda: None,
+    order: Order, plan: Plan, jobs: Jobs, starts: tuple[int, float, int], *later: Callable[["Motions"], object]
 ) -> Summary:
-    """In place of `runner.run`: the motions of each value of the only key, with the ends of their ranges.
+    """In place of `runner.run`: the motions of each value of the only key.
 
-    kicks, speed_mps, seed: as of `campaigns.explore.motions.Search`. named: called when the motions have their letters
-    in table.csv, before the ends of their ranges are looked for.
+    starts: kicks, speed_mps, seed of `campaigns.explore.motions.Search`. later: further parts of the work, called when
+    the motions have their letters in table.csv.
     """
-    from campaigns.explore.ends import confirm, find_ends
     from campaigns.explore.motions import Motions, Search, in_a_row
     from campaigns.explore.stages import explore
-    from campaigns.explore.tracing import Scenes
 
     (key,) = order.options.grid.keys
     jobs = sorted(jobs, key=lambda job: job.labels[key.column.name])
     if plan.simulate is not engine.simulate:
         return run(plan, jobs)
     motions = Motions(plan, [key.column], in_a_row(len(jobs)))
-
-    def ends() -> None:
-        motions.write()
-        named()
-        if len(jobs) > 1:
-            find_ends(motions, Scenes(jobs[0].scene, key))
-
-    explore(motions, jobs, Search(order, kicks, speed_mps, seed), ends, partial(confirm, motions))
+    parts = [partial(part, motions) for part in later]
+    explore(motions, jobs, Search(order, *starts), motions.write, *parts)
     return motions.write()
 
 

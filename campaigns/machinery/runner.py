@@ -73,11 +73,28 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
     for members in alike.values():
         if len(members) < FEWEST * workers:
             continue
-        count = workers * math.ceil(len(members) / (workers * most))
-        for first in range(count):
-            # dealt like cards: neighbours cost alike, and so the groups do
-            groups.append(tuple(_mixed(members[first::count])))
+        for group in _dealt(members, workers * math.ceil(len(members) / (workers * most))):
+            groups.append(tuple(_mixed(group)))
     return groups
+
+
+def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
+    """The jobs in so many groups, dealt like cards: neighbours cost alike, and so the groups do.
+
+    Jobs whose lines differ in their elements, or in what they carry, share no lanes: then as many as there are lanes
+    are dealt together.
+    """
+    from engine.simd.vector import COUNT
+
+    alike: dict[tuple, list[Job]] = {}
+    for job in jobs:
+        scene = job.scene
+        alike.setdefault((scene.tether.nodes, scene.output.tangent_vectors), []).append(job)
+    together = 1 if len(alike) == 1 else COUNT
+    hands = []
+    for members in alike.values():
+        hands += [members[first : first + together] for first in range(0, len(members), together)]
+    return [list(chain.from_iterable(hands[first::count])) for first in range(count)]
 
 
 def shares_worker(plan: Plan, job: Job) -> bool:

@@ -180,9 +180,9 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
         starts = [*_under_file(order, jobs[0])]
     else:
         folder = plan.how.out / "motions"
-        named = partial(_check_letter, options.motion, folder)
         with claimed(folder):
-            times = motions.every_motion(order, plan.within(folder), jobs, 0, motions.SPEED_MPS, 1, named).times
+            check = partial(_check_letter, options.motion, folder)
+            times = motions.every_motion(order, plan.within(folder), jobs, (0, motions.SPEED_MPS, 1), check).times
         starts = [*_under_motions(order, folder)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
@@ -204,7 +204,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     return Summary(rows, tree.there, tree.computed, times)
 
 
-def _check_letter(letter: str | None, folder: Path) -> None:
+def _check_letter(letter: str | None, folder: Path, _: object) -> None:
     """Raises BadInput where no motion in a folder has this letter: a sweep finds them, so it is known late."""
     if letter is None:
         return

@@ -6,10 +6,10 @@
     python -m campaigns.sea --vary waves.significant_steepness 0.02 0.14 6 --vary waves.relative_width 0 0.1 5 --seeds 3
 
 Protocol: every sea is drawn anew for each of --seeds, and runs from rest and from kicks of the buoy, with the same
-waves for all starts. The run from rest gives the loads. In the first eight seas, and in more up to --most-hours of all
-seas, it carries a perturbation, whose mean growth is the exponent of the sea. While the exponent is within three errors
-of 0, twice as many seas run from rest, up to --most-hours; in a map only where that is given. One run goes on with
-twice the elements and a quarter of the tolerance beside the others. Motions of regular waves up to 1.86 times the
+waves for all starts. The run from rest gives the loads. In the first two hours of seas, or in --most-hours if that is
+more, it carries a perturbation, whose mean growth is the exponent of the sea. While the exponent is within three errors
+of 0, twice as many seas run from rest, up to --most-hours; in a map only where that is given. The first hour of one run
+is repeated with twice the elements and a quarter of the tolerance. Motions of regular waves up to 1.86 times the
 significant height are looked for as in `campaigns.sweep`; the folds between two of them give the forecast of a slow
 envelope. Kicks are drawn by --seed.
 """
@@ -40,7 +40,8 @@ SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
 AS_GIVEN, FINER = "", "finer"
 SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
-EXPONENT_SEAS = 8
+FINER_HOURS = 1.0
+EXPONENT_HOURS = 2.0  # at least
 MOST_HOURS = 12.0
 
 
@@ -146,7 +147,7 @@ def cases(order: Order) -> Iterator[Job]:
 
 def seas_with_exponent(options: Options) -> int:
     """Seas of a state whose run from rest carries a perturbation, which nearly doubles the cost of the run."""
-    return max(EXPONENT_SEAS, int(options.most_hours / options.hours))
+    return math.ceil(max(EXPONENT_HOURS, options.most_hours) / options.hours)
 
 
 def _seed_key(scene) -> str | None:
@@ -164,7 +165,8 @@ def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterat
     changes, _ = options.grid.changes(place, order.base())
     base = order.base(changes)
     seed_key = _seed_key(base)
-    duration_s = options.transient * base.waves.period_s + options.hours * 3600.0
+    transient_s = options.transient * base.waves.period_s
+    duration_s = transient_s + options.hours * 3600.0
     for seed in seeds:
         if seed_key is None and seed > 1:
             return
@@ -183,7 +185,9 @@ def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterat
             labels |= {"kick_x_mps": x_mps, "kick_z_mps": z_mps}
             yield Job(labels, scene, duration_s=duration_s)
             if seed == 1 and start == 0 and not options.grid.keys:
-                yield Job({**labels, "solver": FINER}, finer(scene, FINER_ELEMENTS, FINER_STEPS), duration_s=duration_s)
+                finer_scene = finer(scene, FINER_ELEMENTS, FINER_STEPS)
+                finer_s = transient_s + min(options.hours, FINER_HOURS) * 3600.0
+                yield Job({**labels, "solver": FINER}, finer_scene, duration_s=finer_s)
 
 
 def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:

@@ -15,7 +15,6 @@ from itertools import chain
 import numpy as np
 
 from analysis import (
-    envelope,
     growing_share,
     residence,
     responses,
@@ -36,12 +35,13 @@ from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set
 from campaigns.sea.regular import FOLDER as REGULAR
 from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
-from engine.physics.sea import elevation_m
+from engine.physics.sea import envelope_m
 from engine.views import carried, state_of
 from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
+ENVELOPE_SAMPLES = 8  # a peak period: it changes over many of them
 WELL_ABOVE = 4.0  # times the noise of the steps: the least distance of two responses
 BLOCK_PERIODS = 20  # of the shortest block of a maximum
 _BITS = "bits/period"
@@ -135,13 +135,20 @@ def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
     ends = strobes[transient + MOTION_PERIODS :]
     begins = strobes[transient : len(strobes) - MOTION_PERIODS]
     if folds is not None and len(ends):
-        heights_m = envelope(elevation_m(run.scene, columns["time_s"]))
-        pieces = list(map(slice, begins, ends))
-        amplitude_m = np.array([heights_m[piece].mean() for piece in pieces])
-        large = folds.is_large(amplitude_m, np.array([high_N[piece].max() for piece in pieces]))
+        amplitude_m = _amplitudes_of_pieces(run.scene, len(strobes) - 1)[transient:]
+        largest_N = np.array([high_N[begin:end].max() for begin, end in zip(begins, ends, strict=True)])
+        large = folds.is_large(amplitude_m, largest_N)
         forecast = folds.forecast(amplitude_m, bool(large[0]))
     late_N = high_N[round(transient * samples) :]
     return Digest(row, run.scene, states, np.array(scale), growth_nats, late_N, large, forecast)
+
+
+def _amplitudes_of_pieces(scene, periods: int) -> np.ndarray:
+    """Mean of the envelope of the waves (m) over each piece of MOTION_PERIODS in so many peak periods."""
+    count = periods * ENVELOPE_SAMPLES
+    times_s = np.arange(count) * scene.waves.period_s / ENVELOPE_SAMPLES
+    of_periods = envelope_m(scene, times_s).reshape(periods, ENVELOPE_SAMPLES).mean(axis=1)
+    return np.convolve(of_periods, np.full(MOTION_PERIODS, 1.0 / MOTION_PERIODS), "valid")
 
 
 def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
@@ -265,11 +272,19 @@ def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
 
 
 def _scatter(digests: Sequence[Digest]) -> float:
-    """Range of the largest tensions of all runs in the same waves, over their mean: median over seas of several."""
-    largest_N: dict[int, list[float]] = {}
+    """Range of the largest tensions of all runs in the same waves, over their mean: median over seas of several.
+
+    Of a sea as long as its shortest run: the finer one.
+    """
+    tensions_N: dict[int, list[np.ndarray]] = {}
     for run in digests:
-        largest_N.setdefault(run.row["sea"], []).append(run.high_N.max())
-    ranges = [np.ptp(sea) / np.mean(sea) for sea in largest_N.values() if len(sea) > 1]
+        tensions_N.setdefault(run.row["sea"], []).append(run.high_N)
+    ranges = []
+    for sea in tensions_N.values():
+        if len(sea) > 1:
+            shortest = min(map(len, sea))
+            largest_N = [high_N[:shortest].max() for high_N in sea]
+            ranges.append(np.ptp(largest_N) / np.mean(largest_N))
     return float(np.median(ranges)) if ranges else math.nan
 
 

@@ -85,6 +85,7 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
         budget=BUDGET,
         kick_speed=order.options.kick_speed,
         seed=order.options.seed,
+        no_accuracy=True,
     )
     if waves.faults:
         raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")

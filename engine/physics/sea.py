@@ -195,5 +195,21 @@ def elevation_m(
     eta = np.zeros(np.broadcast_shapes(t.shape, x.shape, y.shape))
     for k, omega, phase, cosine, sine, _, amplitude in rows_of(scene):
         eta += amplitude * np.cos(k * (x * cosine + y * sine) - omega * t + phase)
+    return eta * _share_of_ramp(scene, t)
+
+
+def envelope_m(scene: Scene, time_s: np.ndarray) -> np.ndarray:
+    """Amplitude (m) of the surface at x = y = 0: the modulus of the sum of A exp(i (phase - omega t)) over all waves.
+
+    Source: S. O. Rice, Bell Syst. Tech. J. 23 (1944) 282.
+    """
+    rows, total = rows_of(scene), np.zeros(time_s.shape, complex)
+    for omega, phase, amplitude in rows[:, [OMEGA, PHASE, AMPLITUDE]]:
+        total += amplitude * np.exp(1j * (phase - omega * time_s))
+    return np.abs(total) * _share_of_ramp(scene, time_s)
+
+
+def _share_of_ramp(scene, t):
+    """Share of their full height that waves have at times t (s)."""
     ramp = scene.waves.ramp_s
-    return eta * (np.where(t < ramp, np.sin(0.5 * math.pi * t / ramp) ** 2, 1.0) if ramp > 0.0 else 1.0)
+    return np.where(t < ramp, np.sin(0.5 * math.pi * t / ramp) ** 2, 1.0) if ramp > 0.0 else 1.0

@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 
 from campaigns import sea
+from campaigns.machinery.cli import Running
+from campaigns.machinery.plan import Plan
+from campaigns.machinery.runner import groups_of
 from campaigns.sea import rows as sea_rows
 from campaigns.sea.regular import design_loads, folds_of
 from reports import build
@@ -27,6 +30,31 @@ def test_every_start_runs_in_every_sea_and_one_run_is_finer(small):
     assert plain == [(str(seed), str(start)) for seed in (1, 2) for start in (0, 1, 2)]
     assert [row["sea"] for row in rows if row["solver"]] == ["1"]
     assert {row["status"] for row in rows} == {"ok"}
+
+
+@pytest.mark.parametrize(
+    ("hours", "most_hours", "carrying", "finer_hours"),
+    [(0.5, 0, 4, 0.5), (3, 0, 1, 1.0), (3, 12, 4, 1.0), (3, 7, 3, 1.0)],
+)
+def test_long_runs_carry_perturbations_for_the_hours_that_are_needed_and_are_finer_for_one(
+    tmp_path, hours, most_hours, carrying, finer_hours
+):
+    words = ["--seeds", 8, "--starts", 1, "--hours", hours, "--most-hours", most_hours, "--transient", 0]
+    order = order_of(sea, *map(str, words), "--out", tmp_path / "new")
+    plain = [case for case in order.cases if not case.labels["solver"]]
+    (finer,) = (case for case in order.cases if case.labels["solver"])
+    assert sum(case.scene.output.tangent_vectors for case in plain) == carrying
+    assert {case.duration_s for case in plain} == {3600 * hours} and finer.duration_s == 3600 * finer_hours
+
+
+def test_runs_that_share_lanes_go_to_one_worker(tmp_path):
+    words = "--seeds 12 --starts 1 --hours 3 --most-hours 12".split()
+    order = order_of(sea, *words, "--out", tmp_path / "new")
+    plan = Plan(Running(tmp_path, 2), None, None, (), simulate_each=print)
+    carrying = []
+    for group in groups_of(plan, order.cases):
+        carrying.append(sum(case.scene.output.tangent_vectors for case in group if not case.labels["solver"]))
+    assert sorted(carrying) == [0, 4]
 
 
 def test_all_starts_of_a_sea_have_the_same_waves(small):

@@ -88,6 +88,13 @@ def test_ranges_end_at_the_folds_and_by_orbits_that_end_there(swept, monkeypatch
         assert (row.get("p_end"), row.get("kind")) == ((fold, "fold") if exact else (None, None))
 
 
+def test_ranges_end_by_bisection_alone_where_that_is_enough(swept, monkeypatch):
+    monkeypatch.setattr(tracing, "work", None)
+    upper, lower = ends.find_ends(swept, Scene, exact=False)
+    assert upper["p_with"] <= FOLD <= upper["p_without"] and lower["p_without"] <= -FOLD <= lower["p_with"]
+    assert "p_end" not in upper and "p_end" not in lower
+
+
 @pytest.mark.parametrize(
     ("shift", "words"),
     [

@@ -7,8 +7,8 @@ run in a lane is the run alone, a run that goes on is the whole run, and a sea i
 import numpy as np
 import pytest
 
-from engine import simulate
-from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, rows_of
+from engine import load_scene, simulate
+from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, envelope_m, rows_of
 from engine.physics.sea_series import LEFT_OUT, ORDER, WIDTH, sea_in_plane
 from engine.run.simulation import simulate_batch
 from tests.engine.kernels import parameters_of, waves_at
@@ -188,6 +188,15 @@ def test_a_drawn_sea_has_more_waves_for_a_longer_run_unless_a_key_says_how_many(
     keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1, "waves.relative_width": 0.2}
     assert enough_waves(sea(0, **keys), 1000 * period_s) == {"waves.component_count": 128}
     assert enough_waves(line(), 1000 * period_s) == {}
+
+
+def test_the_envelope_is_the_slow_amplitude_of_two_waves_and_ends_with_the_ramp():
+    waves = [{"period_s": period_s, "amplitude_m": 0.5, "phase_rad": 0.7} for period_s in (5.0, 5.5)]
+    scene = load_scene("tethered_buoy", {"waves": {"ramp_s": 10.0, "period_s": 5.0, "components": waves}})
+    t = np.linspace(0.0, 200.0, 999)
+    ramp = np.where(t < 10.0, np.sin(0.05 * np.pi * t) ** 2, 1.0)
+    beat = np.abs(np.cos(np.pi * (1 / 5.0 - 1 / 5.5) * t))
+    assert np.abs(envelope_m(scene, t) - ramp * beat).max() < 1e-12
 
 
 def test_a_gaussian_sea_has_its_energy_and_its_width_and_without_width_is_a_regular_wave():
