@@ -29,7 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "periods": ["PeriodEstimate", "detect_period"],
         "poincare": ["PoincareSection", "poincare_section", "section_at_phases"],
         "seas": [
-            "Residence", "Responses", "envelope", "growing_share", "residence", "responses", "sea_lyapunov",
+            "Residence", "Responses", "growing_share", "residence", "responses", "sea_lyapunov",
             "slow_forecast", "spells_of",
         ],
         "section_distances": ["SectionDistance", "section_distance"],

@@ -170,17 +170,6 @@ def residence(flags: Sequence[ArrayLike]) -> Residence:
     return Residence(share, mean_length, len(lengths))
 
 
-def envelope(series: ArrayLike) -> np.ndarray:
-    """Amplitude of a narrow-banded series about its mean, at each sample: |x + i H x|, H Hilbert's transform.
-
-    Source: S. O. Rice, Bell Syst. Tech. J. 23 (1944) 282. Ends of a record are wrong by about a period.
-    """
-    x = checked_series(series)
-    spectrum = np.fft.fft(x - x.mean())
-    frequency = np.fft.fftfreq(len(x))
-    return np.abs(np.fft.ifft(np.where(frequency > 0.0, 2.0, 0.0) * spectrum))
-
-
 def slow_forecast(amplitude: ArrayLike, ranges: ArrayLike, start: int) -> np.ndarray:
     """Which motion of regular waves a body would have if it followed a slow envelope: it jumps where its motion ends.
 

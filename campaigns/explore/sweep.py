@@ -64,8 +64,8 @@ class Starts(cli.Options):
         "dynamics",
     )
     no_accuracy: bool = cli.flag(
-        "leave out the errors of the largest tensions, the runs with the wetted cap, and the orbits that tell where a "
-        "range of a motion ends better than bisection"
+        "leave out the errors of the largest tensions, the runs with the wetted cap, whether motions stay on a finer "
+        "grid, and the orbits that tell where a range of a motion ends better than bisection"
     )
 
 
@@ -134,12 +134,14 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     from campaigns.explore.tracing import Scenes
 
     (key,), options = order.options.grid.keys, order.options
+    exact = not options.no_accuracy
 
     def ends(motions: "Motions") -> None:
         if len(jobs) > 1:
-            find_ends(motions, Scenes(motions.jobs[0].scene, key), exact=not options.no_accuracy)
+            find_ends(motions, Scenes(motions.jobs[0].scene, key), exact)
 
-    return every_motion(order, plan, jobs, (kicks, options.kick_speed, options.seed), ends, confirm)
+    later = (ends, confirm) if exact else (ends,)
+    return every_motion(order, plan, jobs, (kicks, options.kick_speed, options.seed), *later)
 
 
 def every_motion(

@@ -82,19 +82,26 @@ def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
     """The jobs in so many groups, dealt like cards: neighbours cost alike, and so the groups do.
 
     Jobs whose lines differ in their elements, or in what they carry, share no lanes: then as many as there are lanes
-    are dealt together.
+    are dealt together, those that cost most first, each to the group that has least to do.
     """
     from engine.simd.vector import COUNT
 
-    alike: dict[tuple, list[Job]] = {}
+    alike: dict[float, list[Job]] = {}
     for job in jobs:
-        scene = job.scene
-        alike.setdefault((scene.tether.nodes, scene.output.tangent_vectors), []).append(job)
+        alike.setdefault(_cost(job), []).append(job)
     together = 1 if len(alike) == 1 else COUNT
-    hands = []
-    for members in alike.values():
-        hands += [members[first : first + together] for first in range(0, len(members), together)]
-    return [list(chain.from_iterable(hands[first::count])) for first in range(count)]
+    groups, costs = [[] for _ in range(count)], [0.0] * count
+    for cost, members in sorted(alike.items(), reverse=True):
+        for first in range(0, len(members), together):
+            least = costs.index(min(costs))
+            groups[least] += members[first : first + together]
+            costs[least] += cost
+    return groups
+
+
+def _cost(job: Job) -> float:
+    """About what a wave period costs, in nodes: a perturbation half as much as its run."""
+    return job.scene.tether.nodes * (1.0 + 0.5 * job.scene.output.tangent_vectors)
 
 
 def shares_worker(plan: Plan, job: Job) -> bool:

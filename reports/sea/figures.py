@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from analysis import envelope, spells_of
+from analysis import spells_of
 from analysis.seas import HOLD
-from engine.physics.sea import elevation_m
+from engine.physics.sea import elevation_m, envelope_m
 from engine.views import snaps_of
 from tables import number_of
 
@@ -58,7 +58,7 @@ def history_figure(folder: Folder, cell: Row) -> Figure | None:
     with sheet(6.2) as figure:
         panels = figure.subplots(3, 1, sharex=True, height_ratios=(1.3, 1.0, 1.2))
         _radius_panel(panels[0], time, runs, shown, together)
-        _waves_panel(panels[1], time, elevation_m(rest.scene, rest.columns["time_s"]), shown, cell)
+        _waves_panel(panels[1], time, rest.scene, period_s, cell)
         _tension_panel(panels[2], time, rest, shown, folder.provenance, number_of(cell, "regular_N"))
         for axes, columns in zip(panels, (4, 3, 3), strict=True):
             axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=columns)
@@ -80,10 +80,11 @@ def _radius_panel(axes, time: np.ndarray, runs, shown: slice, together: float) -
     axes.set_ylabel("$r$ (m)")
 
 
-def _waves_panel(axes, time: np.ndarray, surface_m: np.ndarray, shown: slice, cell: Row) -> None:
+def _waves_panel(axes, time: np.ndarray, scene, period_s: float, cell: Row) -> None:
     """The waves, and the amplitudes at which the small motion and the large one end, where both are known."""
-    axes.plot(*thinned(time, surface_m[shown], _BINS), color=SOFT, linewidth=0.5, rasterized=True)
-    axes.plot(time, envelope(surface_m)[shown], color=INK, linewidth=1.2, label="envelope")
+    time_s = time * period_s
+    axes.plot(*thinned(time, elevation_m(scene, time_s), _BINS), color=SOFT, linewidth=0.5, rasterized=True)
+    axes.plot(time, envelope_m(scene, time_s), color=INK, linewidth=1.2, label="envelope")
     up, down = cell["fold_up_m"], cell["fold_down_m"]
     if math.isfinite(up + down):
         axes.axhline(up, color=VERMILION, linewidth=1.0, label="slowly rising: the large motion begins")

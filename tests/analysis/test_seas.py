@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import envelope, growing_share, peaks, residence, responses, sea_lyapunov, slow_forecast, spells_of
+from analysis import growing_share, peaks, residence, responses, sea_lyapunov, slow_forecast, spells_of
 from tests.analysis.systems import normal
 
 
@@ -87,12 +87,6 @@ def test_residence_counts_visits():
     assert spells_of(flags) == [(1, 3), (5, 6)]
     answer = residence([flags, ~flags])
     assert (answer.share, answer.mean, answer.visits) == (0.5, pytest.approx(8 / 5), 5)
-
-
-def test_the_envelope_of_a_beat_is_its_slow_amplitude():
-    time = np.linspace(0.0, 400.0, 4000, endpoint=False)
-    slow = 2.0 + np.cos(2 * np.pi * time / 100.0)
-    assert np.abs(envelope(slow * np.cos(2 * np.pi * time / 4.0)) - slow).max() < 1e-6
 
 
 def test_the_forecast_jumps_only_where_a_motion_ends():
