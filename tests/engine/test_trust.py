@@ -7,7 +7,7 @@ import pytest
 
 from engine import simulate
 from engine.parameters.scales import jumps_of
-from engine.run import Run
+from engine.run import Run, trust
 from engine.run.trust import blows, errors_of_ringing, unresolved
 from tests.engine.lines import DRY, STILL, held, line, linear, ran
 
@@ -208,3 +208,20 @@ def test_a_largest_tension_that_the_grid_decides_is_told(speed_mps, nodes, warne
     assert (stated is not None) == warned == (abs(largest_N[0] / largest_N[1] - 1.0) > 0.05)
     if stated:
         assert float(stated[2]) == pytest.approx(largest_N[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("water, pressed_N, told", [(DRY, 20.0, True), (DRY, 5.0, False), (STILL, 20.0, False)])
+def test_half_the_elements_tell_of_a_folding_line_without_drag_by_a_smaller_difference(
+    water, pressed_N, told, monkeypatch
+):
+    run = Run(line(water, SLACK, {"water.depth_m": 60.0} if water is STILL else {}), 0.1)
+    columns = {"tension_top_high_N": np.array([9.0, 100.0]), "tension_min_N": np.array([-pressed_N, 0.0])}
+    columns |= {
+        "tension_top_N": np.array([9.0, 100.0]),
+        "radius_rate_mps": np.zeros(2),
+        "angle_rate_radps": np.zeros(2),
+    }
+    monkeypatch.setattr(
+        trust, "_columns_on", lambda run, nodes: columns | {"tension_top_high_N": np.array([9.0, 95.0])}
+    )
+    assert ("the largest tension is 95 N in place of 100 N" in trust._coarse_grid(run, columns)) == told
