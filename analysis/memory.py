@@ -7,8 +7,8 @@ attractors among them, whose neighbours part without an exponent (Grebogi, Ott, 
     R = max over n of |sum_k u_k u_{k+n}| / sqrt(sum_k u_k^2 sum_k u_{k+n}^2),     m/8 <= n < m/2,     u = z and |z|,
 
 z being each coordinate less its mean in each band, and u less its own there. |z| is for motions whose sign alone is
-irregular. In m rounds of the bands of a chaotic motion R is the largest of many values that scatter by (2/m)^(1/2); on
-tori it is near 1, in noise of their own size 0.5.
+irregular. In m rounds of the bands of a chaotic motion R is the largest of many values that scatter by (2/m)^(1/2). On a
+torus R is near 1; with noise as large as the motion it is near 0.5.
 Noise forgets as well: what it lacks is a map that predicts it (`surrogates`).
 """
 
@@ -73,6 +73,6 @@ def bands_in_turn(section: np.ndarray) -> int:
     while tried <= MOST_BANDS and tried * BAND_POINTS <= len(left):
         narrower = within_bands(left, tried)
         if np.any(narrower.var(axis=0) < 0.5 * left.var(axis=0)):
-            left, bands, tried = narrower, tried, tried
+            left, bands = narrower, tried
         tried += bands
     return bands

@@ -125,7 +125,8 @@ def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds
 def computed_history(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension of the last period against that of another code, along its record; rms in kN.
 
-    The option settled_s tells too how far they are apart from then on: a record may not be periodic where it begins.
+    With the option settled_s the outcome has the rms from that time on, too, because a record may not be periodic where
+    it begins.
     """
     run, period_s = runs[0], period_of(runs[0].scene)
     rows = table("lowe_langley.csv")
@@ -145,7 +146,7 @@ def computed_history(case: Case, runs: Sequence[Trajectory]) -> Outcome:
 
 
 def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Outcome:
-    """Top tension at rest against a printed number, and the shape against the elastic catenary."""
+    """Top tension at rest against a printed number."""
     tension_kN, right = 1e-3 * float(runs[0].columns["tension_top_N"][0]), case.options["tension_kN"]
     numbers = {"tension at rest": Number(f"{tension_kN:.4g} kN", f"{right:.4g} kN", abs(tension_kN - right))}
     return Outcome(numbers, [])
