@@ -7,8 +7,8 @@ attractors among them, whose neighbours part without an exponent (Grebogi, Ott, 
     R = max over n of |sum_k u_k u_{k+n}| / sqrt(sum_k u_k^2 sum_k u_{k+n}^2),     m/8 <= n < m/2,     u = z and |z|,
 
 z being each coordinate less its mean in each band, and u less its own there. |z| is for motions whose sign alone is
-irregular. In m rounds of the bands of a chaotic motion R is the largest of many values that scatter by (2/m)^(1/2). On a
-torus R is near 1; with noise as large as the motion it is near 0.5.
+irregular. In m rounds of the bands of a chaotic motion R is the largest of many values that scatter by (2/m)^(1/2). On
+a torus R is near 1; with noise as large as the motion it is near 0.5.
 Noise forgets as well: what it lacks is a map that predicts it (`surrogates`).
 """
 
