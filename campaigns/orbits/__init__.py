@@ -181,8 +181,10 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     else:
         folder = plan.how.out / "motions"
         with claimed(folder):
-            check = partial(_check_letter, options.motion, folder)
-            times = motions.every_motion(order, plan.within(folder), jobs, (0, motions.SPEED_MPS, 1), check).times
+            no_kicks = 0, motions.SPEED_MPS, 1
+            times = motions.every_motion(
+                order, plan.within(folder), jobs, no_kicks, lambda _: _check_letter(options.motion, folder)
+            ).times
         starts = [*_under_motions(order, folder)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
@@ -204,7 +206,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     return Summary(rows, tree.there, tree.computed, times)
 
 
-def _check_letter(letter: str | None, folder: Path, _: object) -> None:
+def _check_letter(letter: str | None, folder: Path) -> None:
     """Raises BadInput where no motion in a folder has this letter: a sweep finds them, so it is known late."""
     if letter is None:
         return

@@ -125,7 +125,7 @@ def test_a_sweep_has_a_row_for_each_motion_with_multipliers_and_the_fold_at_whic
     """H = 25 m: the period 3 is an island that begins at a fold at kA = 0.12087 (81 nodes: the same to 2e-4)."""
     from campaigns.buoy_sweep import main as sweep
 
-    words = ["--set", "water.depth_m=25", "--steepness", "0.12", "0.13", "--no-accuracy", "--no-report"]
+    words = ["--set", "water.depth_m=25", "--steepness", "0.12", "0.13", "--no-report"]
     words += ["--starts", "2", "--out", str(tmp_path)]
     assert sweep(words) == 0
     rows, starts = rows_of(tmp_path), rows_of(tmp_path, "starts/table.csv")

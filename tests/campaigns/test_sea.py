@@ -179,13 +179,6 @@ def test_a_design_wave_between_two_waves_of_the_sweep_bears_what_lies_between():
     assert design_loads(FOLDED, 1.5) == design_loads((), 0.5) == []
 
 
-def test_eight_seas_carry_a_perturbation_or_as_many_as_most_hours_has():
-    for hours, carrying in (("3", 8), ("1", 12)):
-        cases = order_of(sea, "--hours", hours, "--seeds", "20", "--starts", "1").cases
-        given = [case.scene.output.tangent_vectors for case in cases if not case.labels["solver"]]
-        assert given == [1] * carrying + [0] * (20 - carrying)
-
-
 def test_a_map_over_steepness_and_width_draws_every_state_anew_by_its_seed_and_a_single_wave_once():
     words = "--vary waves.significant_steepness 0.05 0.1 2 --vary waves.relative_width 0 0.05 2 --seeds 2 --starts 1"
     drawn = []
