@@ -34,7 +34,7 @@ def test_every_start_runs_in_every_sea_and_one_run_is_finer(small):
 
 @pytest.mark.parametrize(
     ("hours", "most_hours", "carrying", "finer_hours"),
-    [(0.5, 0, 4, 0.5), (3, 0, 1, 1.0), (3, 12, 4, 1.0), (3, 7, 3, 1.0)],
+    [(0.5, 0, 4, 0.5), (3, 0, 3, 1.0), (3, 12, 4, 1.0), (3, 13, 5, 1.0)],
 )
 def test_long_runs_carry_perturbations_for_the_hours_that_are_needed_and_are_finer_for_one(
     tmp_path, hours, most_hours, carrying, finer_hours
