@@ -1,11 +1,12 @@
 """The report of `campaigns.sea`: one sea with its picture, or a map of seas. Everything comes from the folder."""
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from tables import EMPTY, TANGENT_EXPONENT, count
+from tables import EMPTY, TANGENT_EXPONENT, count, number_of
 
 from ..figures.maps import Map, maps
 from ..parts import (
@@ -82,9 +83,9 @@ def _numbers(cells: Folder) -> Table:
 def _pictures(folder: Folder, cells: Folder) -> Items:
     (cell,) = cells.table
     yield history_figure(folder, cell)
-    over_time = part_of(folder, "history")
-    if over_time is not None:
-        yield responses_figure(over_time, cell["distance"])
+    over_time, distance = part_of(folder, "history"), number_of(cell, "distance")
+    if over_time is not None and math.isfinite(distance):  # there is none between the runs of one start
+        yield responses_figure(over_time, distance)
 
 
 def _maps(cells: Folder, keys: Sequence[str]) -> Items:

@@ -90,7 +90,13 @@ def test_the_same_command_computes_nothing_again(small):
 
 def test_the_report_of_a_sea_is_the_same_when_it_is_drawn_again(small):
     page, _ = built_twice(small[0])
-    assert b"Top: distance of the buoy from its anchor" in page
+    assert b"Top: distance of the buoy from its anchor" in page and b"Every sea over the whole record" in page
+
+
+def test_one_start_has_no_picture_of_responses(tmp_path):
+    ran(sea, tmp_path, *WORDS, "--seeds", 1, "--starts", 1)
+    page, _ = built_twice(tmp_path)
+    assert b"Top: distance of the buoy from its anchor" in page and b"Every sea over the whole record" not in page
 
 
 @pytest.mark.parametrize("second_key", [[], ["waves.jonswap.peak_enhancement", 1, 5, 2]], ids=["a row", "a map"])
