@@ -84,7 +84,7 @@ def find_ends(motions: Motions, scene_at: Callable, exact: bool = True) -> list[
     """The ends of all branches of a sweep, each bisected with the state of its motion; rows of `columns`.
 
     scene_at: the scene of a value; None where there is none, as between two whole numbers.
-    exact: whether orbits tell the ends better than the bisection does.
+    exact: whether orbits are followed to the ends, which they tell better than the bisection.
     Writes ends/table.csv. Raises as `runner.run`.
     """
     (key,) = motions.keys

@@ -16,7 +16,7 @@ from engine.views import carries_tangents, in_regular_waves
 from tables import Columns, Rows, names, read_table
 
 if TYPE_CHECKING:
-    from campaigns.explore.motions import Motions
+    from campaigns.explore.motions import Motions, Search
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -64,8 +64,8 @@ class Starts(cli.Options):
         "dynamics",
     )
     no_accuracy: bool = cli.flag(
-        "leave out the errors of the largest tensions, the runs with the wetted cap, whether motions stay on a finer "
-        "grid, and the orbits that tell where a range of a motion ends better than bisection"
+        "leave out what tells how exact the results are: errors of the largest tensions, runs with the wetted cap, "
+        "runs of each motion on a finer grid, orbits at the ends of ranges (which then are known by bisection)"
     )
 
 
@@ -131,6 +131,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     if kicks is None:
         return run(plan, jobs)
     from campaigns.explore.ends import confirm, find_ends
+    from campaigns.explore.motions import Search
     from campaigns.explore.tracing import Scenes
 
     (key,), options = order.options.grid.keys, order.options
@@ -140,28 +141,27 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
         if len(jobs) > 1:
             find_ends(motions, Scenes(motions.jobs[0].scene, key), exact)
 
-    later = (ends, confirm) if exact else (ends,)
-    return every_motion(order, plan, jobs, (kicks, options.kick_speed, options.seed), *later)
+    later = [ends]
+    if exact:
+        later.append(confirm)
+    return every_motion(plan, jobs, Search(order, kicks, options.kick_speed, options.seed), *later)
 
 
-def every_motion(
-    order: Order, plan: Plan, jobs: Jobs, starts: tuple[int, float, int], *later: Callable[["Motions"], object]
-) -> Summary:
-    """In place of `runner.run`: the motions of each value of the only key.
+def every_motion(plan: Plan, jobs: Jobs, search: "Search", *later: Callable[["Motions"], object]) -> Summary:
+    """In place of `runner.run`: the motions of each value of the only key of the order of a search.
 
-    starts: kicks, speed_mps, seed of `campaigns.explore.motions.Search`. later: further parts of the work, called when
-    the motions have their letters in table.csv.
+    later: further parts of the work, called when the motions have their letters in table.csv.
     """
-    from campaigns.explore.motions import Motions, Search, in_a_row
+    from campaigns.explore.motions import Motions, in_a_row
     from campaigns.explore.stages import explore
 
-    (key,) = order.options.grid.keys
+    (key,) = search.order.options.grid.keys
     jobs = sorted(jobs, key=lambda job: job.labels[key.column.name])
     if plan.simulate is not engine.simulate:
         return run(plan, jobs)
     motions = Motions(plan, [key.column], in_a_row(len(jobs)))
     parts = [partial(part, motions) for part in later]
-    explore(motions, jobs, Search(order, *starts), motions.write, *parts)
+    explore(motions, jobs, search, motions.write, *parts)
     return motions.write()
 
 

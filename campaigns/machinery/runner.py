@@ -79,17 +79,20 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
 
 
 def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
-    """The jobs in so many groups, dealt like cards: neighbours cost alike, and so the groups do.
+    """The jobs in so many groups, none of them empty, dealt like cards: neighbours cost alike, and so the groups do.
 
-    Jobs whose lines differ in their elements, or in what they carry, share no lanes: then as many as there are lanes
-    are dealt together, those that cost most first, each to the group that has least to do.
+    Jobs whose lines have unlike numbers of nodes, or carry unlike numbers of perturbations, share no lanes. If there
+    are such jobs, those that do share lanes are dealt together, as many as there are lanes: those that cost most first,
+    and always to the group that has least to do.
     """
     from engine.simd.vector import COUNT
 
     alike: dict[float, list[Job]] = {}
     for job in jobs:
         alike.setdefault(_cost(job), []).append(job)
-    together = 1 if len(alike) == 1 else COUNT
+    together = 1
+    if len(alike) > 1:
+        together = min(COUNT, len(jobs) // count)  # more together would leave a group without jobs
     groups, costs = [[] for _ in range(count)], [0.0] * count
     for cost, members in sorted(alike.items(), reverse=True):
         for first in range(0, len(members), together):
@@ -100,7 +103,7 @@ def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
 
 
 def _cost(job: Job) -> float:
-    """About what a wave period costs, in nodes: a perturbation half as much as its run."""
+    """About what a wave period costs, in units of one node; a perturbation costs half as much as its run."""
     return job.scene.tether.nodes * (1.0 + 0.5 * job.scene.output.tangent_vectors)
 
 

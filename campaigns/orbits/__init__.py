@@ -179,12 +179,13 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     if options.start_from is not None:
         starts = [*_under_file(order, jobs[0])]
     else:
+        from campaigns.explore.motions import Search
+
         folder = plan.how.out / "motions"
         with claimed(folder):
-            no_kicks = 0, motions.SPEED_MPS, 1
-            times = motions.every_motion(
-                order, plan.within(folder), jobs, no_kicks, lambda _: _check_letter(options.motion, folder)
-            ).times
+            without_kicks = Search(order, 0, motions.SPEED_MPS, 1)
+            times = motions.every_motion(plan.within(folder), jobs, without_kicks).times
+        _check_letter(options.motion, folder)
         starts = [*_under_motions(order, folder)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]

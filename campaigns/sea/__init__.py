@@ -6,12 +6,12 @@
     python -m campaigns.sea --vary waves.significant_steepness 0.02 0.14 6 --vary waves.relative_width 0 0.1 5 --seeds 3
 
 Protocol: every sea is drawn anew for each of --seeds, and runs from rest and from kicks of the buoy, with the same
-waves for all starts. The run from rest gives the loads. In the first three seas, or in more up to two hours or to
---most-hours, it carries a perturbation, whose mean growth is the exponent of the sea. While the exponent is within
-three errors of 0, twice as many seas run from rest, up to --most-hours; in a map only where that is given. The first
-hour of one run is repeated with twice the elements and a quarter of the tolerance. Motions of regular waves up to 1.86
-times the significant height are looked for as in `campaigns.sweep`; the folds between two of them give the forecast of
-a slow envelope. Kicks are drawn by --seed.
+waves for all starts. The run from rest gives the loads. It carries a perturbation in three seas at least, and in as
+many as make up two hours, or --most-hours if that is more; the mean growth of the perturbation is the exponent of the
+sea. While the exponent is within three errors of 0, twice as many seas run from rest, up to --most-hours; in a map only
+where that is given. The first hour of one run is repeated with twice the elements and a quarter of the tolerance.
+Motions of regular waves up to 1.86 times the significant height are looked for as in `campaigns.sweep`; the folds
+between two of them give the forecast of a slow envelope. Kicks are drawn by --seed.
 """
 
 import math
@@ -41,7 +41,7 @@ AS_GIVEN, FINER = "", "finer"
 SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
 FINER_HOURS = 1.0
-EXPONENT_SEAS, EXPONENT_HOURS = 3, 2.0  # at least: the scatter of three seas shows
+EXPONENT_SEAS, EXPONENT_HOURS = 3, 2.0  # with a perturbation, at least: from three seas on their scatter counts
 MOST_HOURS = 12.0
 
 

@@ -41,7 +41,7 @@ from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, nu
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
-ENVELOPE_SAMPLES = 8  # a peak period: it changes over many of them
+ENVELOPE_SAMPLES = 8  # of the envelope of the waves, in a peak period
 WELL_ABOVE = 4.0  # times the noise of the steps: the least distance of two responses
 BLOCK_PERIODS = 20  # of the shortest block of a maximum
 _BITS = "bits/period"
@@ -274,7 +274,7 @@ def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
 def _scatter(digests: Sequence[Digest]) -> float:
     """Range of the largest tensions of all runs in the same waves, over their mean: median over seas of several.
 
-    Of a sea as long as its shortest run: the finer one.
+    The runs in a sea are compared over the length of the shortest one, which is the finer run.
     """
     tensions_N: dict[int, list[np.ndarray]] = {}
     for run in digests:

@@ -158,8 +158,9 @@ def parameters(order: Order) -> dict:
 
 def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
-    several_keys = len(order.options.grid.keys) > 1
-    if not several_keys and not order.options.no_accuracy and any(map(in_regular_waves, order.scenes)):
+    if order.options.no_accuracy or len(order.options.grid.keys) > 1:
+        return
+    if any(map(in_regular_waves, order.scenes)):
         from campaigns.explore.errors import errors
 
         yield errors

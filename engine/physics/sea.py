@@ -212,4 +212,6 @@ def envelope_m(scene: Scene, time_s: np.ndarray) -> np.ndarray:
 def _share_of_ramp(scene, t):
     """Share of their full height that waves have at times t (s)."""
     ramp = scene.waves.ramp_s
-    return np.where(t < ramp, np.sin(0.5 * math.pi * t / ramp) ** 2, 1.0) if ramp > 0.0 else 1.0
+    if ramp == 0.0:
+        return 1.0
+    return np.where(t < ramp, np.sin(0.5 * math.pi * t / ramp) ** 2, 1.0)

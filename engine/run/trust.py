@@ -31,7 +31,7 @@ PRESSED = 0.1  # share of the largest tension: compression below it does not cha
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
 LEAST_NODES = 3  # of a grid with half the elements
 GRID_DECIDES = 0.08  # share by which the largest tension is another one on half the elements
-FOLDED = 0.03  # the same of a line whose folds nothing across it calms: they scatter, so that little may be luck
+FOLDED = 0.03  # the same of a pressed line without drag across it: its folds scatter, a small difference may be luck
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
@@ -174,8 +174,8 @@ def _pressed_together(run, columns):
 
 
 def _compression_N(run, columns):
-    """Largest compression along a line until its largest tension, which depends on it; 0 where that is little of it, or
-    where drag across the line calms its folds."""
+    """Largest compression along a line until its largest tension; 0 where it does not change that tension, because it
+    is below PRESSED of it or because drag across the line calms the folds."""
     high_N = columns["tension_top_high_N"]
     peak = int(high_N.argmax())
     pressed_N = -float(columns["tension_min_N"][: peak + 1].min())
@@ -187,9 +187,9 @@ def _compression_N(run, columns):
 def _coarse_grid(run, columns):
     """Says that half the elements give another largest tension or another slack fraction, or nothing.
 
-    It costs half a run more, and is left out for a buoy in waves, whose runs campaigns refine (docs/trust.md). Of a dry
-    line that folds FOLDED counts: scene 8/27 of benchmarks.random_scenes has 2325 to 2833 N on seven grids and
-    tolerances, and half its elements give 4 % less than it bears.
+    It costs half a run more, and is left out for a buoy in waves, whose runs campaigns refine (docs/trust.md). Why
+    FOLDED: scene 8/27 of benchmarks.random_scenes, a dry line, bears 2325 to 2833 N on seven grids and tolerances, but
+    on half its elements only 4 % less.
     """
     scene, tether = run.scene, run.scene.tether
     in_waves = scene.buoy is not None and scene.waves is not None

@@ -57,6 +57,17 @@ def test_runs_that_share_lanes_go_to_one_worker(tmp_path):
     assert sorted(carrying) == [0, 4]
 
 
+@pytest.mark.parametrize("workers", [2, 3, 4])
+def test_every_worker_gets_runs_though_some_share_no_lanes(tmp_path, workers):
+    words = "--seeds 12 --starts 1 --hours 3 --most-hours 12".split()
+    cases = order_of(sea, *words, "--out", tmp_path / "new").cases
+    plan = Plan(Running(tmp_path, workers), None, None, (), simulate_each=print)
+    groups = groups_of(plan, cases)
+    assert len(groups) == workers and all(groups)
+    shared = [case.key for group in groups for case in group]
+    assert len(set(shared)) == len(shared) == 12
+
+
 def test_all_starts_of_a_sea_have_the_same_waves(small):
     from engine import Trajectory
     from engine.physics.sea import components_of
