@@ -1,7 +1,7 @@
 """How far the tensions of a finished run hold: sentences for its message, each of one cause."""
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -30,8 +30,11 @@ BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the 
 PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
 LEAST_NODES = 3  # of a grid with half the elements
-GRID_DECIDES = 0.08  # share by which the largest tension is another one on half the elements
-FOLDED = 0.03  # the same of a pressed line without drag across it: its folds scatter, a small difference may be luck
+HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction on half the elements: a hint
+GRID_DECIDES = 0.08  # share by which the largest tension is another one there, which needs no finer run
+FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences on twice the elements; HINT where they do not shrink
+NOT_LESS = 0.4  # of the difference on half the elements: then the differences do not shrink as errors do
+EARLY_WAVES = 5
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
@@ -43,23 +46,20 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     columns: of its trajectory.
     """
     record, scene = run.record, run.scene
-    doubts = [
+    inexact = [
         _coarse_at_rest(run),
         _steps_too_long(run, columns),
         blows(record, scene, columns),
         unresolved(record, run.tables, scene, columns),
-        _waves_on_element(run),
-        _out_at_rest(run),
         _undamped(run, columns),
         _unsteady_at_rest(run),
         _pressed_together(run, columns),
-        _coarse_grid(run, columns),
-        _regular_waves(run),
-        *_sea(run, columns),
     ]
     if record["end"] == HELD:
-        doubts.append(words_of_folds(scene, run.state, columns))
-    return "; ".join(filter(None, doubts))
+        inexact.append(words_of_folds(scene, run.state, columns))
+    inexact.append(_other_grids(run, columns, any(inexact)))
+    doubtful = _waves_on_element(run), _out_at_rest(run), _regular_waves(run), *_sea(run, columns)
+    return "; ".join(filter(None, (*inexact, *doubtful)))
 
 
 def _coarse_at_rest(run):
@@ -82,7 +82,7 @@ def _steps_too_long(run, columns):
     if run.record["method"] != ONE_STAGE or solver.courant is not None:
         return ""
     twice = run.scene.with_values("solver", step_s=2 * float(run.record["fixed_step"]))
-    longer = _columns_of_companion(run, twice)
+    longer = _columns_of_companion(run, twice, run.duration_s)
     if longer is None:
         return ""
     largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in (columns, longer))
@@ -123,7 +123,7 @@ def _undamped(run, columns):
     .1); with drag along the line alone, with a thousandth of its drag, or with tether.damping_critical = .1, by less
     than .1 %. A held line needs drag across it: with drag along it alone, the scene 7/50 of benchmarks.random_scenes
     bears 529 to 604 N at most on seven grids and tolerances, and 414.3 to 414.6 N with drag across it. Dry lines have
-    neither; of them half the elements tell (_coarse_grid).
+    neither; of them other grids tell (_other_grids).
     """
     scene, record, tether = run.scene, run.record, run.scene.tether
     if scene.buoy is None:
@@ -184,48 +184,106 @@ def _compression_N(run, columns):
     return pressed_N
 
 
-def _coarse_grid(run, columns):
-    """Says that half the elements give another largest tension or another slack fraction, or nothing.
+def _other_grids(run, columns, told):
+    """Says that another grid and tolerance give another largest tension or another slack fraction, or nothing.
 
-    It costs half a run more, and is left out for a buoy in waves, whose runs campaigns refine (docs/trust.md). Why
-    FOLDED: scene 8/27 of benchmarks.random_scenes, a dry line, bears 2325 to 2833 N on seven grids and tolerances, but
-    on half its elements only 4 % less.
+    Half the elements are tried first, in finer steps. If they differ by a hint, or end early, twice the elements
+    decide, in steps finer still. told: other sentences say already that tensions are not exact; then no finer run is
+    made, and half the elements speak for themselves if they differ by much. They do so too of a line without drag
+    across it that is pressed together: its folds scatter, so that a small difference may be luck (scene 8/27 of
+    benchmarks.random_scenes bears 2325 to 2833 N on ten grids and tolerances).
+
+    Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
+    thousands of others, whose motions they refine (docs/trust.md).
     """
-    scene, tether = run.scene, run.scene.tether
-    in_waves = scene.buoy is not None and scene.waves is not None
-    nodes = tether.nodes // 2 + 1
-    if in_waves or run.started is not None or nodes < LEAST_NODES:
+    scene, duration_s = run.scene, run.duration_s
+    if run.started is not None or scene.tether.nodes // 2 + 1 < LEAST_NODES:
         return ""
-    coarse = _columns_on(run, nodes)
-    if coarse is None:
+    if scene.buoy is not None and scene.waves is not None:
+        if scene.motion.dimensions == 2 and any(scene.start.buoy_velocity_mps):
+            return ""
+        duration_s = min(duration_s, scene.waves.ramp_s + EARLY_WAVES * scene.waves.period_s)
+    coarse = _differences(run, columns, duration_s, 0.5, 10, 2)
+    coarse_share = math.inf  # where that run ended early
+    if coarse is not None:
+        coarse_share = coarse.share
+        if coarse_share <= HINT and coarse.of_slack <= HINT_SLACK:
+            return ""
+        if told:
+            return coarse.words(GRID_DECIDES, NOTED)
+        if _compression_N(run, columns) and coarse_share > FINER_DIFFERS:
+            return coarse.words(FINER_DIFFERS, FINER_SLACK)
+    if told:
         return ""
-    sentences = []
-    largest_N, coarse_N = (float(series["tension_top_high_N"].max()) for series in (columns, coarse))
-    rounding_N = ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2
-    share = FOLDED if _compression_N(run, columns) else GRID_DECIDES
-    if abs(coarse_N - largest_N) > max(share * abs(largest_N), rounding_N):
-        sentences.append(f"the largest tension is {coarse_N:.4g} N in place of {largest_N:.4g} N")
-    slack, coarse_slack = (_slack_share(scene, series) for series in (columns, coarse))
-    if abs(coarse_slack - slack) > NOTED:
-        sentences.append(f"the line is slack for {coarse_slack:.2g} of the time in place of {slack:.2g}")
-    if not sentences:
+    fine = _differences(run, columns, duration_s, 2, 30, 4)
+    if fine is None:
         return ""
-    return f"on {nodes} nodes {' and '.join(sentences)}, so that the grid decides: add nodes until it no longer does"
+    shrinks = fine.share <= NOT_LESS * coarse_share
+    return fine.words(FINER_DIFFERS if shrinks else HINT, FINER_SLACK)
 
 
-def _columns_on(run, nodes):
-    """The columns of the same run on half the elements; None where it ends early."""
-    scene, damping = run.scene, run.scene.tether.damping_critical
+class _Differences(NamedTuple):
+    """Largest tension and slack fraction of a run, and the same on another grid at another tolerance.
+
+    share: difference of the tensions over the first one. settings: of the other run, in words.
+    """
+
+    largest_N: float
+    other_N: float
+    share: float
+    slack: float
+    other_slack: float
+    settings: str
+
+    @property
+    def of_slack(self) -> float:
+        """Difference of the slack fractions."""
+        return abs(self.other_slack - self.slack)
+
+    def words(self, share: float, slack: float) -> str:
+        """What differs by more than a share, or a slack fraction, in a sentence; or nothing."""
+        parts = []
+        if self.share > share:
+            parts.append(f"the largest tension is {self.other_N:.4g} N in place of {self.largest_N:.4g} N")
+        if self.of_slack > slack:
+            parts.append(f"the line is slack for {self.other_slack:.2g} of the time in place of {self.slack:.2g}")
+        if not parts:
+            return ""
+        return f"{self.settings} {' and '.join(parts)}, so that grid or tolerance decide: refine both"
+
+
+def _differences(run, columns, duration_s, elements, tighter, shorter):
+    """How the run differs, until duration_s, from one with so many times the elements, a tolerance so many times
+    tighter and a longest step so many times shorter; None where that one ends early."""
+    scene, tether, solver = run.scene, run.scene.tether, run.scene.solver
+    damping = tether.damping_critical
     if damping is not None:
-        damping = damping / 2  # a share of that of an element: so the damping of the line stays the same
-    coarse_scene = scene.with_values("tether", nodes=nodes, damping_critical=damping)
-    coarse_scene = coarse_scene.model_copy(update={"output": Output(step_s=scene.output.step_s)})
-    return _columns_of_companion(run, coarse_scene)
+        damping *= elements  # a share of that of an element: so the damping of the line stays the same
+    nodes, steps = int(elements * (tether.nodes - 1)) + 1, {}
+    settings = f"on {nodes} nodes"
+    if run.record["adaptive"]:
+        steps = {"rtol": solver.rtol / tighter, "max_step_s": solver.max_step_s / shorter}
+        settings += f" at solver.rtol = {steps['rtol']:.1g} and solver.max_step_s = {steps['max_step_s']:.2g}"
+    if duration_s < run.duration_s:
+        settings += f", in the first {duration_s:.4g} s,"
+    other = scene.with_values("tether", nodes=nodes, damping_critical=damping).with_values("solver", **steps)
+    other = other.model_copy(update={"output": Output(step_s=scene.output.step_s)})
+    other_columns = _columns_of_companion(run, other, duration_s)
+    if other_columns is None:
+        return None
+    count = len(other_columns["time_s"])
+    pair = {name: series[:count] for name, series in columns.items()}, other_columns
+    largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in pair)
+    slack, other_slack = (_slack_share(scene, series) for series in pair)
+    share, difference_N = 0.0, abs(other_N - largest_N)
+    if difference_N > ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2:
+        share = difference_N / max(abs(largest_N), 1e-300)
+    return _Differences(largest_N, other_N, share, slack, other_slack, settings)
 
 
-def _columns_of_companion(run, scene):
-    """The columns of the same run of another scene; None where it ends early."""
-    companion = type(run)(scene, run.duration_s, run.started)
+def _columns_of_companion(run, scene, duration_s):
+    """The columns of the same run of another scene, until duration_s; None where it ends early."""
+    companion = type(run)(scene, duration_s, run.started)
     companion.finish(lambda simulated_s: None)
     if companion.state["status"] != OK:
         return None
