@@ -189,9 +189,9 @@ def _other_grids(run, columns, told):
 
     Half the elements are tried first, in finer steps. If they differ by a hint, or end early, twice the elements
     decide, in steps finer still. told: other sentences say already that tensions are not exact; then no finer run is
-    made, and half the elements speak for themselves if they differ by much. They do so too of a line without drag
-    across it that is pressed together: its folds scatter, so that a small difference may be luck (scene 8/27 of
-    benchmarks.random_scenes bears 2325 to 2833 N on ten grids and tolerances).
+    made, and half the elements speak for themselves if they differ by much. They do so too where a small difference
+    may be luck: of a slack fraction, and of a line without drag across it that is pressed together, because its folds
+    scatter (scene 8/27 of benchmarks.random_scenes bears 2325 to 2833 N on ten grids and tolerances).
 
     Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
     thousands of others, whose motions they refine (docs/trust.md).
@@ -209,7 +209,7 @@ def _other_grids(run, columns, told):
         coarse_share = coarse.share
         if coarse_share <= HINT and coarse.of_slack <= HINT_SLACK:
             return ""
-        if told:
+        if told or coarse.of_slack > NOTED:
             return coarse.words(GRID_DECIDES, NOTED)
         if _compression_N(run, columns) and coarse_share > FINER_DIFFERS:
             return coarse.words(FINER_DIFFERS, FINER_SLACK)

@@ -113,6 +113,8 @@ def parse_assignment(text: str) -> tuple[str, object]:
     try:
         parsed = _parsed(f"value = {value}", f"--set {shown(key)}")
     except tomllib.TOMLDecodeError:
+        if re.fullmatch(r"[+-]?(\.\d+|\d+\.)([eE][+-]?\d+)?", value):
+            return key, float(value)  # TOML asks for a digit on both sides of the dot
         if value.startswith(("{", "[")):
             allowed = "a list or table of TOML, in single quotes or the shell takes its double ones"
             example = "--set 'tether.tension={law=\"linear\", stiffness_N=5e4}'"

@@ -163,7 +163,10 @@ def test_numpy_values_and_whole_numbers_are_numbers():
     assert type(scene.tether.nodes) is int and scene.tether.nodes == 81
 
 
-@pytest.mark.parametrize(("text", "key", "value"), [*TABLES["assignments"], ("waves=none", "waves", None)])
+@pytest.mark.parametrize(("text", "key", "value"), [
+    *TABLES["assignments"], ("waves=none", "waves", None), ("waves.steepness=.13", "waves.steepness", 0.13),
+    ("water.depth_m=21.", "water.depth_m", 21.0), ("title=v.13", "title", "v.13"),
+])  # fmt: skip
 def test_an_assignment_is_a_key_and_a_toml_value(text, key, value):
     computed = parse_assignment(text)
     assert computed == (key, value) and type(computed[1]) is type(value)
