@@ -52,7 +52,10 @@ def _memory(cell: Row, options) -> str:
             )
         return f"{words}; the starts were not seen to come together."
     if sign != "−":
-        return "It is not decided whether this sea makes the buoy forget how it began: use more --most-hours."
+        return (
+            "It is not decided whether this sea makes the buoy forget how it began: --most-hours above "
+            f"{options.most_hours:g} draws more seas."
+        )
     if options.starts < 2:
         return "In this sea the buoy forgets a small difference of the start; with --starts 4 it is seen how fast."
     if not math.isfinite(periods):
@@ -163,7 +166,7 @@ def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
         "are not decided"
     )
     if undecided:
-        words += "; --most-hours draws more seas of these"
+        words += f"; --most-hours above {options.most_hours:g} draws more seas of these"
     yield f"{words}."
     keys = [key.key for key in options.grid.keys]
     for name, words in (

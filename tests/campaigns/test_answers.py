@@ -75,14 +75,14 @@ SEA = {
 }  # fmt: skip
 
 
-OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False)
+OPTIONS = sea.Options(starts=4, slope=5.0, window=10, distance=0.05, no_regular=False, most_hours=12.0)
 
 
 @pytest.mark.parametrize(
     ("entries", "words"),
     [
         ({"sign": "+"}, "never forgets"),
-        ({"sign": "open"}, "not decided"),
+        ({"sign": "open"}, "--most-hours above 12 draws more seas"),
         ({"apart_seas": 8.0}, "more than one response"),
     ],
 )
