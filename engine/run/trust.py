@@ -259,7 +259,7 @@ def _differences(run, columns, duration_s, elements, tighter, shorter):
     damping = tether.damping_critical
     if damping is not None:
         damping *= elements  # a share of that of an element: so the damping of the line stays the same
-    nodes, steps = int(elements * (tether.nodes - 1)) + 1, {}
+    nodes, steps = math.ceil(elements * (tether.nodes - 1)) + 1, {}
     settings = f"on {nodes} nodes"
     if run.record["adaptive"]:
         steps = {"rtol": solver.rtol / tighter, "max_step_s": solver.max_step_s / shorter}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import shlex
 from collections.abc import Iterable, Iterator
@@ -114,7 +115,7 @@ def report_page(folder: Folder, title: str, items: Items, made: Items | None = N
     """A report: its items, and how it was made in an appendix that ends with the provenance.
 
     made: of the appendix, in front of the provenance; None: run times and scene. subtitle: "" for the title of the
-    scene.
+    scene and its water.
     """
     if made is None:
         scene = folder.scene
@@ -124,8 +125,21 @@ def report_page(folder: Folder, title: str, items: Items, made: Items | None = N
         if isinstance(item, Heading):
             item = Heading(item.text, 2)  # it divides the appendix
         appendix.append(item)
-    subtitle = subtitle or folder.scene.title or folder.scene.name
+    subtitle = subtitle or "; ".join([folder.scene.title or folder.scene.name, *_water_of(folder)])
     return Report(title, subtitle, [*flat(items), Heading(APPENDIX), *appendix])
+
+
+def _water_of(folder: Folder) -> Iterator[str]:
+    """Wave period, depth and a uniform current of the scene, in words, but for keys that the campaign varied."""
+    scene, varied = folder.scene, folder.columns
+    if scene.waves is not None and "waves.period_s" not in varied:
+        peak = " at the peak of the spectrum" if scene.waves.irregular else ""
+        yield f"waves of {scene.waves.period_s:g} s{peak}"
+    if scene.water is not None and "water.depth_m" not in varied:
+        yield f"{scene.water.depth_m:g} m of water"
+    if getattr(scene.current, "law", "") == "uniform" and not any(name.startswith("current.") for name in varied):
+        speed_mps = math.hypot(*scene.current.velocity_mps)
+        yield f"a current of {speed_mps:.3g} m/s"
 
 
 def limits(title: str, lines: Iterable[str], nothing: str) -> Notice:

@@ -5,19 +5,23 @@ unchanged folder is not drawn again.
 import re
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.colors import same_color, to_hex
 
 from campaigns.explore.rows import COLUMNS
+from engine import load_scene
 from reports import build, content_of
 from reports.buoy_sweep.figures import evidence_table, orbit_figure
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.orbit_diagram import NARROW_IN, OrbitDiagram, Strobes
 from reports.parts.content import Bullets, Explorer, Figure, Heading, Text, plain
 from reports.parts.first_page import how_long
+from reports.parts.folder import Folder
 from reports.parts.html import render_html
+from reports.parts.provenance import report_page
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
 from tables import printed, read_table
 from tests.campaigns.conftest import rows_of
@@ -26,6 +30,9 @@ from tests.reports.conftest import Page, of_kind, panel_of, points_of, write
 LABELS = "kA", "r (m)"
 VALUES = np.linspace(0.02, 0.16, 29)
 WORDS = ["period-1"] * 20 + ["quasi-periodic"] * 4 + ["chaotic"] * 5
+
+CURRENT = {"current": {"law": "uniform", "velocity_mps": [0.3, 0.0, 0.4]}}
+SEA = {"waves": {"period_s": 5.0, "jonswap": {"significant_height_m": 1.0}}}
 
 
 def columns_of(wide_m=(0.1, 8.0)):
@@ -210,3 +217,20 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
         spoil()
         assert [drawn(), drawn()] == [True, False]
     assert build(sweep, again=True) and len(times) == 9
+
+
+@pytest.mark.parametrize(
+    ("changes", "varied", "words"),
+    [
+        ({}, (), ["waves of 5 s", "21 m of water"]),
+        ({"water.depth_m": 22.5}, ("waves.period_s",), ["22.5 m of water"]),
+        (CURRENT, ("water.depth_m",), ["waves of 5 s", "a current of 0.5 m/s"]),
+        (CURRENT, ("current.velocity_mps[0]",), ["waves of 5 s", "21 m of water"]),
+        (SEA, (), ["waves of 5 s at the peak of the spectrum", "21 m of water"]),
+    ],
+)
+def test_the_water_that_a_campaign_did_not_vary_is_told_below_the_title(changes, varied, words):
+    scene = load_scene("tethered_buoy", changes)
+    folder = Folder(Path(), {}, (), scene, dict.fromkeys(("status", *varied)))
+    report = report_page(folder, "A title", [], ())
+    assert report.subtitle == "; ".join([scene.title, *words])
