@@ -30,11 +30,13 @@ BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the 
 PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
 LEAST_NODES = 3  # of a grid with half the elements
-HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction on half the elements: a hint
-GRID_DECIDES = 0.08  # share by which the largest tension is another one there, which needs no finer run
-FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences on twice the elements; HINT where they do not shrink
-NOT_LESS = 0.4  # of the difference on half the elements: then the differences do not shrink as errors do
-EARLY_WAVES = 5
+# another run of the scene: times the elements, and by how much its tolerance is tighter and its longest step shorter
+COARSE, FINE = (0.5, 10, 2), (2, 30, 4)
+HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction in COARSE that call for FINE
+MUCH_COARSER = 0.08  # difference of the largest tension in COARSE that is told where no FINE is made
+FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences in FINE that are told
+SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
+EARLY_WAVES = 5  # of a buoy that are repeated
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
@@ -187,11 +189,10 @@ def _compression_N(run, columns):
 def _other_grids(run, columns, told):
     """Says that another grid and tolerance give another largest tension or another slack fraction, or nothing.
 
-    Half the elements are tried first, in finer steps. If they differ by a hint, or end early, twice the elements
-    decide, in steps finer still. told: other sentences say already that tensions are not exact; then no finer run is
-    made, and half the elements speak for themselves if they differ by much. They do so too where a small difference
-    may be luck: of a slack fraction, and of a line without drag across it that is pressed together, because its folds
-    scatter (scene 8/27 of benchmarks.random_scenes bears 2325 to 2833 N on ten grids and tolerances).
+    COARSE is run first. If it differs by a hint, or ends early, FINE is run and decides. FINE is not run where COARSE
+    is enough to speak: where other sentences have said already that tensions are not exact (told); where the slack
+    fraction differs, which FINE may meet by luck; and of a line without drag across it that is pressed together,
+    because its folds scatter (scene 8/27 of benchmarks.random_scenes bears 2307 to 2833 N on ten grids and tolerances).
 
     Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
     thousands of others, whose motions they refine (docs/trust.md).
@@ -203,23 +204,25 @@ def _other_grids(run, columns, told):
         if scene.motion.dimensions == 2 and any(scene.start.buoy_velocity_mps):
             return ""
         duration_s = min(duration_s, scene.waves.ramp_s + EARLY_WAVES * scene.waves.period_s)
-    coarse = _differences(run, columns, duration_s, 0.5, 10, 2)
+    coarse = _differences(run, columns, duration_s, *COARSE)
     coarse_share = math.inf  # where that run ended early
     if coarse is not None:
         coarse_share = coarse.share
         if coarse_share <= HINT and coarse.of_slack <= HINT_SLACK:
             return ""
         if told or coarse.of_slack > NOTED:
-            return coarse.words(GRID_DECIDES, NOTED)
+            return coarse.words(MUCH_COARSER, NOTED)
         if _compression_N(run, columns) and coarse_share > FINER_DIFFERS:
             return coarse.words(FINER_DIFFERS, FINER_SLACK)
     if told:
         return ""
-    fine = _differences(run, columns, duration_s, 2, 30, 4)
+    fine = _differences(run, columns, duration_s, *FINE)
     if fine is None:
         return ""
-    shrinks = fine.share <= NOT_LESS * coarse_share
-    return fine.words(FINER_DIFFERS if shrinks else HINT, FINER_SLACK)
+    least = FINER_DIFFERS
+    if fine.share > SHRINKS * coarse_share:
+        least = HINT
+    return fine.words(least, FINER_SLACK)
 
 
 class _Differences(NamedTuple):
@@ -240,12 +243,12 @@ class _Differences(NamedTuple):
         """Difference of the slack fractions."""
         return abs(self.other_slack - self.slack)
 
-    def words(self, share: float, slack: float) -> str:
-        """What differs by more than a share, or a slack fraction, in a sentence; or nothing."""
+    def words(self, least: float, least_slack: float) -> str:
+        """A sentence on the largest tension if its share is above the least, and on the slack fraction; or nothing."""
         parts = []
-        if self.share > share:
+        if self.share > least:
             parts.append(f"the largest tension is {self.other_N:.4g} N in place of {self.largest_N:.4g} N")
-        if self.of_slack > slack:
+        if self.of_slack > least_slack:
             parts.append(f"the line is slack for {self.other_slack:.2g} of the time in place of {self.slack:.2g}")
         if not parts:
             return ""

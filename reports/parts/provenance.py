@@ -137,7 +137,8 @@ def _water_of(folder: Folder) -> Iterator[str]:
         yield f"waves of {scene.waves.period_s:g} s{peak}"
     if scene.water is not None and "water.depth_m" not in varied:
         yield f"{scene.water.depth_m:g} m of water"
-    if getattr(scene.current, "law", "") == "uniform" and not any(name.startswith("current.") for name in varied):
+    varies = any(name.startswith("current.") for name in varied)
+    if scene.current is not None and scene.current.law == "uniform" and not varies:
         speed_mps = math.hypot(*scene.current.velocity_mps)
         yield f"a current of {speed_mps:.3g} m/s"
 
