@@ -1,7 +1,7 @@
 """How far the tensions of a finished run hold: sentences for its message, each of one cause."""
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,35 +10,24 @@ from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_bey
 from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
 from ..physics.strains import tension_at
 from ..physics.waves import MOST_URSELL, breaking_steepness, ursell_number, wave_number
-from ..record import AT_Z, HELD, ONE_STAGE, lengths_of
-from ..scene.models import Output, Scene
+from ..record import AT_Z, HELD, lengths_of
+from ..scene.models import Scene
 from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
 from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
-from ..trajectory.columns import Columns, columns_of
-from .rest import rest_of, static_tension_N
+from ..trajectory.columns import Columns
+from .companions import NOTED, ROUNDING, compression_N, other_grids, steps_too_long
+from .rest import rest_of
 
 if TYPE_CHECKING:
     from . import Run
 
-NOTED = 0.05  # share of the largest tension: a smaller error is not told
 MUCH = 0.5  # share of the energy of a sea
 MANY = 8  # waves from which on a sea is meant to be random
 STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
 FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
-PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
-LEAST_NODES = 3  # of a grid with half the elements
-# another run of the scene: times the elements, and by how much its tolerance is tighter and its longest step shorter
-COARSE, FINE = (0.5, 10, 2), (2, 30, 4)
-HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction in COARSE that call for FINE
-MUCH_COARSER = 0.08  # difference of the largest tension in COARSE that is told where no FINE is made
-FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences in FINE that are told
-SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
-EARLY_WAVES = 5  # of a buoy that are repeated
-ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
-SLACK = 0.05  # of the tension at rest: the line is slack
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
 
@@ -50,7 +39,7 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     record, scene = run.record, run.scene
     inexact = [
         _coarse_at_rest(run),
-        _steps_too_long(run, columns),
+        steps_too_long(run, columns),
         blows(record, scene, columns),
         unresolved(record, run.tables, scene, columns),
         _undamped(run, columns),
@@ -59,7 +48,7 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     ]
     if record["end"] == HELD:
         inexact.append(words_of_folds(scene, run.state, columns))
-    inexact.append(_other_grids(run, columns, any(inexact)))
+    inexact.append(other_grids(run, columns, any(inexact)))
     doubtful = _waves_on_element(run), _out_at_rest(run), _regular_waves(run), *_sea(run, columns)
     return "; ".join(filter(None, (*inexact, *doubtful)))
 
@@ -75,25 +64,6 @@ def _coarse_at_rest(run):
         return ""
     return (
         f"at rest the top bears {top_N:.4g} N on this grid and {finer.top_N:.4g} N on {nodes} nodes: add tether.nodes"
-    )
-
-
-def _steps_too_long(run, columns):
-    """Says what steps twice as long do to the largest tension, of one-stage methods in steps of one length."""
-    solver = run.scene.solver
-    if run.record["method"] != ONE_STAGE or solver.courant is not None:
-        return ""
-    twice = run.scene.with_values("solver", step_s=2 * float(run.record["fixed_step"]))
-    longer = _columns_of_companion(run, twice, run.duration_s)
-    if longer is None:
-        return ""
-    largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in (columns, longer))
-    error_N = abs(other_N - largest_N) / (1 if solver.integrator == "backward-euler" else 3)  # 2^order - 1
-    if error_N <= NOTED * abs(largest_N):
-        return ""
-    return (
-        f"the largest tension, {largest_N:.4g} N, holds to {error_N:.2g} N, because it is {other_N:.4g} N in steps "
-        "twice as long: shorten solver.step_s"
     )
 
 
@@ -125,7 +95,7 @@ def _undamped(run, columns):
     .1); with drag along the line alone, with a thousandth of its drag, or with tether.damping_critical = .1, by less
     than .1 %. A held line needs drag across it: with drag along it alone, the scene 7/50 of benchmarks.random_scenes
     bears 529 to 604 N at most on seven grids and tolerances, and 414.3 to 414.6 N with drag across it. Dry lines have
-    neither; of them other grids tell (_other_grids).
+    neither; of them other grids tell (companions.other_grids).
     """
     scene, record, tether = run.scene, run.record, run.scene.tether
     if scene.buoy is None:
@@ -161,7 +131,7 @@ def _pressed_together(run, columns):
     The fastest buckle under a force P is 2 pi sqrt(2 EI/P) long (Triantafyllou & Howell 1994). Shorter elements let the
     line give way; longer ones bear P. Drag across the line calms this.
     """
-    pressed_N = _compression_N(run, columns)
+    pressed_N = compression_N(run, columns)
     if pressed_N == 0.0:
         return ""
     element_m = float(lengths_of(run.record, run.tables).max())
@@ -173,132 +143,6 @@ def _pressed_together(run, columns):
         f"elements of {element_m:.2g} m cannot buckle as the line does, which is pressed together: without drag across "
         f"the line the largest tension, {largest_N:.4g} N, holds to {pressed_N:.2g} N; add nodes"
     )
-
-
-def _compression_N(run, columns):
-    """Largest compression along a line until its largest tension; 0 where it does not change that tension, because it
-    is below PRESSED of it or because drag across the line calms the folds."""
-    high_N = columns["tension_top_high_N"]
-    peak = int(high_N.argmax())
-    pressed_N = -float(columns["tension_min_N"][: peak + 1].min())
-    if run.record["cn"] > 0.0 or pressed_N <= PRESSED * high_N[peak]:
-        return 0.0
-    return pressed_N
-
-
-def _other_grids(run, columns, told):
-    """Says that another grid and tolerance give another largest tension or another slack fraction, or nothing.
-
-    COARSE is run first. If it differs by a hint, or ends early, FINE is run and decides. FINE is not run where COARSE
-    is enough to speak: where other sentences have said already that tensions are not exact (told); where the slack
-    fraction differs, which FINE may meet by luck; and of a line without drag across it that is pressed together,
-    because its folds scatter (scene 8/27 of benchmarks.random_scenes bears 2307 to 2833 N on ten grids and tolerances).
-
-    Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
-    thousands of others, whose motions they refine (docs/trust.md).
-    """
-    scene, duration_s = run.scene, run.duration_s
-    if run.started is not None or scene.tether.nodes // 2 + 1 < LEAST_NODES:
-        return ""
-    if scene.buoy is not None and scene.waves is not None:
-        if scene.motion.dimensions == 2 and any(scene.start.buoy_velocity_mps):
-            return ""
-        duration_s = min(duration_s, scene.waves.ramp_s + EARLY_WAVES * scene.waves.period_s)
-    coarse = _differences(run, columns, duration_s, *COARSE)
-    coarse_share = math.inf  # where that run ended early
-    if coarse is not None:
-        coarse_share = coarse.share
-        if coarse_share <= HINT and coarse.of_slack <= HINT_SLACK:
-            return ""
-        if told or coarse.of_slack > NOTED:
-            return coarse.words(MUCH_COARSER, NOTED)
-        if _compression_N(run, columns) and coarse_share > FINER_DIFFERS:
-            return coarse.words(FINER_DIFFERS, FINER_SLACK)
-    if told:
-        return ""
-    fine = _differences(run, columns, duration_s, *FINE)
-    if fine is None:
-        return ""
-    least = FINER_DIFFERS
-    if fine.share > SHRINKS * coarse_share:
-        least = HINT
-    return fine.words(least, FINER_SLACK)
-
-
-class _Differences(NamedTuple):
-    """Largest tension and slack fraction of a run, and the same on another grid at another tolerance.
-
-    share: difference of the tensions over the first one. settings: of the other run, in words.
-    """
-
-    largest_N: float
-    other_N: float
-    share: float
-    slack: float
-    other_slack: float
-    settings: str
-
-    @property
-    def of_slack(self) -> float:
-        """Difference of the slack fractions."""
-        return abs(self.other_slack - self.slack)
-
-    def words(self, least: float, least_slack: float) -> str:
-        """A sentence on the largest tension if its share is above the least, and on the slack fraction; or nothing."""
-        parts = []
-        if self.share > least:
-            parts.append(f"the largest tension is {self.other_N:.4g} N in place of {self.largest_N:.4g} N")
-        if self.of_slack > least_slack:
-            parts.append(f"the line is slack for {self.other_slack:.2g} of the time in place of {self.slack:.2g}")
-        if not parts:
-            return ""
-        return f"{self.settings} {' and '.join(parts)}, so that grid or tolerance decide: refine both"
-
-
-def _differences(run, columns, duration_s, elements, tighter, shorter):
-    """How the run differs, until duration_s, from one with so many times the elements, a tolerance so many times
-    tighter and a longest step so many times shorter; None where that one ends early."""
-    scene, tether, solver = run.scene, run.scene.tether, run.scene.solver
-    damping = tether.damping_critical
-    if damping is not None:
-        damping *= elements  # a share of that of an element: so the damping of the line stays the same
-    nodes, steps = math.ceil(elements * (tether.nodes - 1)) + 1, {}
-    settings = f"on {nodes} nodes"
-    if run.record["adaptive"]:
-        steps = {"rtol": solver.rtol / tighter, "max_step_s": solver.max_step_s / shorter}
-        settings += f" at solver.rtol = {steps['rtol']:.1g} and solver.max_step_s = {steps['max_step_s']:.2g}"
-    if duration_s < run.duration_s:
-        settings += f", in the first {duration_s:.4g} s,"
-    other = scene.with_values("tether", nodes=nodes, damping_critical=damping).with_values("solver", **steps)
-    other = other.model_copy(update={"output": Output(step_s=scene.output.step_s)})
-    other_columns = _columns_of_companion(run, other, duration_s)
-    if other_columns is None:
-        return None
-    count = len(other_columns["time_s"])
-    pair = {name: series[:count] for name, series in columns.items()}, other_columns
-    largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in pair)
-    slack, other_slack = (_slack_share(scene, series) for series in pair)
-    share, difference_N = 0.0, abs(other_N - largest_N)
-    if difference_N > ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2:
-        share = difference_N / max(abs(largest_N), 1e-300)
-    return _Differences(largest_N, other_N, share, slack, other_slack, settings)
-
-
-def _columns_of_companion(run, scene, duration_s):
-    """The columns of the same run of another scene, until duration_s; None where it ends early."""
-    companion = type(run)(scene, duration_s, run.started)
-    companion.finish(lambda simulated_s: None)
-    if companion.state["status"] != OK:
-        return None
-    return columns_of(companion.output.samples[: companion.goal], scene)
-
-
-def _slack_share(scene, columns):
-    """Share of the samples in which the top bears at most SLACK of its tension at rest; 0 where it bears none there."""
-    rest_N = static_tension_N(scene, columns)
-    if not rest_N > 0.0:  # NaN without an equilibrium
-        return 0.0
-    return float(np.mean(columns["tension_top_N"] <= SLACK * rest_N))
 
 
 def _regular_waves(run):

@@ -7,7 +7,7 @@ import pytest
 
 from engine import simulate
 from engine.parameters.scales import jumps_of
-from engine.run import Run, trust
+from engine.run import Run, companions
 from engine.run.trust import blows, errors_of_ringing, unresolved
 from tests.engine.lines import DRY, STILL, held, line, linear, ran
 
@@ -226,13 +226,16 @@ def test_the_first_waves_tell_of_a_grid_too_coarse_for_a_light_buoy(steepness, n
 
 
 def test_a_run_from_a_kick_in_waves_is_not_repeated(monkeypatch):
-    monkeypatch.setattr(trust, "_differences", None)  # to call it is an error
+    monkeypatch.setattr(companions, "_differences", None)  # to call it is an error
     scene = line({"waves.steepness": 0.1, "start.buoy_velocity_mps": [1.0, 0.0, 0.0], "tether.nodes": 11})
     assert ran(scene, duration_s=1.0).message == ""
 
 
 @pytest.mark.parametrize("coarse, fine, water, pressed_N, told, words", [
     (1.0, 9.0, STILL, 0.0, False, ""),  # no hint: no finer run
+    (1.0, 9.0, DRY, 0.0, False, "fine"),  # nothing calms waves across the line
+    (1.0, 2.0, DRY, 0.0, False, "fine"),  # the differences do not shrink
+    (1.0, 0.3, DRY, 0.0, False, ""),
     (2.0, 4.0, STILL, 0.0, False, "fine"),
     (9.0, 2.0, STILL, 0.0, False, ""),  # the finer run decides
     (4.0, 2.0, STILL, 0.0, False, "fine"),  # the differences do not shrink
@@ -250,8 +253,8 @@ def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, to
 
     def differences(run, columns, duration_s, elements, tighter, shorter):
         name, share = others[elements]
-        return trust._Differences(100.0, 100.0 + share, share / 100.0, 0.0, 0.0, name)
+        return companions._Differences(100.0, 100.0 + share, share / 100.0, 0.0, 0.0, name)
 
-    monkeypatch.setattr(trust, "_differences", differences)
-    sentence = trust._other_grids(run, columns, told)
+    monkeypatch.setattr(companions, "_differences", differences)
+    sentence = companions.other_grids(run, columns, told)
     assert sentence.startswith(words) and bool(sentence) == bool(words)
