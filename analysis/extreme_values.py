@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 
 from analysis.sampling import ON_SAMPLE, checked_not_negative, checked_positive, checked_series, record_of_numbers
 
+RESOLVED = 25  # samples from crossing to crossing, on average: with fewer a crossing is anywhere between its samples
+
 
 @record_of_numbers
 class SlackFraction:
@@ -39,7 +41,9 @@ def slack_fraction(
 
         fraction = 1/t_r * measure{ t : T(t) <= threshold },   T linear between samples
 
-    Crossings are interpolated, so the error is O(step^2) while the tension is smooth; it is not the share of samples.
+    Crossings are interpolated, so the error is O(step^2) while the tension is smooth. Of a record with fewer than
+    RESOLVED samples a crossing it is the share of its samples: there the line snaps within a step, and a chord from a
+    slack sample to a snap would end the slack half a step too early, at every crossing.
 
     tension_N (n,)   samples from t = 0 [N]
     step_s           sampling step [s]
@@ -61,8 +65,10 @@ def slack_fraction(
     left, right = x[:-1], x[1:]
     below = ((left <= 0.0) & (right <= 0.0)).astype(float)
     crossing = (left <= 0.0) != (right <= 0.0)
-    depth = np.abs(np.minimum(left, right)[crossing])
-    below[crossing] = depth / (depth + np.maximum(left, right)[crossing])
+    below[crossing] = 0.5
+    if len(x) >= RESOLVED * np.count_nonzero(crossing):
+        depth = np.abs(np.minimum(left, right)[crossing])
+        below[crossing] = depth / (depth + np.maximum(left, right)[crossing])
     slack_s, record_s = np.sum(below * np.diff(time_s)), time_s[-1] - time_s[0]
     return SlackFraction(min(slack_s / record_s, 1.0), slack_s, record_s)
 

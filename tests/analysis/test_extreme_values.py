@@ -35,14 +35,22 @@ def test_a_cosine_is_below_a_level_for_one_minus_arccos_over_pi(threshold, sampl
 def test_time_at_the_level_counts():
     """A tension-only tether is slack at exactly zero."""
     assert slack_fraction([0.0, 0.0, 0.0], 1.0).fraction == 1.0
-    assert slack_fraction([1.0, 0.0, 0.0, 1.0], 1.0).fraction == pytest.approx(1 / 3)
+    assert slack_fraction(np.repeat([1.0, 0.0, 1.0], 40), 1.0).fraction == pytest.approx(39 / 119)
     assert slack_fraction([1.0, 2.0, 1.0], 1.0).fraction == 0.0
+
+
+@pytest.mark.parametrize("step_s", [0.05, 0.02, 0.004, 0.001])
+def test_snaps_within_a_step_do_not_end_the_slack_early(step_s):
+    """A tension just below the level for 0.6 of the time, and high above it for the rest of each 0.0873 s."""
+    t = step_s * np.arange(round(40.0 / step_s))
+    tension_N = np.where(t % 0.0873 < 0.6 * 0.0873, -1e-3, 1e4)
+    assert slack_fraction(tension_N, step_s).fraction == pytest.approx(0.6, abs=0.02)
 
 
 @pytest.mark.parametrize("transient", [0.0, 0.8, 1.0, 2.35])
 def test_a_transient_is_left_out_to_the_moment_even_between_samples(transient):
     """A straight line from -1 to 4 over 5 s is slack until 1 s."""
-    result = slack_fraction(np.arange(-1.0, 5.0), 1.0, transient_s=transient)
+    result = slack_fraction(np.linspace(-1.0, 4.0, 101), 0.05, transient_s=transient)
     assert result.record_s == 5.0 - transient and result.slack_s == pytest.approx(max(1.0 - transient, 0.0))
     assert result.fraction == pytest.approx(max(1.0 - transient, 0.0) / (5.0 - transient), abs=1e-15)
 
