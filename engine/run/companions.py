@@ -20,7 +20,9 @@ LEAST_NODES = 3  # of a grid with half the elements
 # another run of the scene: times the elements, and by how much its tolerance is tighter and its longest step shorter
 COARSE, FINE = (0.5, 10, 2), (2, 30, 4)
 HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction in COARSE that call for FINE
-MUCH_COARSER = 0.08  # difference of the largest tension in COARSE that is told where no FINE is made
+NEAR, NEAR_SLACK = 0.05, 0.03  # differences in COARSE up to which FINE may refute a bound that was told
+SCATTERED_SLACK = 0.03  # between the least and the largest slack fraction of three runs: it is told
+MUCH_COARSER = 0.08  # difference of the largest tension in COARSE that is told where FINE is not run
 FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences in FINE that are told
 SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
 EARLY_WAVES = 5  # of a buoy that are repeated
@@ -47,46 +49,67 @@ def steps_too_long(run: "Run", columns: Columns) -> str:
     )
 
 
-def other_grids(run: "Run", columns: Columns, told: bool) -> str:
-    """Says that another grid and tolerance give another largest tension or another slack fraction, or nothing.
+def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> tuple[str, bool]:
+    """A sentence on another largest tension or slack fraction of another grid and tolerance, or nothing; and whether
+    both other runs have the same ones, so that no bound which folds put on the largest tension needs telling.
 
-    COARSE is run first. If it differs by a hint, or ends early, FINE is run and decides. Of a line without drag across
-    it FINE is always run, because nothing calms its waves across, and COARSE may agree by luck (scene 19/15 of
-    benchmarks.random_scenes bears 944 N, 949 N in COARSE, 874 N in FINE). FINE is not run where COARSE is enough to
-    speak: where other sentences have said already that tensions are not exact (told); where the slack fraction differs,
-    which FINE may meet by luck; and of a line without drag across it that is pressed together, because its folds
-    scatter (scene 8/27 bears 2307 to 2833 N on ten grids and tolerances).
+    told: other sentences have said already that tensions are not exact; bounded: some of them say so only because the
+    line folds. COARSE is run first. If it differs by a hint, or ends early, FINE is run and decides. FINE also is run
+
+    - of a line without drag across it, because nothing calms its waves across, and COARSE may agree by luck (scene
+      19/15 of benchmarks.random_scenes bears 944 N, 949 N in COARSE, 874 N in FINE);
+    - where a bound was told and COARSE is NEAR: if FINE is nearer still, the bound is too wide. (A bound that lost
+      ringing puts is no such one, because all three runs may lose it.)
+
+    COARSE alone speaks where other sentences have; where the slack fraction differs, which FINE may meet by luck; and
+    of a line without drag across it that is pressed together, because its folds scatter (scene 8/27 bears 2307 to
+    2833 N on ten grids and tolerances). A slack fraction that scatters over all three runs is told too.
 
     Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
     thousands of others, whose motions they refine (docs/trust.md).
     """
     scene, duration_s = run.scene, run.duration_s
     if run.started is not None or scene.tether.nodes // 2 + 1 < LEAST_NODES:
-        return ""
+        return "", False
     if scene.buoy is not None and scene.waves is not None:
         if scene.motion.dimensions == 2 and any(scene.start.buoy_velocity_mps):
-            return ""
+            return "", False
         duration_s = min(duration_s, scene.waves.ramp_s + EARLY_WAVES * scene.waves.period_s)
+        bounded = False  # of the whole run
     coarse = _differences(run, columns, duration_s, *COARSE)
-    coarse_share = math.inf  # where that run ended early
-    if coarse is not None:
+    if coarse is None:
+        coarse_share = math.inf
+    else:
         coarse_share = coarse.share
-        agrees = coarse_share <= HINT and coarse.of_slack <= HINT_SLACK
-        if agrees and run.record["cn"] > 0.0:
-            return ""
-        if told or coarse.of_slack > NOTED:
-            return coarse.words(MUCH_COARSER, NOTED)
+        if coarse.within(HINT, HINT_SLACK) and run.record["cn"] > 0.0 and not bounded:
+            return "", False
+        refuted = bounded and coarse.within(NEAR, NEAR_SLACK)
+        if (told and not refuted) or coarse.of_slack > NOTED:
+            return coarse.words(MUCH_COARSER, NOTED), False
         if compression_N(run, columns) and coarse_share > FINER_DIFFERS:
-            return coarse.words(FINER_DIFFERS, FINER_SLACK)
-    if told:
-        return ""
+            return coarse.words(FINER_DIFFERS, FINER_SLACK), False
+    if told and coarse is None:
+        return "", False
     fine = _differences(run, columns, duration_s, *FINE)
     if fine is None:
-        return ""
+        return "", False
     least = FINER_DIFFERS
     if fine.share > SHRINKS * coarse_share:
         least = HINT
-    return fine.words(least, FINER_SLACK)
+    words = fine.words(least, FINER_SLACK)
+    if not words and coarse is not None:
+        words = _scattered(coarse, fine)
+    return words, coarse is not None and not words and fine.within(HINT, HINT_SLACK)
+
+
+def _scattered(coarse, fine):
+    """Says that the slack fractions of three runs lie far apart, though both others are near the first; or nothing."""
+    slack = fine.slack, fine.other_slack, coarse.other_slack
+    if max(slack) - min(slack) <= SCATTERED_SLACK:
+        return ""
+    if coarse.of_slack > fine.of_slack:
+        return coarse.words(math.inf, 0.0)
+    return fine.words(math.inf, 0.0)
 
 
 class _Differences(NamedTuple):
@@ -106,6 +129,10 @@ class _Differences(NamedTuple):
     def of_slack(self) -> float:
         """Difference of the slack fractions."""
         return abs(self.other_slack - self.slack)
+
+    def within(self, share: float, of_slack: float) -> bool:
+        """Whether neither tensions nor slack fractions differ by more."""
+        return self.share <= share and self.of_slack <= of_slack
 
     def words(self, least: float, least_slack: float) -> str:
         """A sentence on the largest tension if its share is above the least, and on the slack fraction; or nothing."""

@@ -42,15 +42,19 @@ def doubts_of(run: "Run", columns: Columns) -> str:
         steps_too_long(run, columns),
         blows(record, scene, columns),
         unresolved(record, run.tables, scene, columns),
-        _undamped(run, columns),
         _unsteady_at_rest(run),
-        _pressed_together(run, columns),
     ]
-    if record["end"] == HELD:
-        inexact.append(words_of_folds(scene, run.state, columns))
-    inexact.append(other_grids(run, columns, any(inexact)))
+    bounds = [_undamped(run, columns), _pressed_together(run, columns), _folded(run, columns)]
+    others, agree = other_grids(run, columns, any(inexact + bounds), any(bounds))
+    if not agree:
+        inexact += bounds
     doubtful = _waves_on_element(run), _out_at_rest(run), _regular_waves(run), *_sea(run, columns)
-    return "; ".join(filter(None, (*inexact, *doubtful)))
+    return "; ".join(filter(None, (*inexact, others, *doubtful)))
+
+
+def _folded(run, columns):
+    """What folds that are smaller than an element say of a held line (`words_of_folds`), or nothing."""
+    return words_of_folds(run.scene, run.state, columns) if run.record["end"] == HELD else ""
 
 
 def _coarse_at_rest(run):

@@ -7,8 +7,9 @@ import pytest
 
 from engine import simulate
 from engine.parameters.scales import jumps_of
-from engine.run import Run, companions
+from engine.run import Run, companions, trust
 from engine.run.trust import blows, errors_of_ringing, unresolved
+from engine.trajectory.columns import columns_of
 from tests.engine.lines import DRY, STILL, held, line, linear, ran
 
 RINGING_N, LENGTH_M, EA = 500.0, 20.0, 1e8
@@ -231,30 +232,65 @@ def test_a_run_from_a_kick_in_waves_is_not_repeated(monkeypatch):
     assert ran(scene, duration_s=1.0).message == ""
 
 
-@pytest.mark.parametrize("coarse, fine, water, pressed_N, told, words", [
-    (1.0, 9.0, STILL, 0.0, False, ""),  # no hint: no finer run
-    (1.0, 9.0, DRY, 0.0, False, "fine"),  # nothing calms waves across the line
-    (1.0, 2.0, DRY, 0.0, False, "fine"),  # the differences do not shrink
-    (1.0, 0.3, DRY, 0.0, False, ""),
-    (2.0, 4.0, STILL, 0.0, False, "fine"),
-    (9.0, 2.0, STILL, 0.0, False, ""),  # the finer run decides
-    (4.0, 2.0, STILL, 0.0, False, "fine"),  # the differences do not shrink
-    (9.0, None, STILL, 0.0, True, "coarse"),
-    (5.0, None, STILL, 0.0, True, ""),
-    (4.0, None, DRY, 20.0, False, "coarse"),  # folds that scatter
-    (4.0, 1.0, DRY, 5.0, False, ""),
-    (4.0, 1.0, STILL, 20.0, False, ""),  # drag calms the folds
-])  # fmt: skip
-def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, told, words, monkeypatch):
-    """coarse, fine: differences in per cent; None: this run is not to be made."""
+def compared(others, water, pressed_N, told, monkeypatch):
+    """What `other_grids` says if the other runs, coarse or fine, have these differences, in per cent: of the largest
+    tension, then of a slack fraction of 40 %. A run that is not listed is not to be made."""
     run = Run(line(water, SLACK, {"water.depth_m": 60.0} if water is STILL else {}), 0.1)
     columns = {"tension_top_high_N": np.array([9.0, 100.0]), "tension_min_N": np.array([-pressed_N, 0.0])}
-    others = {0.5: ("coarse", coarse), 2: ("fine", fine)}
 
     def differences(run, columns, duration_s, elements, tighter, shorter):
-        name, share = others[elements]
-        return companions._Differences(100.0, 100.0 + share, share / 100.0, 0.0, 0.0, name)
+        name = "coarse" if elements < 1 else "fine"
+        share, slack = (others[name], 0.0) if np.isscalar(others[name]) else others[name]
+        return companions._Differences(100.0, 100.0 + share, share / 100.0, 0.4, 0.4 + slack / 100.0, name)
 
     monkeypatch.setattr(companions, "_differences", differences)
-    sentence = companions.other_grids(run, columns, told)
+    return companions.other_grids(run, columns, bool(told), told == "bounded")
+
+
+@pytest.mark.parametrize("coarse, fine, water, pressed_N, told, words", [
+    (1.0, None, STILL, 0.0, "", ""),  # no hint: no finer run
+    (1.0, 9.0, DRY, 0.0, "", "fine"),  # nothing calms waves across the line
+    (1.0, 2.0, DRY, 0.0, "", "fine"),  # the differences do not shrink
+    (1.0, 0.3, DRY, 0.0, "", ""),
+    (2.0, 4.0, STILL, 0.0, "", "fine"),
+    (9.0, 2.0, STILL, 0.0, "", ""),  # the finer run decides
+    (4.0, 2.0, STILL, 0.0, "", "fine"),  # the differences do not shrink
+    (9.0, None, STILL, 0.0, "measured", "coarse"),
+    (4.0, None, STILL, 0.0, "measured", ""),
+    (9.0, None, STILL, 0.0, "bounded", "coarse"),
+    (6.0, None, STILL, 0.0, "bounded", ""),  # too far from the run to refute a bound
+    (4.0, 5.0, STILL, 0.0, "bounded", "fine"),
+    (4.0, None, DRY, 20.0, "", "coarse"),  # folds that scatter
+    (4.0, 1.0, DRY, 5.0, "", ""),
+    (4.0, 1.0, STILL, 20.0, "", ""),  # drag calms the folds
+    ((0.0, 6.0), None, STILL, 0.0, "", "coarse"),  # of the slack fraction
+    ((0.0, 3.0), (0.0, 4.5), STILL, 0.0, "", "fine"),
+    ((0.0, 2.5), (0.0, -1.0), STILL, 0.0, "", "coarse"),  # three runs scatter
+    ((0.0, 2.5), (0.0, 1.0), STILL, 0.0, "", ""),
+])  # fmt: skip
+def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, told, words, monkeypatch):
+    others = {"coarse": coarse} if fine is None else {"coarse": coarse, "fine": fine}
+    sentence, _ = compared(others, water, pressed_N, told, monkeypatch)
     assert sentence.startswith(words) and bool(sentence) == bool(words)
+
+
+@pytest.mark.parametrize("coarse, fine, told, agree", [
+    (1.0, 1.0, "bounded", True),
+    (4.0, 1.0, "bounded", True),
+    (4.0, 1.6, "bounded", False),
+    ((1.0, 1.0), (1.0, 2.1), "bounded", False),
+    (4.0, 1.0, "measured", False),  # another run has shown that it is not exact
+])  # fmt: skip
+def test_a_bound_is_refuted_where_both_others_have_the_same_tension(coarse, fine, told, agree, monkeypatch):
+    assert compared({"coarse": coarse, "fine": fine}, STILL, 0.0, told, monkeypatch)[1] == agree
+
+
+@pytest.mark.parametrize("agree", [False, True])
+def test_a_refuted_bound_is_not_told_but_lost_ringing_is(agree, monkeypatch):
+    monkeypatch.setattr(trust, "other_grids", lambda *_: ("", agree))
+    monkeypatch.setattr(trust, "words_of_folds", lambda *_: "folds")
+    monkeypatch.setattr(trust, "unresolved", lambda *_: "ringing")
+    run = Run(line(DRY, SLACK), 0.1)
+    run.finish(lambda simulated_s: None)
+    columns = columns_of(run.output.samples[: run.goal], run.scene)
+    assert trust.doubts_of(run, columns) == ("ringing" if agree else "ringing; folds")
