@@ -278,16 +278,7 @@ class Study:
         """
         if self.perform is not None:
             return self.perform(order)
-        together = None
-        if order.simulate is None:
-            order.simulate = engine.simulate
-            if self.together:
-                together = engine.simulate_each
-        measures = self.measures(order)
-        maker = ""
-        if measures.sources:
-            maker = made_by(dict(measures.settings), *measures.sources)
-        plan = Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
+        plan = self.plan(order)
         write_scene(order.how.out, self.name, order.cases)
         further_steps = list(self.beside(order))
         steps = 1 + len(further_steps)
@@ -299,6 +290,19 @@ class Study:
                 summary.times["analysis_s"] += step(plan, summary)
         summary.times["run_s"] += time.perf_counter() - began
         return summary
+
+    def plan(self, order: Order) -> Plan:
+        """How the runs of the order are done, and what a row of each says."""
+        together = None
+        if order.simulate is None:
+            order.simulate = engine.simulate
+            if self.together:
+                together = engine.simulate_each
+        measures = self.measures(order)
+        maker = ""
+        if measures.sources:
+            maker = made_by(dict(measures.settings), *measures.sources)
+        return Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
 
     def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""

@@ -9,7 +9,8 @@ Protocol: every sea is drawn anew for each of --seeds, and runs from rest and fr
 waves for all starts. The run from rest gives the loads. It carries a perturbation in three seas at least, and in as
 many as make up two hours, or --most-hours if that is more; the mean growth of the perturbation is the exponent of the
 sea. While the exponent is within three errors of 0, twice as many seas run from rest, up to --most-hours; in a map only
-where that is given. The first hour of one run is repeated with twice the elements and a quarter of the tolerance.
+where that is given. The first quarter of an hour of up to four runs, an hour in all at most, is repeated with twice the
+elements and a quarter of the tolerance.
 Motions of regular waves up to 1.86 times the significant height are looked for as in `campaigns.sweep`; the folds
 between two of them give the forecast of a slow envelope. Kicks are drawn by --seed.
 """
@@ -40,7 +41,7 @@ SHARE = cli.number("a number between 0 and 1", lambda value: 0.0 < value < 1.0)
 AS_GIVEN, FINER = "", "finer"
 SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
-FINER_HOURS = 1.0
+FINER_HOURS, FINER_SEAS = 0.25, 4  # of each finer run, and the most of them
 EXPONENT_SEAS, EXPONENT_HOURS = 3, 2.0  # with a perturbation, at least: from three seas on their scatter counts
 MOST_HOURS = 12.0
 
@@ -118,7 +119,7 @@ def usual_sea(order: Order) -> dict:
 
 
 def cases(order: Order) -> Iterator[Job]:
-    """Every start in every sea of every state; one of a single state once more, on a finer grid."""
+    """Every start in every sea of every state; a few of a single state once more, on a finer grid."""
     options: Options = order.options
     options.grid.refuse_set(order)
     taken = [key for key in options.grid.keys if key.name in STUDY.taken]
@@ -148,6 +149,11 @@ def cases(order: Order) -> Iterator[Job]:
 def seas_with_exponent(options: Options) -> int:
     """Seas of a state whose run from rest carries a perturbation, which nearly doubles the cost of the run."""
     return max(EXPONENT_SEAS, math.ceil(max(EXPONENT_HOURS, options.most_hours) / options.hours))
+
+
+def finer_seas(options: Options) -> int:
+    """Seas of a single state whose run from rest is repeated with finer elements and steps."""
+    return min(FINER_SEAS, seas_with_exponent(options), max(1, int(options.hours / FINER_HOURS)))
 
 
 def _seed_key(scene) -> str | None:
@@ -184,7 +190,7 @@ def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterat
             labels = {**place, "solver": AS_GIVEN, "sea": seed, "start": start}
             labels |= {"kick_x_mps": x_mps, "kick_z_mps": z_mps}
             yield Job(labels, scene, duration_s=duration_s)
-            if seed == 1 and start == 0 and not options.grid.keys:
+            if seed <= finer_seas(options) and start == 0 and not options.grid.keys:
                 finer_scene = finer(scene, FINER_ELEMENTS, FINER_STEPS)
                 finer_s = transient_s + min(options.hours, FINER_HOURS) * 3600.0
                 yield Job({**labels, "solver": FINER}, finer_scene, duration_s=finer_s)
@@ -192,9 +198,12 @@ def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterat
 
 def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: a state whose exponent has no clear sign gets twice as many seas, again and again."""
+    from campaigns.sea.regular import regular_ahead
     from campaigns.sea.rows import unclear_places
 
     options: Options = order.options
+    if not options.no_regular:
+        regular_ahead(order, plan)
     summary = run(plan, jobs)
     seeds, most = options.seeds, int(options.most_hours / options.hours)
     while seeds < most:

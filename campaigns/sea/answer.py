@@ -143,7 +143,7 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         agrees = "agrees"
         if abs(finer - value) > 2.0 * math.hypot(error, finer_error):
             agrees = "does NOT agree"
-        yield f"The exponent of a finer run {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
+        yield f"The exponent of finer runs {agrees}: {finer:+.3f} ± {finer_error:.3f} bits a peak period."
     scatter = cell["load_scatter"]
     if scatter > SCATTERED:
         yield (

@@ -53,8 +53,8 @@ COLUMNS = (
     Column("starts", "", "starts", "starts in each sea", 0),
     *TANGENT,
     Column("sign", "", "sign", "of the exponent: +, − or open, by two standard errors", None),
-    Column("finer_bits_per_period", _BITS, "σ finer", "exponent of the run marked finer", 3, SHEET),
-    Column("finer_error", _BITS, "± σ finer", "standard error of the exponent of the finer run", 3, SHEET),
+    Column("finer_bits_per_period", _BITS, "σ finer", "exponent of the runs marked finer", 3, SHEET),
+    Column("finer_error", _BITS, "± σ finer", "standard error of the exponent of the finer runs", 3, SHEET),
     GROWING,
     Column("responses_mean", "", "responses", "mean number of different responses after the transient", 2),
     Column("together_periods", "periods", "together", "median time at which all starts are first one response", 0),
@@ -228,8 +228,9 @@ def _exponent(rest: Sequence[Digest], finer: Sequence[Digest], options) -> Row:
         row["sign"] = "+" if exponent.value > 0.0 else "−"
     shares = [growing_share(turned(growth, options.transient), options.window) for growth in growths]
     row[GROWING.name] = float(np.mean(shares))
-    for run in finer:
-        check = sea_lyapunov([run.growth_nats], options.transient)
+    checks = [run.growth_nats for run in finer if run.growth_nats is not None]
+    if checks:
+        check = sea_lyapunov(checks, options.transient)
         row |= {"finer_bits_per_period": check.value, "finer_error": check.error}
     return row
 
@@ -274,7 +275,7 @@ def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
 def _scatter(digests: Sequence[Digest]) -> float:
     """Range of the largest tensions of all runs in the same waves, over their mean: median over seas of several.
 
-    The runs in a sea are compared over the length of the shortest one, which is the finer run.
+    The runs in a sea are compared over the length of the shortest one, which is a finer run.
     """
     tensions_N: dict[int, list[np.ndarray]] = {}
     for run in digests:

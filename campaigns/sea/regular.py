@@ -11,12 +11,14 @@ from operator import itemgetter
 
 import numpy as np
 
+import engine
 from analysis import slow_forecast
 from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
 from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Plan, Summary
+from campaigns.machinery.runner import spare_groups
 from campaigns.study import Order
 from engine.views import carries_tangents
 from tables import PEAK, Rows, number_of
@@ -57,12 +59,12 @@ def one_set(order: Order) -> bool:
     return all(key.key.startswith(SEA_KEYS) for key in order.options.grid.keys)
 
 
-def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
-    """Do the sweep of regular waves; nothing where the states of a map have none in common. Returns seconds."""
+def regular_order(order: Order) -> Order | None:
+    """The order of a sweep over regular waves; None where the states of a map have none in common."""
     from campaigns import sweep
 
     if not one_set(order):
-        return 0.0
+        return None
     heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
     scene = order.scenes[0]
     top_m = min(0.5 * DESIGN * heights_m[-1], BELOW_BREAKING * _breaking_m(scene))
@@ -87,10 +89,30 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
         seed=order.options.seed,
         no_accuracy=True,
     )
+    waves.simulate = None if order.simulate is engine.simulate else order.simulate
+    return waves
+
+
+def regular_ahead(order: Order, plan: Plan) -> None:
+    """Let workers that would wait for the last runs in a sea do those of regular waves from rest."""
+    from campaigns import sweep
+
+    waves = regular_order(order)
+    if waves is not None and not waves.faults:
+        plan.spare.extend(spare_groups(sweep.STUDY.plan(waves), waves.how.out, waves.cases))
+
+
+def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
+    """Do the sweep of regular waves; nothing where the states of a map have none in common. Returns seconds."""
+    from campaigns import sweep
+
+    waves = regular_order(order)
+    if waves is None:
+        return 0.0
     if waves.faults:
         raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")
-    (how.out / "trajectories").mkdir(parents=True, exist_ok=True)
-    waves.simulate = None if plan.simulate_each is not None else order.simulate
+    plan.spare.clear()  # what is left of `regular_ahead` is done here
+    (waves.how.out / "trajectories").mkdir(parents=True, exist_ok=True)
     return sweep.STUDY.work(waves).times["analysis_s"]
 
 

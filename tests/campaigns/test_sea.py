@@ -33,18 +33,26 @@ def test_every_start_runs_in_every_sea_and_one_run_is_finer(small):
 
 
 @pytest.mark.parametrize(
-    ("hours", "most_hours", "carrying", "finer_hours"),
-    [(0.5, 0, 4, 0.5), (3, 0, 3, 1.0), (3, 12, 4, 1.0), (3, 13, 5, 1.0)],
+    ("hours", "most_hours", "carrying", "finer"),
+    [
+        (0.2, 0, 8, [0.2]),
+        (0.5, 0, 4, [0.25] * 2),
+        (3, 0, 3, [0.25] * 3),
+        (3, 12, 4, [0.25] * 4),
+        (3, 13, 5, [0.25] * 4),
+    ],
 )
-def test_long_runs_carry_perturbations_for_the_hours_that_are_needed_and_are_finer_for_one(
-    tmp_path, hours, most_hours, carrying, finer_hours
+def test_long_runs_carry_perturbations_for_the_hours_that_are_needed_and_few_are_finer(
+    tmp_path, hours, most_hours, carrying, finer
 ):
     words = ["--seeds", 8, "--starts", 1, "--hours", hours, "--most-hours", most_hours, "--transient", 0]
     order = order_of(sea, *map(str, words), "--out", tmp_path / "new")
     plain = [case for case in order.cases if not case.labels["solver"]]
-    (finer,) = (case for case in order.cases if case.labels["solver"])
+    refined = [case for case in order.cases if case.labels["solver"]]
     assert sum(case.scene.output.tangent_vectors for case in plain) == carrying
-    assert {case.duration_s for case in plain} == {3600 * hours} and finer.duration_s == 3600 * finer_hours
+    assert {case.duration_s for case in plain} == {3600 * hours}
+    assert [case.duration_s / 3600 for case in refined] == finer
+    assert all(case.scene.output.tangent_vectors for case in refined)
 
 
 def test_runs_that_share_lanes_go_to_one_worker(tmp_path):
