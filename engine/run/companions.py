@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..record import ONE_STAGE
-from ..scene.models import Output
+from ..scene.models import Output, Scene
 from ..time.status import OK
 from ..trajectory.columns import Columns, columns_of
 from .rest import static_tension_N
@@ -21,10 +21,10 @@ LEAST_NODES = 3  # of a grid with half the elements
 COARSE, FINE = (0.5, 10, 2), (2, 30, 4)
 HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction in COARSE that call for FINE
 NEAR, NEAR_SLACK = 0.05, 0.03  # differences in COARSE up to which FINE may refute a bound that was told
-SCATTERED_SLACK = 0.03  # between the least and the largest slack fraction of three runs: it is told
 MUCH_COARSER = 0.08  # difference of the largest tension in COARSE that is told where FINE is not run
 FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences in FINE that are told
 SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
+AROUND = 2  # samples before and after the largest tension, in which another run has it
 EARLY_WAVES = 5  # of a buoy that are repeated
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
@@ -63,7 +63,7 @@ def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> tupl
 
     COARSE alone speaks where other sentences have; where the slack fraction differs, which FINE may meet by luck; and
     of a line without drag across it that is pressed together, because its folds scatter (scene 8/27 bears 2307 to
-    2833 N on ten grids and tolerances). A slack fraction that scatters over all three runs is told too.
+    2833 N on ten grids and tolerances).
 
     Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
     thousands of others, whose motions they refine (docs/trust.md).
@@ -81,7 +81,7 @@ def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> tupl
         coarse_share = math.inf
     else:
         coarse_share = coarse.share
-        if coarse.within(HINT, HINT_SLACK) and run.record["cn"] > 0.0 and not bounded:
+        if coarse.within(HINT, HINT_SLACK) and coarse.share_then <= HINT and run.record["cn"] > 0.0 and not bounded:
             return "", False
         refuted = bounded and coarse.within(NEAR, NEAR_SLACK)
         if (told and not refuted) or coarse.of_slack > NOTED:
@@ -97,30 +97,21 @@ def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> tupl
     if fine.share > SHRINKS * coarse_share:
         least = HINT
     words = fine.words(least, FINER_SLACK)
-    if not words and coarse is not None:
-        words = _scattered(coarse, fine)
     return words, coarse is not None and not words and fine.within(HINT, HINT_SLACK)
-
-
-def _scattered(coarse, fine):
-    """Says that the slack fractions of three runs lie far apart, though both others are near the first; or nothing."""
-    slack = fine.slack, fine.other_slack, coarse.other_slack
-    if max(slack) - min(slack) <= SCATTERED_SLACK:
-        return ""
-    if coarse.of_slack > fine.of_slack:
-        return coarse.words(math.inf, 0.0)
-    return fine.words(math.inf, 0.0)
 
 
 class _Differences(NamedTuple):
     """Largest tension and slack fraction of a run, and the same on another grid at another tolerance.
 
-    share: difference of the tensions over the first one. settings: of the other run, in words.
+    share: difference of the tensions over the first one; share_then: that of the other run's tension when the run has
+    its largest one, because two runs may have the same largest tension at two snaps. settings: of the other run, in
+    words.
     """
 
     largest_N: float
     other_N: float
     share: float
+    share_then: float
     slack: float
     other_slack: float
     settings: str
@@ -168,11 +159,17 @@ def _differences(run, columns, duration_s, elements, tighter, shorter):
     count = len(other_columns["time_s"])
     pair = {name: series[:count] for name, series in columns.items()}, other_columns
     largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in pair)
-    slack, other_slack = (_slack_share(scene, series) for series in pair)
-    share, difference_N = 0.0, abs(other_N - largest_N)
-    if difference_N > ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2:
-        share = difference_N / max(abs(largest_N), 1e-300)
-    return _Differences(largest_N, other_N, share, slack, other_slack, settings)
+    slack, other_slack = (float(slack_samples(scene, series).mean()) for series in pair)
+    peak = int(pair[0]["tension_top_high_N"].argmax())
+    then = slice(max(peak - AROUND, 0), peak + AROUND + 1)
+    then_N = float(pair[1]["tension_top_high_N"][then].max())
+    shares = []
+    for tension_N in (other_N, then_N):
+        difference_N = abs(tension_N - largest_N)
+        if difference_N <= ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2:
+            difference_N = 0.0
+        shares.append(difference_N / max(abs(largest_N), 1e-300))
+    return _Differences(largest_N, other_N, *shares, slack, other_slack, settings)
 
 
 def _columns_of_companion(run, scene, duration_s):
@@ -184,12 +181,12 @@ def _columns_of_companion(run, scene, duration_s):
     return columns_of(companion.output.samples[: companion.goal], scene)
 
 
-def _slack_share(scene, columns):
-    """Share of the samples in which the top bears at most SLACK of its tension at rest; 0 where it bears none there."""
+def slack_samples(scene: Scene, columns: Columns) -> np.ndarray:
+    """Samples in which the top bears at most SLACK of its tension at rest; none where it bears none at rest."""
     rest_N = static_tension_N(scene, columns)
     if not rest_N > 0.0:  # NaN without an equilibrium
-        return 0.0
-    return float(np.mean(columns["tension_top_N"] <= SLACK * rest_N))
+        rest_N = -math.inf
+    return columns["tension_top_N"] <= SLACK * rest_N
 
 
 def compression_N(run: "Run", columns: Columns) -> float:

@@ -16,7 +16,7 @@ from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
 from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
 from ..trajectory.columns import Columns
-from .companions import NOTED, ROUNDING, compression_N, other_grids, steps_too_long
+from .companions import NOTED, ROUNDING, SLACK, compression_N, other_grids, slack_samples, steps_too_long
 from .rest import rest_of
 
 if TYPE_CHECKING:
@@ -27,6 +27,8 @@ MANY = 8  # waves from which on a sea is meant to be random
 STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
 FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
+SPARSE = 0.03  # two standard deviations of a slack fraction: a smaller error is not told
+ENOUGH_SAMPLES = 4.0 / (12.0 * SPARSE**2)  # in which even a crossing at each would leave a smaller one
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -48,7 +50,13 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     others, agree = other_grids(run, columns, any(inexact + bounds), any(bounds))
     if not agree:
         inexact += bounds
-    doubtful = _waves_on_element(run), _out_at_rest(run), _regular_waves(run), *_sea(run, columns)
+    doubtful = (
+        _sparse(run, columns),
+        _waves_on_element(run),
+        _out_at_rest(run),
+        _regular_waves(run),
+        *_sea(run, columns),
+    )
     return "; ".join(filter(None, (*inexact, others, *doubtful)))
 
 
@@ -68,6 +76,24 @@ def _coarse_at_rest(run):
         return ""
     return (
         f"at rest the top bears {top_N:.4g} N on this grid and {finer.top_N:.4g} N on {nodes} nodes: add tether.nodes"
+    )
+
+
+def _sparse(run, columns):
+    """Says how far the slack fraction holds where the line often snaps from one sample to the next, or nothing.
+
+    A crossing lies anywhere between two samples, with a standard deviation of a step over the root of 12.
+    """
+    if len(columns["time_s"]) > ENOUGH_SAMPLES:
+        return ""
+    slack = slack_samples(run.scene, columns)
+    crossings = np.count_nonzero(slack[1:] != slack[:-1])
+    error = 2.0 * math.sqrt(crossings / 12.0) / len(slack)
+    if error <= SPARSE:
+        return ""
+    return (
+        f"the tension passes {SLACK:.0%} of its static value {crossings} times in {len(slack)} samples: the slack "
+        f"fraction holds to {error:.1g}; lower output.step_s"
     )
 
 

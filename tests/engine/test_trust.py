@@ -234,14 +234,17 @@ def test_a_run_from_a_kick_in_waves_is_not_repeated(monkeypatch):
 
 def compared(others, water, pressed_N, told, monkeypatch):
     """What `other_grids` says if the other runs, coarse or fine, have these differences, in per cent: of the largest
-    tension, then of a slack fraction of 40 %. A run that is not listed is not to be made."""
+    tension, of a slack fraction of 40 %, and of the tension when it is the largest. A run that is not listed is not to
+    be made."""
     run = Run(line(water, SLACK, {"water.depth_m": 60.0} if water is STILL else {}), 0.1)
     columns = {"tension_top_high_N": np.array([9.0, 100.0]), "tension_min_N": np.array([-pressed_N, 0.0])}
 
     def differences(run, columns, duration_s, elements, tighter, shorter):
         name = "coarse" if elements < 1 else "fine"
-        share, slack = (others[name], 0.0) if np.isscalar(others[name]) else others[name]
-        return companions._Differences(100.0, 100.0 + share, share / 100.0, 0.4, 0.4 + slack / 100.0, name)
+        share, slack, then = (*np.atleast_1d(others[name]), 0.0, 0.0)[:3]
+        return companions._Differences(
+            100.0, 100.0 + share, share / 100.0, then / 100.0, 0.4, 0.4 + slack / 100.0, name
+        )
 
     monkeypatch.setattr(companions, "_differences", differences)
     return companions.other_grids(run, columns, bool(told), told == "bounded")
@@ -265,8 +268,8 @@ def compared(others, water, pressed_N, told, monkeypatch):
     (4.0, 1.0, STILL, 20.0, "", ""),  # drag calms the folds
     ((0.0, 6.0), None, STILL, 0.0, "", "coarse"),  # of the slack fraction
     ((0.0, 3.0), (0.0, 4.5), STILL, 0.0, "", "fine"),
-    ((0.0, 2.5), (0.0, -1.0), STILL, 0.0, "", "coarse"),  # three runs scatter
     ((0.0, 2.5), (0.0, 1.0), STILL, 0.0, "", ""),
+    ((0.0, 0.0, 9.0), 4.0, STILL, 0.0, "", "fine"),  # the same largest tension, but of another snap
 ])  # fmt: skip
 def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, told, words, monkeypatch):
     others = {"coarse": coarse} if fine is None else {"coarse": coarse, "fine": fine}
@@ -294,3 +297,25 @@ def test_a_refuted_bound_is_not_told_but_lost_ringing_is(agree, monkeypatch):
     run.finish(lambda simulated_s: None)
     columns = columns_of(run.output.samples[: run.goal], run.scene)
     assert trust.doubts_of(run, columns) == ("ringing" if agree else "ringing; folds")
+
+
+def test_the_tension_of_another_run_is_also_that_at_the_time_of_the_largest(monkeypatch):
+    """Two snaps, which bear 100 and 98 N; in the other run 60 and 101 N."""
+    run = Run(line(STILL, SLACK, {"water.depth_m": 60.0}), 0.5)
+    base, other = np.zeros(31), np.zeros(31)
+    base[[10, 25]], other[[11, 25]] = (100.0, 98.0), (60.0, 101.0)
+    made = {"tension_top_high_N": other, "tension_top_N": other, "time_s": np.arange(31.0)}
+    monkeypatch.setattr(companions, "_columns_of_companion", lambda *_: made)
+    monkeypatch.setattr(companions, "static_tension_N", lambda *_: np.nan)
+    found = companions._differences(run, {**made, "tension_top_high_N": base}, 0.5, *companions.COARSE)
+    assert (found.share, found.share_then) == pytest.approx((0.01, 0.4))
+
+
+@pytest.mark.parametrize(("step_s", "told"), [(0.05, True), (0.02, False), (0.01, False)])
+def test_a_slack_fraction_that_is_read_off_too_few_samples_is_told(step_s, told, monkeypatch):
+    """The tension is above the threshold for 0.07 of each 0.17 s, for 5 s."""
+    run = Run(line(STILL, SLACK, {"water.depth_m": 60.0}), 0.5)
+    time_s = np.arange(0.0, 5.0, step_s)
+    monkeypatch.setattr(companions, "static_tension_N", lambda *_: 100.0)
+    words = trust._sparse(run, {"time_s": time_s, "tension_top_N": np.where(time_s % 0.17 < 0.07, 1000.0, 0.0)})
+    assert ("holds to 0.04; lower output.step_s" in words) == told and bool(words) == told
