@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from tables import FAILS, HOLDS_IF, count, decimals
+from tables import FAILS, HOLDS, HOLDS_IF, count, decimals
 
+from ..figures.verdict_grid import verdict_grid
 from ..parts import (
     Bullets,
     Folder,
@@ -15,6 +16,7 @@ from ..parts import (
     Report,
     Text,
     counted,
+    entries,
     read_folder,
     read_statements,
     report_page,
@@ -22,6 +24,7 @@ from ..parts import (
     statements_table,
     table_of,
 )
+from ..parts.style import BLUE, ORANGE, VERMILION
 from .dependence import dependence_items, written
 from .figures import PREFACE, figures_of, left_out
 from .figures import pictures as beside
@@ -50,6 +53,7 @@ TOPICS = {
     "The buoy in waves (section 4.2)": ("4.2",),
     "Conclusions (section 5)": ("5",),
 }
+VERDICT_COLOURS = {HOLDS: BLUE, HOLDS_IF: ORANGE, FAILS: VERMILION}
 VERDICTS = (
     "Claims are in our words. A verdict follows from checks at each place where it was looked: it “holds” where all "
     "pass, “does not hold” where none does, and otherwise “holds if”, with the places; a dash: the runs in this folder "
@@ -62,6 +66,7 @@ def report(directory: Path) -> Report:
     folder = read_folder(directory)
     judged = read_statements(folder.directory)
     items = [
+        _verdicts(judged),  # before the first heading: on the first page, after the answer
         _question(folder, judged),
         _parts(folder),
         _figures(folder.directory),
@@ -74,6 +79,23 @@ def report(directory: Path) -> Report:
     ]
     subtitle = "Tjavaras, Zhu, Liu, Triantafyllou and Yue, Journal of Sound and Vibration 213(4), 709-737, 1998"
     return report_page(folder, "The mechanics of highly-extensible cables, run again", items, (), subtitle)
+
+
+def _by_topic(judged: list[Judged]) -> dict[str, list[Judged]]:
+    """The statements on each topic, by its heading."""
+    topics = {}
+    for heading, places in TOPICS.items():
+        topic = [row for row in judged if row["place"].startswith(places)]
+        if topic:
+            topics[heading] = topic
+    return topics
+
+
+def _verdicts(judged: list[Judged]) -> Items:
+    groups = {heading: entries(topic, "verdict") for heading, topic in _by_topic(judged).items()}
+    if groups:
+        caption = "Every statement of the paper, a cell each, in the colour of its verdict (–: not decided)."
+        yield verdict_grid(groups, VERDICT_COLOURS, "statement", caption)
 
 
 def _question(folder: Folder, judged: list[Judged]) -> Items:
@@ -102,7 +124,10 @@ def short_answer(judged: list[Judged]) -> list[str]:
         for row in first_told:
             if row["verdict"] == verdict:
                 quoted = f"“{row['statement'].rstrip('.')}” (no. {row['number']}; {row['place']})"
-                lines.append(f"{verdict.capitalize()} {row['condition']}".rstrip() + f": {quoted}.")
+                verdict_words = "Does not hold"
+                if row["condition"]:
+                    verdict_words = f"Holds in part ({row['condition']})"
+                lines.append(f"{verdict_words}: {quoted}.")
     return lines
 
 
@@ -144,8 +169,6 @@ def _figures(directory: Path) -> Items:
 def _statements(judged: list[Judged]) -> Items:
     yield Heading("The statements of the paper")
     yield Text(VERDICTS)
-    for heading, places in TOPICS.items():
-        topic = [row for row in judged if row["place"].startswith(places)]
-        if topic:
-            yield [Heading(heading, 2), statements_table(topic, f"{heading}: {counted(topic)}.")]
+    for heading, topic in _by_topic(judged).items():
+        yield [Heading(heading, 2), statements_table(topic, f"{heading}: {counted(topic)}.")]
     yield [Heading("Not judged", 2), written("not_judged")]

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.patches import Patch
 
 from tables import Column, count, number, number_of
 
+from ..figures.verdict_grid import verdict_grid
 from ..parts import (
     Figure,
     FolderError,
@@ -28,7 +27,7 @@ from ..parts import (
     table_of,
     timing_items,
 )
-from ..parts.style import BLUE, GREEN, ORANGE, SKY, SOFT, VERMILION, picture_of, sheet
+from ..parts.style import BLUE, GREEN, ORANGE, SKY, VERMILION, picture_of, sheet
 
 
 def report(directory: Path) -> Report:
@@ -108,25 +107,9 @@ def by_group(study: Study) -> dict[str, list[dict[str, str]]]:
 
 def grid_figure(study: Study) -> Figure:
     """All cases as cells in the colours of their verdicts, a row for each group."""
-    groups, counts = by_group(study), Counter(entries(study.cases, "verdict"))
-    rows = len(groups)
-    with sheet(0.6 + 0.24 * rows) as figure:
-        axes = figure.add_subplot()
-        for row, cases in enumerate(groups.values()):
-            colours = [VERDICT_COLOURS.get(case["verdict"], SOFT) for case in cases]
-            axes.bar(range(len(cases)), 0.8, 0.8, row - 0.4, color=colours, align="edge")
-        axes.set(ylim=(rows - 0.4, -0.6), yticks=range(rows), yticklabels=list(groups), xticks=[])
-        axes.tick_params(axis="y", length=0, labelsize=7.5)
-        axes.spines[:].set_visible(False)
-        axes.grid(False)
-        names = [word for word in VERDICT_COLOURS if word in counts]
-        names += sorted(counts.keys() - VERDICT_COLOURS.keys())
-        handles = [Patch(color=VERDICT_COLOURS.get(name, SOFT), label=name) for name in names]
-        figure.legend(handles=handles, loc="outside upper left", ncols=len(handles))
-        picture = picture_of(figure)
-    words = ", ".join(f"{number_of_cases} {verdict}" for verdict, number_of_cases in counts.most_common())
+    groups = {about: entries(cases, "verdict") for about, cases in by_group(study).items()}
     caption = "Every case, a cell each, in the colour of its verdict, in the order of the table of cases."
-    return Figure(picture, caption, f"A grid of {count(len(study.cases), 'case')}: {words}.")
+    return verdict_grid(groups, VERDICT_COLOURS, "case", caption)
 
 
 def stiffness_items(study: Study) -> Items:
