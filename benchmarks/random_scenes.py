@@ -34,7 +34,8 @@ ROUNDING, PRESSED = 1e-3, 0.01  # of the weight of the line; of the compression 
 SLACK = 0.05  # of the tension at rest
 REFINED, RTOL, STEPS = 4, 30.0, 4.0
 ACCURACY = re.compile(
-    "holds? to|may be off|grid or tolerance|at rest the top bears|nor damping, so that its folds|a blow on the line"
+    "holds? to|may be off|an element is folded|grid or tolerance|at rest the top bears|"
+    "nor damping, so that its folds|a blow on the line"
 )
 OUTCOMES = "wrong, announced", "wrong, silent", "right, announced", "right, silent"
 NO_COMPARISON = "refused", "ended early", "no reference"

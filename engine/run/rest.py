@@ -42,8 +42,11 @@ def rest_of(scene: Scene) -> Rest:
     if status == OK and any(scene.start.buoy_displacement_m):
         fault = why_not_held
         status, Y = held_away(scene, Y, arc_lengths(record, tables))
-    if not record["bent"] and not is_spatial(record):
-        Y[:, PHI] = np.unwrap(Y[:, PHI])  # a whole turn in an element is none where nothing resists bending
+    if not record["bent"]:  # a whole turn in an element is none where nothing resists bending
+        if is_spatial(record):
+            lift.unwind(Y)
+        else:
+            Y[:, PHI] = np.unwrap(Y[:, PHI])
     turn = largest_turn(Y)
     if status == OK and record["bent"] and turn > math.pi:
         status = TURN_UNRESOLVED

@@ -41,6 +41,7 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     record, scene = run.record, run.scene
     inexact = [
         _coarse_at_rest(run),
+        _folded_at_rest(run),
         steps_too_long(run, columns),
         blows(record, scene, columns),
         unresolved(record, run.tables, scene, columns),
@@ -94,6 +95,16 @@ def _sparse(run, columns):
     return (
         f"the tension passes {SLACK:.0%} of its static value {crossings} times in {len(slack)} samples: the slack "
         f"fraction holds to {error:.1g}; lower output.step_s"
+    )
+
+
+def _folded_at_rest(run):
+    """Says that an element of a line which nothing keeps from bending turns by more than a right angle, or nothing."""
+    if run.rest is None or run.record["bent"] or run.rest.turn <= 0.5 * math.pi:
+        return ""
+    return (
+        "at rest an element is folded, because the grid does not resolve the bight of a line without bending "
+        "stiffness: add tether.nodes, or set tether.bending_stiffness_Nm2"
     )
 
 

@@ -62,6 +62,13 @@ def turns(Y: np.ndarray) -> np.ndarray:
     return 2.0 * np.arctan2(np.linalg.norm(r[:, 1:], axis=1), r[:, 0])
 
 
+def unwind(Y: np.ndarray) -> None:
+    """Take whole turns out of the elements: Euler parameters and their negatives are one frame."""
+    beta = Y[:, BETA]
+    opposed = np.sum(beta[1:] * beta[:-1], axis=1) < 0.0
+    beta[1:] *= np.cumprod(np.where(opposed, -1.0, 1.0))[:, None]
+
+
 def turn_back(Y: np.ndarray, nodes: np.ndarray) -> None:
     """Turn the frames of some nodes by pi about b: t changes its sign."""
     Y[nodes, BETA] = product(Y[nodes, BETA], np.array([0.0, 0.0, 0.0, 1.0]))

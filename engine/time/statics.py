@@ -12,6 +12,7 @@ from itertools import product
 import numpy as np
 
 from ..arrays import Stage
+from ..parameters import numbers_of
 from ..parameters.scales import buckling_load
 from ..physics.strains import strain_at, tension_at
 from ..planar import columns as col
@@ -27,7 +28,7 @@ SOFTEST, FIRST, STIFFEST = 1e-8, 10.0, 1e9
 TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
-MOST_TURNS = 4  # a bight that the grid does not resolve keeps a folded node
+MOST_TURNS = 12  # a bight that the grid does not resolve keeps a folded node
 LEANING = 1.0
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
@@ -55,13 +56,20 @@ def static_equilibrium(record: np.void, scene: Scene, tables: np.ndarray) -> tup
 
 
 def _least_pressed(record, scene, tables):
-    """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least."""
+    """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least.
+
+    Where a line without bending stiffness keeps folds in space, or finds no rest, the guess is its rest in a plane.
+    """
     h, best = lengths_of(record, tables), None
     weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
     capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])
     for span, sinking in product(SPANS if capped else SPANS[:1], SINKING if bedded else SINKING[:1]):
         Y = first_guess(record, scene, h, span)
         code = _settle_on_bed(record, scene, tables, Y, sinking)
+        if is_spatial(record) and not record["bent"] and (code != OK or _folded(Y)):
+            other = _rest_in_plane(record, scene, h, span)
+            if other is not None and _settle_on_bed(record, scene, tables, other, sinking) == OK:
+                code, Y = OK, other
         if not (capped or bedded):
             return code, Y
         if code != OK and not bedded:
@@ -160,10 +168,27 @@ def first_guess(record: np.void, scene: Scene, h: np.ndarray, span: float = SPAN
     """
     if not is_spatial(record):
         return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
-    across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
-    azimuth = math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
     force = (math.hypot(float(record["end_x"]), float(record["end_y"])), float(record["end_z"]))
-    return lift.state_in_space(record, h, _in_plane(record, scene, h, force, span), azimuth)
+    return lift.state_in_space(record, h, _in_plane(record, scene, h, force, span), _azimuth(scene, record))
+
+
+def _azimuth(scene, record):
+    """Angle (rad) about z from x of the vertical plane of the held end, or of the force on a free one; else 0."""
+    across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
+    return math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
+
+
+def _rest_in_plane(record, scene, h, span):
+    """The first guess (n, 13) in space of a line that rests in the plane of its held end; None if it does not."""
+    flat = scene.with_values("motion", dimensions=2)
+    if record["end"] == HELD:
+        x, y, z = scene.end.position_m
+        flat = flat.with_values("end", position_m=(math.hypot(x, y), 0.0, z))
+    planar_record, tables = numbers_of(flat)
+    Y = first_guess(planar_record, flat, h, span)
+    if settle(planar_record, flat, tables, Y) != OK:
+        return None
+    return lift.state_in_space(record, h, Y, _azimuth(scene, record))
 
 
 def _in_plane(record, scene, h, force, span):

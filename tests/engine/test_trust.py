@@ -254,6 +254,7 @@ def compared(others, water, pressed_N, told, monkeypatch):
     (1.0, None, STILL, 0.0, "", ""),  # no hint: no finer run
     (1.0, 9.0, DRY, 0.0, "", "fine"),  # nothing calms waves across the line
     (1.0, 2.0, DRY, 0.0, "", "fine"),  # the differences do not shrink
+    (9.0, 2.0, DRY, 0.0, "", "fine"),
     (1.0, 0.3, DRY, 0.0, "", ""),
     (2.0, 4.0, STILL, 0.0, "", "fine"),
     (9.0, 2.0, STILL, 0.0, "", ""),  # the finer run decides
