@@ -29,6 +29,7 @@ FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
 SPARSE = 0.03  # two standard deviations of a slack fraction: a smaller error is not told
 ENOUGH_SAMPLES = 4.0 / (12.0 * SPARSE**2)  # in which even a crossing at each would leave a smaller one
+FEW_SAMPLES = 10  # from crossing to crossing, on average
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
 
@@ -85,12 +86,12 @@ def _sparse(run, columns):
 
     A crossing lies anywhere between two samples, with a standard deviation of a step over the root of 12.
     """
-    if len(columns["time_s"]) > ENOUGH_SAMPLES:
+    if run.started is not None or len(columns["time_s"]) > ENOUGH_SAMPLES:
         return ""
     slack = slack_samples(run.scene, columns)
     crossings = np.count_nonzero(slack[1:] != slack[:-1])
     error = 2.0 * math.sqrt(crossings / 12.0) / len(slack)
-    if error <= SPARSE:
+    if error <= SPARSE or len(slack) > FEW_SAMPLES * crossings:
         return ""
     return (
         f"the tension passes {SLACK:.0%} of its static value {crossings} times in {len(slack)} samples: the slack "

@@ -105,10 +105,10 @@ def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_o
         "41 an hour (± 3)",
         "1.5 kN a peak period does the damage of the sea (S-N slope 5)",
         "DNV-OS-E301, consequence class 1, the line is used to 40 %",
-        "finer run does NOT agree: -0.050 ± 0.010",
+        "finer runs does NOT agree: -0.050 ± 0.010",
         "differ by 12 % in their largest tension",
         "still 0.03 of the motion apart, by the steps of the solver",
     ):
         assert words in answer
     sure = "\n".join(of_sea([SEA | {"finer_bits_per_period": -0.09, "noise": 0.001, "load_scatter": 0.04}], OPTIONS))
-    assert "finer run agrees" in sure and "differ by" not in sure and "by the steps" not in sure
+    assert "finer runs agrees" in sure and "differ by" not in sure and "by the steps" not in sure
