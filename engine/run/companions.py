@@ -21,7 +21,7 @@ LEAST_NODES = 3  # of a grid with half the elements
 COARSE, FINE = (0.5, 10, 2), (2, 30, 4)
 HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction in COARSE that call for FINE
 NEAR, NEAR_SLACK = 0.05, 0.03  # differences in COARSE up to which FINE may refute a bound that was told
-MUCH_COARSER = 0.08  # difference of the largest tension in COARSE that is told where FINE is not run
+MUCH_COARSER, COARSER_SLACK = 0.08, 0.035  # differences in COARSE that are told where FINE is not run
 FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences in FINE that are told
 SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
 AROUND = 2  # samples before and after the largest tension, in which another run has it
@@ -85,8 +85,8 @@ def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> tupl
         if coarse.within(HINT, HINT_SLACK) and coarse.share_then <= HINT and run.record["cn"] > 0.0 and not bounded:
             return "", False
         refuted = bounded and coarse.within(NEAR, NEAR_SLACK)
-        if (told and not refuted) or coarse.of_slack > NOTED:
-            return coarse.words(MUCH_COARSER, NOTED), False
+        if (told and not refuted) or coarse.of_slack > COARSER_SLACK:
+            return coarse.words(MUCH_COARSER, COARSER_SLACK), False
         if compression_N(run, columns) and coarse_share > FINER_DIFFERS:
             return coarse.words(FINER_DIFFERS, FINER_SLACK), False
     if told and coarse is None:

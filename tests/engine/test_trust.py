@@ -267,7 +267,8 @@ def compared(others, water, pressed_N, told, monkeypatch):
     (4.0, None, DRY, 20.0, "", "coarse"),  # folds that scatter
     (4.0, 1.0, DRY, 5.0, "", ""),
     (4.0, 1.0, STILL, 20.0, "", ""),  # drag calms the folds
-    ((0.0, 6.0), None, STILL, 0.0, "", "coarse"),  # of the slack fraction
+    ((0.0, 3.6), None, STILL, 0.0, "", "coarse"),  # of the slack fraction
+    ((0.0, 3.4), (0.0, 3.9), STILL, 0.0, "", ""),
     ((0.0, 3.0), (0.0, 4.5), STILL, 0.0, "", "fine"),
     ((0.0, 2.5), (0.0, 1.0), STILL, 0.0, "", ""),
     ((0.0, 0.0, 9.0), 4.0, STILL, 0.0, "", "fine"),  # the same largest tension, but of another snap
