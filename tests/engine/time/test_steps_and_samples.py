@@ -242,7 +242,8 @@ def test_between_steps_that_damp_the_waves_of_a_held_line_its_tension_swings_no_
     changes = {"floor": {"stiffness_Npm3": 1e4, "damping_Nspm3": 1e3, "friction": 0.3}, "output.profiles": True}
     changes |= STILL | held(16.0, 4.0, motion=motion) | {"output.step_s": 0.01}
     loose, tight = (ran(line(changes, {"solver.rtol": rtol}), duration_s=2.0) for rtol in (0.03, 1e-4))
-    assert "solver" not in loose.message and loose.statistics["steps"] < 0.5 * tight.statistics["steps"]
+    assert "ringing" not in loose.message and "axial waves" not in loose.message
+    assert loose.statistics["steps"] < 0.5 * tight.statistics["steps"]
     for name in ("tension_top_N", "tension_top_high_N"):
         assert loose.columns[name].max() == pytest.approx(tight.columns[name].max(), rel=0.05)
     assert np.abs(loose.profiles.tension_N - tight.profiles.tension_N)[5:].max() < 1.5
