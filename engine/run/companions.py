@@ -17,17 +17,33 @@ if TYPE_CHECKING:
 NOTED = 0.05  # share of the largest tension: a smaller error is not told
 PRESSED = 0.1  # share of the largest tension: compression below it does not change the largest tension
 LEAST_NODES = 3  # of a grid with half the elements
-# another run of the scene: times the elements, and by how much its tolerance is tighter and its longest step shorter
-COARSE, FINE = (0.5, 10, 2), (2, 30, 4)
-HINT, HINT_SLACK = 0.015, 0.02  # differences of largest tension and slack fraction in COARSE that call for FINE
-NEAR, NEAR_SLACK = 0.05, 0.03  # differences in COARSE up to which FINE may refute a bound that was told
-MUCH_COARSER, COARSER_SLACK = 0.08, 0.035  # differences in COARSE that are told where FINE is not run
-FINER_DIFFERS, FINER_SLACK = 0.03, 0.04  # differences in FINE that are told
-SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
-AROUND = 2  # samples before and after the largest tension, in which another run has it
+SAMPLES_AROUND_PEAK = 2  # before and after the largest tension, in which another run has it
 EARLY_WAVES = 5  # of a buoy that are repeated
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
+
+
+class _Grid(NamedTuple):
+    """Another run of the scene: times the elements, and by how much its tolerance and longest step are smaller."""
+
+    elements: float
+    tighter: float
+    shorter: float
+
+
+class _Limits(NamedTuple):
+    """Differences of two runs: of largest tensions, over the first one, and of slack fractions."""
+
+    tension: float
+    slack: float
+
+
+COARSE, FINE = _Grid(0.5, 10, 2), _Grid(2, 30, 4)
+HINT = _Limits(0.015, 0.02)  # in COARSE: it calls for FINE
+NEAR = _Limits(0.05, 0.03)  # in COARSE: FINE may refute a bound that was told
+COARSE_DIFFERS = _Limits(0.08, 0.035)  # is told where FINE is not run
+FINE_DIFFERS = _Limits(0.03, 0.04)  # is told
+SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
 
 
 def steps_too_long(run: "Run", columns: Columns) -> str:
@@ -49,128 +65,174 @@ def steps_too_long(run: "Run", columns: Columns) -> str:
     )
 
 
-def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> tuple[str, bool]:
-    """A sentence on another largest tension or slack fraction of another grid and tolerance, or nothing; and whether
-    both other runs have the same ones, so that no bound which folds put on the largest tension needs telling.
+class OtherGrids(NamedTuple):
+    """What other grids and tolerances say of a run: a sentence or nothing, and whether both have its numbers.
+
+    Where both have them, no bound which folds put on the largest tension needs telling.
+    """
+
+    words: str = ""
+    agree: bool = False
+
+
+def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> OtherGrids:
+    """Compares largest tension and slack fraction with those of two other grids and tolerances.
 
     told: other sentences have said already that tensions are not exact; bounded: some of them say so only because the
     line folds. COARSE is run first. If it differs by a hint, or ends early, FINE is run and decides. FINE also is run
 
     - of a line without drag across it, because nothing calms its waves across, and COARSE may agree by luck (scene
-      19/15 of benchmarks.random_scenes bears 944 N, 949 N in COARSE, 874 N in FINE). There a HINT in FINE is told,
-      because errors shrink slowly (31/57: 23.1 N, 20.4 N in COARSE, 23.6 N in FINE, 24.9 N refined);
+      19/15 of benchmarks.random_scenes bears 944 N, 949 N in COARSE, 874 N in FINE);
     - where a bound was told and COARSE is NEAR: if FINE is nearer still, the bound is too wide. (A bound that lost
       ringing puts is no such one, because all three runs may lose it.)
+    """
+    duration_s = _compared_s(run)
+    if duration_s < run.duration_s:
+        bounded = False  # of the whole run
+    undragged = run.record["cn"] == 0.0
+    coarse = fine = None
+    if duration_s > 0.0:
+        coarse = _differences(run, columns, duration_s, COARSE)
+        if coarse is None and told:
+            return OtherGrids()
+        if coarse is not None:
+            if coarse.within(HINT) and coarse.tension_at_peak <= HINT.tension and not (undragged or bounded):
+                return OtherGrids()
+            limits = _limits_of_coarse(coarse, told, bounded, pressed=compression_N(run, columns) > 0.0)
+            if limits is not None:
+                return OtherGrids(coarse.words(limits))
+        fine = _differences(run, columns, duration_s, FINE)
+    if fine is None:
+        return OtherGrids()
+    words = fine.words(_limits_of_fine(fine, coarse, undragged))
+    return OtherGrids(words, agree=coarse is not None and not words and fine.within(HINT))
 
-    COARSE alone speaks where other sentences have; where the slack fraction differs, which FINE may meet by luck; and
-    of a line without drag across it that is pressed together, because its folds scatter (scene 8/27 bears 2307 to
-    2833 N on ten grids and tolerances).
+
+def _compared_s(run):
+    """Until when runs are compared (s); 0 where they are not.
 
     Of a buoy in waves the first EARLY_WAVES are repeated, and only of its run from rest, because campaigns have
     thousands of others, whose motions they refine (docs/trust.md).
     """
-    scene, duration_s = run.scene, run.duration_s
+    scene = run.scene
     if run.started is not None or scene.tether.nodes // 2 + 1 < LEAST_NODES:
-        return "", False
-    if scene.buoy is not None and scene.waves is not None:
-        if scene.motion.dimensions == 2 and any(scene.start.buoy_velocity_mps):
-            return "", False
-        duration_s = min(duration_s, scene.waves.ramp_s + EARLY_WAVES * scene.waves.period_s)
-        bounded = False  # of the whole run
-    coarse = _differences(run, columns, duration_s, *COARSE)
-    if coarse is None:
-        coarse_share = math.inf
-    else:
-        coarse_share = coarse.share
-        if coarse.within(HINT, HINT_SLACK) and coarse.share_then <= HINT and run.record["cn"] > 0.0 and not bounded:
-            return "", False
-        refuted = bounded and coarse.within(NEAR, NEAR_SLACK)
-        if (told and not refuted) or coarse.of_slack > COARSER_SLACK:
-            return coarse.words(MUCH_COARSER, COARSER_SLACK), False
-        if compression_N(run, columns) and coarse_share > FINER_DIFFERS:
-            return coarse.words(FINER_DIFFERS, FINER_SLACK), False
-    if told and coarse is None:
-        return "", False
-    fine = _differences(run, columns, duration_s, *FINE)
-    if fine is None:
-        return "", False
-    least = FINER_DIFFERS
-    if fine.share > SHRINKS * coarse_share or run.record["cn"] == 0.0:
-        least = HINT
-    words = fine.words(least, FINER_SLACK)
-    return words, coarse is not None and not words and fine.within(HINT, HINT_SLACK)
+        return 0.0
+    if scene.buoy is None or scene.waves is None:
+        return run.duration_s
+    if scene.motion.dimensions == 2 and any(scene.start.buoy_velocity_mps):
+        return 0.0
+    return min(run.duration_s, scene.waves.ramp_s + EARLY_WAVES * scene.waves.period_s)
+
+
+def _limits_of_coarse(coarse, told, bounded, pressed):
+    """What COARSE has to differ by to be told, where it decides alone; None where FINE decides.
+
+    It decides alone where other sentences have said that tensions are not exact; where the slack fraction differs,
+    which FINE may meet by luck; and of a line without drag across it that is pressed together, because its folds
+    scatter (scene 8/27 of benchmarks.random_scenes bears 2307 to 2833 N on ten grids and tolerances).
+    """
+    refutes = bounded and coarse.within(NEAR)
+    if (told and not refutes) or coarse.slack_change > COARSE_DIFFERS.slack:
+        return COARSE_DIFFERS
+    if pressed and coarse.tension > FINE_DIFFERS.tension:
+        return FINE_DIFFERS
+    return None
+
+
+def _limits_of_fine(fine, coarse, undragged):
+    """What FINE has to differ by to be told: a HINT of tension is enough where errors do not shrink as they should.
+
+    Without drag across the line they shrink slowly (31/57: 23.1 N, 20.4 N in COARSE, 23.6 N in FINE, 24.9 N refined).
+    """
+    shrinks = coarse is None or fine.tension <= SHRINKS * coarse.tension
+    if shrinks and not undragged:
+        return FINE_DIFFERS
+    return _Limits(HINT.tension, FINE_DIFFERS.slack)
 
 
 class _Differences(NamedTuple):
     """Largest tension and slack fraction of a run, and the same on another grid at another tolerance.
 
-    share: difference of the tensions over the first one; share_then: that of the other run's tension when the run has
-    its largest one, because two runs may have the same largest tension at two snaps. settings: of the other run, in
-    words.
+    tension: difference of the largest tensions over the first one; tension_at_peak: that of the other run's tension
+    when the run has its largest one, because two runs may have the same largest tension at two snaps. settings: of the
+    other run, in words.
     """
 
     largest_N: float
     other_N: float
-    share: float
-    share_then: float
+    tension: float
+    tension_at_peak: float
     slack: float
     other_slack: float
     settings: str
 
     @property
-    def of_slack(self) -> float:
+    def slack_change(self) -> float:
         """Difference of the slack fractions."""
         return abs(self.other_slack - self.slack)
 
-    def within(self, share: float, of_slack: float) -> bool:
+    def within(self, limits: _Limits) -> bool:
         """Whether neither tensions nor slack fractions differ by more."""
-        return self.share <= share and self.of_slack <= of_slack
+        return self.tension <= limits.tension and self.slack_change <= limits.slack
 
-    def words(self, least: float, least_slack: float) -> str:
-        """A sentence on the largest tension if its share is above the least, and on the slack fraction; or nothing."""
+    def words(self, limits: _Limits) -> str:
+        """A sentence on the largest tension and on the slack fraction, each if it differs by more; or nothing."""
         parts = []
-        if self.share > least:
+        if self.tension > limits.tension:
             parts.append(f"the largest tension is {self.other_N:.4g} N in place of {self.largest_N:.4g} N")
-        if self.of_slack > least_slack:
+        if self.slack_change > limits.slack:
             parts.append(f"the line is slack for {self.other_slack:.2g} of the time in place of {self.slack:.2g}")
         if not parts:
             return ""
         return f"{self.settings} {' and '.join(parts)}, so that grid or tolerance decide: refine both"
 
 
-def _differences(run, columns, duration_s, elements, tighter, shorter):
-    """How the run differs, until duration_s, from one with so many times the elements, a tolerance so many times
-    tighter and a longest step so many times shorter; None where that one ends early."""
-    scene, tether, solver = run.scene, run.scene.tether, run.scene.solver
-    damping = tether.damping_critical
-    if damping is not None:
-        damping *= elements  # a share of that of an element: so the damping of the line stays the same
-    nodes, steps = math.ceil(elements * (tether.nodes - 1)) + 1, {}
-    settings = f"on {nodes} nodes"
-    if run.record["adaptive"]:
-        steps = {"rtol": solver.rtol / tighter, "max_step_s": solver.max_step_s / shorter}
-        settings += f" at solver.rtol = {steps['rtol']:.1g} and solver.max_step_s = {steps['max_step_s']:.2g}"
+def _differences(run, columns, duration_s, grid):
+    """How the run differs until duration_s from one on another grid; None where that one ends early."""
+    scene = run.scene
+    other, settings = _on_grid(run, grid)
     if duration_s < run.duration_s:
         settings += f", in the first {duration_s:.4g} s,"
-    other = scene.with_values("tether", nodes=nodes, damping_critical=damping).with_values("solver", **steps)
-    other = other.model_copy(update={"output": Output(step_s=scene.output.step_s)})
     other_columns = _columns_of_companion(run, other, duration_s)
     if other_columns is None:
         return None
-    count = len(other_columns["time_s"])
-    pair = {name: series[:count] for name, series in columns.items()}, other_columns
-    largest_N, other_N = (float(series["tension_top_high_N"].max()) for series in pair)
-    slack, other_slack = (float(slack_samples(scene, series).mean()) for series in pair)
-    peak = int(pair[0]["tension_top_high_N"].argmax())
-    then = slice(max(peak - AROUND, 0), peak + AROUND + 1)
-    then_N = float(pair[1]["tension_top_high_N"][then].max())
-    shares = []
-    for tension_N in (other_N, then_N):
-        difference_N = abs(tension_N - largest_N)
-        if difference_N <= ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2:
-            difference_N = 0.0
-        shares.append(difference_N / max(abs(largest_N), 1e-300))
-    return _Differences(largest_N, other_N, *shares, slack, other_slack, settings)
+    columns = {name: series[: len(other_columns["time_s"])] for name, series in columns.items()}
+    high_N, other_high_N = columns["tension_top_high_N"], other_columns["tension_top_high_N"]
+    peak = int(high_N.argmax())
+    around = slice(max(peak - SAMPLES_AROUND_PEAK, 0), peak + SAMPLES_AROUND_PEAK + 1)
+    largest_N, other_N = float(high_N[peak]), float(other_high_N.max())
+    return _Differences(
+        largest_N,
+        other_N,
+        tension=_relative(scene, other_N, largest_N),
+        tension_at_peak=_relative(scene, float(other_high_N[around].max()), largest_N),
+        slack=float(slack_samples(scene, columns).mean()),
+        other_slack=float(slack_samples(scene, other_columns).mean()),
+        settings=settings,
+    )
+
+
+def _on_grid(run, grid):
+    """The scene of a run on another grid with smaller steps; and these settings in words."""
+    scene, tether, solver = run.scene, run.scene.tether, run.scene.solver
+    damping = tether.damping_critical
+    if damping is not None:
+        damping *= grid.elements  # a share of that of an element: so the damping of the line stays the same
+    nodes, steps = math.ceil(grid.elements * (tether.nodes - 1)) + 1, {}
+    settings = f"on {nodes} nodes"
+    if run.record["adaptive"]:
+        steps = {"rtol": solver.rtol / grid.tighter, "max_step_s": solver.max_step_s / grid.shorter}
+        settings += f" at solver.rtol = {steps['rtol']:.1g} and solver.max_step_s = {steps['max_step_s']:.2g}"
+    other = scene.with_values("tether", nodes=nodes, damping_critical=damping).with_values("solver", **steps)
+    return other.model_copy(update={"output": Output(step_s=scene.output.step_s)}), settings
+
+
+def _relative(scene, tension_N, largest_N):
+    """Difference of two tensions over the second one; 0 where it is rounding."""
+    tether, difference_N = scene.tether, abs(tension_N - largest_N)
+    if difference_N <= ROUNDING * tether.density_kgpm3 * tether.area_m2 * tether.length_m * scene.gravity_mps2:
+        return 0.0
+    return difference_N / max(abs(largest_N), 1e-300)
 
 
 def _columns_of_companion(run, scene, duration_s):

@@ -27,8 +27,8 @@ MANY = 8  # waves from which on a sea is meant to be random
 STEEPEST = math.pi / 15.0  # k H_s/2 of seas in nature (DNV-RP-C205, 3.5.4: H_s is at most 1/15 of the length)
 FASTER = 1.2  # times the speed at still water, to which waves are extrapolated
 BENT = 0.5  # turn (rad) in an element at rest below which a finer grid has the same tension within 1 %
-SPARSE = 0.03  # two standard deviations of a slack fraction: a smaller error is not told
-ENOUGH_SAMPLES = 4.0 / (12.0 * SPARSE**2)  # in which even a crossing at each would leave a smaller one
+SLACK_ERROR = 0.03  # two standard deviations of a slack fraction: a smaller error is not told
+ENOUGH_SAMPLES = 4.0 / (12.0 * SLACK_ERROR**2)  # in which even a crossing at each would leave a smaller one
 FEW_SAMPLES = 10  # from crossing to crossing, on average
 UNBUCKLED = 4.0  # elements in a buckle: fewer keep it from growing
 FINER = 4  # times the elements, of the line at rest with which a bent one is compared
@@ -49,17 +49,17 @@ def doubts_of(run: "Run", columns: Columns) -> str:
         _unsteady_at_rest(run),
     ]
     bounds = [_undamped(run, columns), _pressed_together(run, columns), _folded(run, columns)]
-    others, agree = other_grids(run, columns, any(inexact + bounds), any(bounds))
-    if not agree:
+    others = other_grids(run, columns, told=any(inexact + bounds), bounded=any(bounds))
+    if not others.agree:
         inexact += bounds
     doubtful = (
-        _sparse(run, columns),
+        _few_samples(run, columns),
         _waves_on_element(run),
         _out_at_rest(run),
         _regular_waves(run),
         *_sea(run, columns),
     )
-    return "; ".join(filter(None, (*inexact, others, *doubtful)))
+    return "; ".join(filter(None, (*inexact, others.words, *doubtful)))
 
 
 def _folded(run, columns):
@@ -81,7 +81,7 @@ def _coarse_at_rest(run):
     )
 
 
-def _sparse(run, columns):
+def _few_samples(run, columns):
     """Says how far the slack fraction holds where the line often snaps from one sample to the next, or nothing.
 
     A crossing lies anywhere between two samples, with a standard deviation of a step over the root of 12.
@@ -91,7 +91,7 @@ def _sparse(run, columns):
     slack = slack_samples(run.scene, columns)
     crossings = np.count_nonzero(slack[1:] != slack[:-1])
     error = 2.0 * math.sqrt(crossings / 12.0) / len(slack)
-    if error <= SPARSE or len(slack) > FEW_SAMPLES * crossings:
+    if error <= SLACK_ERROR or len(slack) > FEW_SAMPLES * crossings:
         return ""
     return (
         f"the tension passes {SLACK:.0%} of its static value {crossings} times in {len(slack)} samples: the slack "

@@ -239,8 +239,8 @@ def compared(others, water, pressed_N, told, monkeypatch):
     run = Run(line(water, SLACK, {"water.depth_m": 60.0} if water is STILL else {}), 0.1)
     columns = {"tension_top_high_N": np.array([9.0, 100.0]), "tension_min_N": np.array([-pressed_N, 0.0])}
 
-    def differences(run, columns, duration_s, elements, tighter, shorter):
-        name = "coarse" if elements < 1 else "fine"
+    def differences(run, columns, duration_s, grid):
+        name = "coarse" if grid is companions.COARSE else "fine"
         share, slack, then = (*np.atleast_1d(others[name]), 0.0, 0.0)[:3]
         return companions._Differences(
             100.0, 100.0 + share, share / 100.0, then / 100.0, 0.4, 0.4 + slack / 100.0, name
@@ -275,7 +275,7 @@ def compared(others, water, pressed_N, told, monkeypatch):
 ])  # fmt: skip
 def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, told, words, monkeypatch):
     others = {"coarse": coarse} if fine is None else {"coarse": coarse, "fine": fine}
-    sentence, _ = compared(others, water, pressed_N, told, monkeypatch)
+    sentence = compared(others, water, pressed_N, told, monkeypatch).words
     assert sentence.startswith(words) and bool(sentence) == bool(words)
 
 
@@ -287,12 +287,12 @@ def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, to
     (4.0, 1.0, "measured", False),  # another run has shown that it is not exact
 ])  # fmt: skip
 def test_a_bound_is_refuted_where_both_others_have_the_same_tension(coarse, fine, told, agree, monkeypatch):
-    assert compared({"coarse": coarse, "fine": fine}, STILL, 0.0, told, monkeypatch)[1] == agree
+    assert compared({"coarse": coarse, "fine": fine}, STILL, 0.0, told, monkeypatch).agree == agree
 
 
 @pytest.mark.parametrize("agree", [False, True])
 def test_a_refuted_bound_is_not_told_but_lost_ringing_is(agree, monkeypatch):
-    monkeypatch.setattr(trust, "other_grids", lambda *_: ("", agree))
+    monkeypatch.setattr(trust, "other_grids", lambda *_, **known: companions.OtherGrids("", agree))
     monkeypatch.setattr(trust, "words_of_folds", lambda *_: "folds")
     monkeypatch.setattr(trust, "unresolved", lambda *_: "ringing")
     run = Run(line(DRY, SLACK), 0.1)
@@ -309,8 +309,8 @@ def test_the_tension_of_another_run_is_also_that_at_the_time_of_the_largest(monk
     made = {"tension_top_high_N": other, "tension_top_N": other, "time_s": np.arange(31.0)}
     monkeypatch.setattr(companions, "_columns_of_companion", lambda *_: made)
     monkeypatch.setattr(companions, "static_tension_N", lambda *_: np.nan)
-    found = companions._differences(run, {**made, "tension_top_high_N": base}, 0.5, *companions.COARSE)
-    assert (found.share, found.share_then) == pytest.approx((0.01, 0.4))
+    differences = companions._differences(run, {**made, "tension_top_high_N": base}, 0.5, companions.COARSE)
+    assert (differences.tension, differences.tension_at_peak) == pytest.approx((0.01, 0.4))
 
 
 @pytest.mark.parametrize(("step_s", "told"), [(0.05, True), (0.02, False), (0.01, False)])
@@ -319,5 +319,5 @@ def test_a_slack_fraction_that_is_read_off_too_few_samples_is_told(step_s, told,
     run = Run(line(STILL, SLACK, {"water.depth_m": 60.0}), 0.5)
     time_s = np.arange(0.0, 5.0, step_s)
     monkeypatch.setattr(companions, "static_tension_N", lambda *_: 100.0)
-    words = trust._sparse(run, {"time_s": time_s, "tension_top_N": np.where(time_s % 0.17 < 0.07, 1000.0, 0.0)})
+    words = trust._few_samples(run, {"time_s": time_s, "tension_top_N": np.where(time_s % 0.17 < 0.07, 1000.0, 0.0)})
     assert ("holds to 0.04; lower output.step_s" in words) == told and bool(words) == told
