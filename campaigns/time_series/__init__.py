@@ -35,8 +35,11 @@ WRITTEN = (
 OF_SNAPS_ALONE = ("snaps.csv", "snaps_columns.csv")  # what --snaps writes beside answer.txt
 EXITS = "exit codes: 0 done, 1 the folder could not be written, 2 bad input, 130 Ctrl-C"
 OPTIONS = {  # option: its word and its use in the help
-    "--column": ("NAME", "the column to judge; may be left out where there is only one"),
-    "--time": ("COLUMN", "the column of times in seconds, evenly spaced"),
+    "--column": ("NAME", "the column to judge; may be left out where there is only one beside the times"),
+    "--time": (
+        "COLUMN",
+        "the column of times in seconds, evenly spaced (default: time_s, where it is there and --step is not given)",
+    ),
     "--step": ("SECONDS", "sampling step, in place of a column of times"),
     "--period": ("SECONDS", "period of the forcing (default: none is known)"),
     "--tolerance": (
@@ -112,8 +115,6 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     unfit, where = OF_SNAPS, "with"
     if options.snaps:
         unfit, where = ("--period", "--tolerance"), "without"
-        if options.step is None and options.time is None:
-            faults.append("--snaps: given without times; allowed: with --time or --step")
     given = [option for option in unfit if getattr(options, option[2:]) is not None]
     faults.extend(f"{option}: allowed {where} --snaps only" for option in given)
     if options.step is not None and options.time is not None:
@@ -131,6 +132,8 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
         from campaigns.time_series.record import read_record
 
         record = read_record(file, options.column, options.time, step, faults)
+    if options.snaps and record is not None and record.unit != "s":
+        faults.append("--snaps: given without times; allowed: with --time or --step")
     if record is not None and period is not None:
         fault = _no_fit(period, record)
         if fault:

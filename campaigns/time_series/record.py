@@ -33,6 +33,7 @@ BINARY = {
     b"CDF": ("netCDF, not text", "of a trajectory: engine.Trajectory.load(FILE).table().to_csv(NEW)"),
     b"\x89HDF": ("netCDF or HDF5, not text", "write the column as text, for instance with pandas"),
 }
+TIME = "time_s"  # a column of this name has the times, where neither --time nor --step is given
 UTF16 = (b"\xff\xfe", b"\xfe\xff")
 # Fewer say nothing in any of the measures.
 LEAST_SAMPLES = 100
@@ -59,14 +60,18 @@ def read_record(
 ) -> Record | None:
     """The Record of one column; None where anything is wrong, which is then appended to `faults`, a line each.
 
-    column, time   names of columns; None: not given (a file of one column needs no name)
+    column, time   names of columns; None: not given (a file of one column beside TIME needs no name)
     step           sampling step [s], or None
     """
     faults_before = len(faults)
     try:
         table = read_table(Path(path))
-        if column is None and len(table.names) == 1:
-            column = table.names[0]
+        if time is None and step is None and column != TIME and TIME in table.names:
+            time = TIME
+        if column is None:
+            series = [name for name in table.names if name != time]
+            if len(series) == 1:
+                column = series[0]
         if column is None and any(fault.startswith("--column:") for fault in faults):
             return None  # it was given, and is at fault
         faults.extend(_unknown_columns(table, column, time))
