@@ -29,6 +29,7 @@ TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 12  # a bight that the grid does not resolve keeps a folded node
+LEAST_NODES = 5  # of a grid whose rest is a guess for a finer one
 LEANING = 1.0
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
@@ -56,20 +57,12 @@ def static_equilibrium(record: np.void, scene: Scene, tables: np.ndarray) -> tup
 
 
 def _least_pressed(record, scene, tables):
-    """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least.
-
-    Where a line without bending stiffness keeps folds in space, or finds no rest, the guess is its rest in a plane.
-    """
+    """A status code and, of the rests that all guesses and beds lead to, the one that presses the line least."""
     h, best = lengths_of(record, tables), None
     weight, borne = abs(float(record["w0"])) * float(np.sum(h)), buckling_load(scene.tether, scene.end)
     capped, bedded = bool(record["spherical_cap"]), has_extras(record) and bool(record["floored"])
     for span, sinking in product(SPANS if capped else SPANS[:1], SINKING if bedded else SINKING[:1]):
-        Y = first_guess(record, scene, h, span)
-        code = _settle_on_bed(record, scene, tables, Y, sinking)
-        if is_spatial(record) and not record["bent"] and (code != OK or _folded(Y)):
-            other = _rest_in_plane(record, scene, h, span)
-            if other is not None and _settle_on_bed(record, scene, tables, other, sinking) == OK:
-                code, Y = OK, other
+        code, Y = _rest(record, scene, tables, span, sinking)
         if not (capped or bedded):
             return code, Y
         if code != OK and not bedded:
@@ -83,6 +76,60 @@ def _least_pressed(record, scene, tables):
     if best is not None and best[1] >= -(PRESSED * (weight + borne) if bedded else weight + borne):
         return OK, best[2]
     return STATICS_FAILED, Y
+
+
+def _rest(record, scene, tables, span, sinking):
+    """A status code and the rest to which the first guess leads.
+
+    Where a line without bending stiffness keeps folds in space, or finds no rest, the guess is its rest in a plane;
+    where it finds none in a plane, its rest on half the elements.
+    """
+    h = lengths_of(record, tables)
+    Y = first_guess(record, scene, h, span)
+    code = _settle_on_bed(record, scene, tables, Y, sinking)
+    if record["bent"]:
+        return code, Y
+    other = None
+    if is_spatial(record):
+        if code != OK or _folded(Y):
+            other = _rest_in_plane(record, scene, h, span, sinking)
+    elif code != OK:
+        other = _rest_on_half(record, scene, h, span, sinking)
+    if other is not None and _settle_on_bed(record, scene, tables, other, sinking) == OK:
+        return OK, other
+    return code, Y
+
+
+def _rest_in_plane(record, scene, h, span, sinking):
+    """The state (n, 13) in space of a line that rests in the plane of its held end; None if it does not."""
+    flat = scene.with_values("motion", dimensions=2)
+    if record["end"] == HELD:
+        x, y, z = scene.end.position_m
+        flat = flat.with_values("end", position_m=(math.hypot(x, y), 0.0, z))
+    code, Y = _rest(*_numbered(flat), span, sinking)
+    if code != OK:
+        return None
+    return lift.state_in_space(record, h, Y, _azimuth(scene, record))
+
+
+def _rest_on_half(record, scene, h, span, sinking):
+    """The state (n, 6) of a line that rests on half the elements, between them linear; None if it does not."""
+    nodes = (scene.tether.nodes + 1) // 2
+    if nodes < LEAST_NODES:
+        return None
+    coarse_record, coarse_scene, tables = _numbered(scene.with_values("tether", nodes=nodes))
+    code, coarse = _rest(coarse_record, coarse_scene, tables, span, sinking)
+    if code != OK:
+        return None
+    coarse[:, col.PHI] = np.unwrap(coarse[:, col.PHI])  # nodes may have been turned by whole turns
+    s, coarse_s = np.append(0.0, np.cumsum(h)), arc_lengths(coarse_record, tables)
+    return np.column_stack([np.interp(s, coarse_s, column) for column in coarse.T])
+
+
+def _numbered(scene):
+    """Record, scene and tables of a scene, as `settle` takes them."""
+    record, tables = numbers_of(scene)
+    return record, scene, tables
 
 
 def _folded(Y):
@@ -176,19 +223,6 @@ def _azimuth(scene, record):
     """Angle (rad) about z from x of the vertical plane of the held end, or of the force on a free one; else 0."""
     across = {HELD: scene.end.position_m, FREE: scene.end.force_N}.get(int(record["end"]))
     return math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
-
-
-def _rest_in_plane(record, scene, h, span):
-    """The first guess (n, 13) in space of a line that rests in the plane of its held end; None if it does not."""
-    flat = scene.with_values("motion", dimensions=2)
-    if record["end"] == HELD:
-        x, y, z = scene.end.position_m
-        flat = flat.with_values("end", position_m=(math.hypot(x, y), 0.0, z))
-    planar_record, tables = numbers_of(flat)
-    Y = first_guess(planar_record, flat, h, span)
-    if settle(planar_record, flat, tables, Y) != OK:
-        return None
-    return lift.state_in_space(record, h, Y, _azimuth(scene, record))
 
 
 def _in_plane(record, scene, h, force, span):

@@ -5,7 +5,7 @@ import pytest
 
 from engine.run.rest import rest_of
 from engine.spatial import lift
-from tests.engine.lines import SPACE, STILL, held, line, linear, ran
+from tests.engine.lines import DRY, SPACE, STILL, held, line, linear, ran
 
 CHAIN = {"length_m": 91.24, "area_m2": 2.34e-5, "density_kgpm3": 7800.0, "bending_stiffness_Nm2": 0.0}
 WATER = STILL | {"water.depth_m": 228.0, "anchor.position_m": [0.0, 0.0, 109.5]}
@@ -20,6 +20,14 @@ def test_a_chain_in_space_rests_as_in_the_plane(nodes):
     )
     assert space.top_N == pytest.approx(planar.top_N, rel=1e-9)
     assert space.turn == pytest.approx(planar.turn, rel=1e-6)
+
+
+@pytest.mark.parametrize("nodes", [141, 161, 201])
+def test_a_stiff_chain_rests_on_any_grid(nodes):
+    """From an arc these grids found no rest; on 81 and 121 nodes the top bears 138.97 and 138.90 N."""
+    chain = CHAIN | {"length_m": 4.796, "area_m2": 1.7e-3}
+    rest = rest_of(line(DRY, held(1.619, -4.419), tension=linear(2.2e7), nodes=nodes, **chain))
+    assert rest.status == 0 and rest.top_N == pytest.approx(138.9, abs=0.1)
 
 
 def test_whole_turns_are_taken_out_of_the_elements():
