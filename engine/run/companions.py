@@ -105,9 +105,9 @@ def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> Othe
     if coarse is None and told:
         return OtherGrids()
     if coarse is not None:
-        unsure = undragged or bounded or _depends_on_threshold(run.scene, columns)
-        if coarse.within(HINT) and coarse.tension_at_peak <= HINT.tension and not unsure:
-            return OtherGrids()
+        if coarse.within(HINT) and coarse.tension_at_peak <= HINT.tension:
+            if not (undragged or bounded or _depends_on_threshold(run.scene, columns)):
+                return OtherGrids()
         limits = _limits_of_coarse(coarse, told, bounded, pressed=compression_N(run, columns) > 0.0)
         if limits is not None:
             return OtherGrids(coarse.words(limits))
