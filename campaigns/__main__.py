@@ -67,7 +67,7 @@ def _parser_of(name: str) -> argparse.ArgumentParser:
 def installed() -> int:
     """The entry point of `tether` (pyproject.toml)."""
     if "_ARGCOMPLETE" in os.environ:  # the Tab key of a shell
-        from campaigns.machinery.completion import complete
+        from campaigns.completion import complete
 
         complete([*COMMANDS, *_campaigns()], _parser_of)
     open_streams()

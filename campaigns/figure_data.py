@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.machinery.folder import SEAL, read_sealed, write_sealed
+from campaigns.machinery import SEAL, read_sealed, write_sealed
 
 if TYPE_CHECKING:
     import xarray

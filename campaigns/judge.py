@@ -2,8 +2,7 @@
 
 from functools import partial
 
-from campaigns.machinery.long_runs import TANGENTS, once, until_judged
-from campaigns.machinery.plan import Job
+from campaigns.machinery import TANGENTS, Job, once, until_judged
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
 
 LEAST_JUDGED = 40  # wave periods after the transient; a shorter record is not judged, and has no exponents

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from campaigns.machinery.folder import write_new
+from campaigns.machinery import write_new
 from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS, STATEMENTS, csv_of, listed
 
 NOT_SHOWN = "No run shows it."

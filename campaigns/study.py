@@ -12,12 +12,8 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import engine
-from campaigns.machinery import cli, session
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, made_by, run, session, stage, write_scene
 from campaigns.machinery.finished import finished, order_key
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.progress import stage
-from campaigns.machinery.runner import run, write_scene
 from tables import Columns, Rows
 
 

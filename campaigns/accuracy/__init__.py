@@ -18,8 +18,7 @@ from statistics import median
 
 import engine
 from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
-from campaigns.machinery import cli
-from campaigns.machinery.progress import stage
+from campaigns.machinery import cli, stage
 from campaigns.study import Order, Study
 
 TOLD = ("title", "measure", "period_s", "duration_s", "rough")  # of every work, in the provenance
@@ -52,9 +51,7 @@ def perform(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
-    from campaigns.machinery.folder import made_by
-    from campaigns.machinery.plan import Plan, Summary
-    from campaigns.machinery.runner import run, write_scene
+    from campaigns.machinery import Plan, Summary, made_by, run, write_scene
     from tables import write_table
 
     options, out, of_engine = order.options, order.how.out, order.simulate is None
@@ -77,7 +74,7 @@ def perform(order: Order):
 
 def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.jobs import taking_part, version
-    from campaigns.machinery.session import machine
+    from campaigns.machinery import machine
 
     options = order.options
     works, notes = {}, {}

@@ -20,8 +20,7 @@ from campaigns.accuracy import plan
 from campaigns.accuracy.peers.record import nothing
 from campaigns.accuracy.plan import BEST, BY_NAME, PEERS, Effort, Peer, Point
 from campaigns.accuracy.rows import kept_samples, point_row
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, made_by
 from engine.trajectory import Trajectory
 
 REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted, number_of, of_words
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)

@@ -20,8 +20,7 @@ from pathlib import Path
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import Rows

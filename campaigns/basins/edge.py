@@ -15,7 +15,7 @@ from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from engine.views import LONGEST_PERIOD
 from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, write_table
 

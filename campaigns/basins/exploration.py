@@ -7,7 +7,7 @@ from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTION, Motion, Motions, Search
 from campaigns.explore.stages import judge, name, propose, run_from_rest
 from campaigns.explore.starts import KICKS, OUTCOME, Ending, Start
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery import Job, Plan, Summary
 from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, write_table
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion

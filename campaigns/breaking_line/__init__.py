@@ -16,8 +16,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, cli
 from campaigns.study import Measures, Order, Study
 
 if TYPE_CHECKING:

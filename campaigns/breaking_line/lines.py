@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.breaking_line.theory import theory_of
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from tables import Row as Line
 from tables import read_table
 

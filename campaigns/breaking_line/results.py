@@ -22,13 +22,13 @@ from campaigns.breaking_line.lines import ended, motion_of, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import attribute_of, store
-from campaigns.machinery.folder import made_by
+from campaigns.machinery import made_by
 from campaigns.statements import write_statements
 
 if TYPE_CHECKING:
     import xarray
 
-    from campaigns.machinery.plan import Plan, Summary
+    from campaigns.machinery import Plan, Summary
 
 EXACT = "exact.nc"
 SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)  # of the static tension: contours and characteristics that are shown

@@ -23,8 +23,7 @@ from campaigns.explore.grid import STEEPNESS as COLUMN
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 from tables import Rows

@@ -18,9 +18,7 @@ from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, SLACK, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.explore.starts import run_within
 from campaigns.judge import UNFOLLOWED, job_from
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import shares_worker, spare_groups
+from campaigns.machinery import Job, Jobs, Plan, Summary, run_of, shares_worker, spare_groups
 from engine.scene import scene_from_toml
 from tables import (
     CAPPED,

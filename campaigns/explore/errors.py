@@ -41,9 +41,7 @@ from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
 from campaigns.judge import UNFOLLOWED, job_from, periods_of
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.store import orbits_in
+from campaigns.machinery import Job, Plan, Summary, orbits_in, run_of
 from engine import simulate
 from engine.run.rest import static_tension_N
 from tables import (

@@ -11,8 +11,7 @@ from functools import reduce
 from itertools import product
 
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, cli
 from campaigns.study import Order
 from tables import Column, Columns, Row, names
 

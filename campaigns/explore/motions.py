@@ -14,9 +14,7 @@ from typing import NamedTuple
 from analysis import grouped, share_of
 from campaigns.explore.coarse import coarse_endings
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.store import orbits_in
+from campaigns.machinery import Job, Jobs, Plan, Summary, orbits_in, run_of
 from campaigns.study import Order
 from tables import REGIMES, SHEET, Column, Columns, Row, write_table
 

@@ -16,9 +16,7 @@ from typing import TYPE_CHECKING
 
 import engine
 from campaigns.judge import periods_of
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.long_runs import EARLY
-from campaigns.machinery.store import Store, key_of
+from campaigns.machinery import EARLY, Store, key_of, made_by
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carries_tangents, strobed_states
 from tables import REGIMES, SHEET, Column, finite, names
 

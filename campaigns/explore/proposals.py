@@ -9,10 +9,7 @@ import engine
 from analysis import approach_evidence, approached_period, joins, settled
 from analysis.orbits import NoImage, OrbitMap, find_orbit
 from campaigns.explore.starts import Start
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Plan
-from campaigns.machinery.store import Store, key_of
-from campaigns.machinery.tasks import Task, results
+from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.physics.strains import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each

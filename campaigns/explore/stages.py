@@ -22,8 +22,7 @@ from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search
 from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
-from campaigns.machinery.plan import Job, Jobs
-from campaigns.machinery.progress import in_parts
+from campaigns.machinery import Job, Jobs, in_parts
 
 TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 

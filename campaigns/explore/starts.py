@@ -23,11 +23,7 @@ import numpy as np
 from analysis import Settled, joins, settled
 from campaigns.explore.multipliers import orbit_ahead
 from campaigns.judge import UNFOLLOWED, periods_of
-from campaigns.machinery.folder import claimed, made_by, run_of
-from campaigns.machinery.long_runs import until_settled
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import run
-from campaigns.machinery.store import Store, orbits_in
+from campaigns.machinery import Job, Jobs, Plan, Store, Summary, claimed, made_by, orbits_in, run, run_of, until_settled
 from engine.scene import scene_from_toml
 from engine.views import strobed_states
 from tables import (

@@ -8,9 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import engine
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import run
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
 from tables import Columns, Rows, names, read_table

@@ -15,10 +15,7 @@ from analysis.orbits import doubled_orbit, find_orbit, follow_branch, middle_of
 from campaigns.explore.grid import Varied
 from campaigns.explore.multipliers import COUNT, TOLERANCE, cable_map
 from campaigns.explore.multipliers import SOURCES as OF_ORBITS
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Plan
-from campaigns.machinery.store import Store, key_of
-from campaigns.machinery.tasks import Task, results
+from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.scene import SceneError, scene_from_toml
 from tables import finite
 

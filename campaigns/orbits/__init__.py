@@ -26,9 +26,7 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
-from campaigns.machinery import cli
-from campaigns.machinery.folder import BadInput, claimed, run_of
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 from tables import number_of, read_table

@@ -14,8 +14,7 @@ from campaigns.explore.grid import Varied
 from campaigns.explore.motions import subfolder
 from campaigns.explore.multipliers import COUNT, cable_map
 from campaigns.explore.tracing import SOURCES, Line, Scenes, Solved, line_task
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.store import Store, key_of
+from campaigns.machinery import Store, key_of, made_by
 from campaigns.orbits.tables import ANGLE, KIND, PERIOD
 from campaigns.orbits.tree import Tree
 from tables import MESSAGE, STATUS, Column, Row, finite, write_table

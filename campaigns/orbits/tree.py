@@ -8,8 +8,7 @@ from string import ascii_lowercase
 import numpy as np
 
 from campaigns.explore.tracing import Line, Solved, finer, followed, line_task, sharper, under, work
-from campaigns.machinery.plan import Plan
-from campaigns.machinery.tasks import Task
+from campaigns.machinery import Plan, Task
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"

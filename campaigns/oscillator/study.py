@@ -30,9 +30,7 @@ from analysis.oscillator import (
 )
 from analysis.oscillator.growth import random_starts
 from campaigns.figure_data import attribute_of, store
-from campaigns.machinery.folder import Table, made_by, trajectory_path
-from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import stage
+from campaigns.machinery import Summary, Table, made_by, stage, trajectory_path
 from campaigns.oscillator.options import Options
 from campaigns.study import Order
 from engine.atomic import write_atomic

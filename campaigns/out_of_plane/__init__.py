@@ -19,8 +19,7 @@ from itertools import product
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.explore.sweep import ROW_SOURCES
 from campaigns.judge import LEAST_JUDGED, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery import Job, Plan, Summary, cli
 from campaigns.study import Lengths, Measures, Order, Study
 from tables import LARGE, SMALL, read_table, write_table
 

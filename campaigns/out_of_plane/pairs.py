@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from engine.views import strobed_radius
 from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column, Row
 

@@ -14,8 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Summary
+from campaigns.machinery import Summary, cli
 from campaigns.paper.order import PARTS
 from campaigns.study import Order, Study
 
@@ -39,8 +38,7 @@ class Options(cli.Options):
 
 def perform(order: Order) -> Summary:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
-    from campaigns.machinery.progress import stage
-    from campaigns.machinery.session import ended
+    from campaigns.machinery import ended, stage
     from campaigns.paper import parts, results
 
     out = order.how.out

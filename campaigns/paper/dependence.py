@@ -12,9 +12,8 @@ from typing import get_args
 from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.sweep import measures_of
+from campaigns.machinery import Summary, claimed
 from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import claimed
-from campaigns.machinery.plan import Summary
 from campaigns.study import Measures, Order, Study
 from tables import DEPTH, STIFFNESS, names, of_words
 from tables import PAPER_STEEPNESS as STEEPNESSES

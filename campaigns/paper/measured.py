@@ -14,7 +14,7 @@ import numpy as np
 
 from campaigns.breaking_line.lines import read_lines
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import read_json, run_of, stored_run, trajectory_path
+from campaigns.machinery import read_json, run_of, stored_run, trajectory_path
 from campaigns.paper.measures import buckling_waves, calm_measures, scales, snaps, violent_measures
 from tables import LARGE, SMALL, Row, read_table
 

@@ -19,11 +19,17 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from campaigns.machinery import cli
-from campaigns.machinery.folder import CampaignStopped, Table, made_by, of_the_page, trajectory_path
-from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import stage
-from campaigns.machinery.session import command_line
+from campaigns.machinery import (
+    CampaignStopped,
+    Summary,
+    Table,
+    cli,
+    command_line,
+    made_by,
+    of_the_page,
+    stage,
+    trajectory_path,
+)
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
 from campaigns.study import Order

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from campaigns.machinery.folder import made_by, of_the_page, read_json
+from campaigns.machinery import made_by, of_the_page, read_json
 from campaigns.paper.figures import FIGURES, LEFT_OUT, files_of, place_of, write_figure_data
 from campaigns.statements import write_statements
 from tables import STATEMENTS as STATEMENTS

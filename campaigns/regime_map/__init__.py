@@ -19,8 +19,7 @@ from pathlib import Path
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
 from campaigns.explore.sweep import BUDGET
-from campaigns.machinery import cli, session
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, session
 from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study

@@ -6,7 +6,7 @@ from itertools import filterfalse, product
 from typing import NamedTuple
 
 from campaigns.explore.grid import Grid, Varied
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job
 from campaigns.study import Order
 from tables import Row
 

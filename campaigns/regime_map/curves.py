@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from campaigns.machinery.plan import Plan
+from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.sweep import table_of
-from campaigns.machinery.folder import CampaignStopped, claimed, trajectory_path
+from campaigns.machinery import CampaignStopped, claimed, trajectory_path
 from campaigns.study import Order, Study
 
 

@@ -15,8 +15,7 @@ from campaigns.explore.motions import Motion, Motions, Search
 from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
 from campaigns.explore.stages import explore
-from campaigns.machinery.plan import Jobs, Plan, Summary
-from campaigns.machinery.progress import print_line
+from campaigns.machinery import Jobs, Plan, Summary, print_line
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Quadtree
 from campaigns.regime_map.tables import STATIC

@@ -9,7 +9,7 @@ import numpy as np
 from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
 from campaigns.explore.sweep import columns_of
-from campaigns.machinery.plan import Plan
+from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
 from engine.atomic import write_atomic
 from tables import (

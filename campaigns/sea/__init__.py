@@ -24,10 +24,7 @@ from pathlib import Path
 from campaigns.explore.grid import Grid, grid_of
 from campaigns.explore.sweep import kick_speed, table_of
 from campaigns.finer import finer
-from campaigns.machinery import cli
-from campaigns.machinery.long_runs import TANGENTS
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import run
+from campaigns.machinery import TANGENTS, Job, Jobs, Plan, Summary, cli, run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import LARGE, Row, Rows, names

@@ -28,9 +28,7 @@ from analysis.tangent_growth import turned
 from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
 from campaigns.explore.sweep import table_of
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Plan, Summary
-from campaigns.machinery.progress import stage
+from campaigns.machinery import Plan, Summary, run_of, stage
 from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set, significant_height_m
 from campaigns.sea.regular import FOLDER as REGULAR
 from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row

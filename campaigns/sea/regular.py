@@ -16,9 +16,7 @@ from analysis import slow_forecast
 from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
-from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.plan import Plan, Summary
-from campaigns.machinery.runner import spare_groups
+from campaigns.machinery import CampaignStopped, Plan, Summary, spare_groups
 from campaigns.study import Order
 from engine.views import carries_tangents
 from tables import PEAK, Rows, number_of

@@ -15,8 +15,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Summary
+from campaigns.machinery import Summary, cli
 from campaigns.study import Order, Study
 from tables import number_of
 

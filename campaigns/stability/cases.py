@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.machinery.folder import CampaignStopped, write_failure
+from campaigns.machinery import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.limits import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate

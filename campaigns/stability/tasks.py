@@ -9,12 +9,7 @@ from collections import Counter
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.folder import made_by, trajectory_path
-from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import stage
-from campaigns.machinery.runner import ENGINE
-from campaigns.machinery.store import Store, key_of
-from campaigns.machinery.tasks import Task, results
+from campaigns.machinery import ENGINE, Store, Summary, Task, key_of, made_by, results, stage, trajectory_path
 from campaigns.stability.cases import COLUMNS, Case, all_cases, case_row, drift_case
 from campaigns.stability.limits import DIED, load_kernels
 from engine import load_scene

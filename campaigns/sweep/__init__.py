@@ -27,9 +27,7 @@ from typing import TYPE_CHECKING
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, grid_of, varied
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.folder import write_new
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, cli, write_new
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
 from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, Rows, counted, names, read_columns, read_table

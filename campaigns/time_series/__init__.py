@@ -18,9 +18,8 @@ from collections import namedtuple
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from campaigns.machinery import cli
+from campaigns.machinery import cli, stage
 from campaigns.machinery.cli import FOLDER, FRACTION, POSITIVE, Kind, fault_of, number
-from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command
 
 if TYPE_CHECKING:

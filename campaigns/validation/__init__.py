@@ -40,8 +40,7 @@ class Options(cli.Options):
 
 def perform(order: Order):
     """All runs, side by side; then each case beside its source."""
-    from campaigns.machinery.plan import Plan
-    from campaigns.machinery.runner import run, write_scene
+    from campaigns.machinery import Plan, run, write_scene
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
     from tables import counted, write_table
@@ -61,7 +60,7 @@ def perform(order: Order):
 def parameters(order: Order) -> dict[str, object]:
     from campaigns.accuracy.jobs import version
     from campaigns.accuracy.plan import PEERS
-    from campaigns.machinery.session import machine
+    from campaigns.machinery import machine
 
     asked = {case.options.get("peer") for case in order.options.cases}
     peers = {peer.name: version(peer) or "(not installed)" for peer in PEERS if peer.name in asked}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job
 from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, of_words
 
 HOLDS, MISSES, NOT_RUN, TOLD = "holds", "misses", "not run", "told"
@@ -102,7 +102,7 @@ def peer_jobs(case: Case) -> Iterator[Job]:
     """A run of ours and one of another code, on a work of `campaigns.accuracy`."""
     from campaigns.accuracy.jobs import other_code, scene_of, version
     from campaigns.accuracy.plan import BY_NAME
-    from campaigns.machinery.folder import made_by
+    from campaigns.machinery import made_by
 
     peer, work, setting = peer_of(case), BY_NAME[case.options["work"]], tuple(case.options["setting"])
     yield Job({"run": f"{work.name}, ours"}, work.made({**peer.ours, **case.changes}), duration_s=case.duration_s)

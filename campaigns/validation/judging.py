@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
 from engine import Trajectory

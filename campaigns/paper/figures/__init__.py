@@ -12,7 +12,7 @@ from pathlib import Path
 
 from campaigns import figure_data
 from campaigns.breaking_line.lines import FAST, SLOW
-from campaigns.machinery.folder import made_by, read_json, write_json
+from campaigns.machinery import made_by, read_json, write_json
 from campaigns.paper.figures.chaos import running_exponents, sections
 from campaigns.paper.figures.motions import SHOWN, breaking, history, offplane_histories, spectra
 from campaigns.paper.measured import LeftOut, Parts

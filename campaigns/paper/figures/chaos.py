@@ -12,7 +12,7 @@ and g' = r'/(D w_nr).
 import numpy as np
 
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery import trajectory_path
 from campaigns.paper.measured import LeftOut, Parts, Plan
 from engine.natural_frequencies import natural_frequencies
 from engine.views import carried, strobed_radius
