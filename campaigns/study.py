@@ -66,15 +66,15 @@ class Lengths:
         order.given_transient = transient
         if self.budget and periods is None:
             if transient is not None:
-                order.tell([f"--transient: given {transient} without --periods; allowed: with --periods"])
+                order.tell(f"--transient: given {transient} without --periods; allowed: with --periods")
             order.looks, order.periods, order.transient = True, values.budget, None
             return
         if self.budget and values.budget != self.budget:
-            order.tell([f"--budget: given {values.budget} with --periods; allowed: without --periods"])
+            order.tell(f"--budget: given {values.budget} with --periods; allowed: without --periods")
         if transient is None:
             transient = min(self.transient, periods // self.share)
         if transient >= periods:
-            order.tell([f"--transient: given {transient} of {periods} periods; allowed: less than --periods"])
+            order.tell(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
         order.periods, order.transient = periods, transient
 
 
@@ -100,7 +100,7 @@ class Order:
         """The scenes of the cases."""
         return [case.scene for case in self.cases]
 
-    def tell(self, faults: Iterable[str]) -> None:
+    def tell(self, *faults: str) -> None:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
@@ -109,7 +109,8 @@ class Order:
         try:
             return engine.load_scene(self.name, {**self.changes, **(changes or {})})
         except engine.SceneError as error:
-            self.tell(error.faults if tell else ())
+            if tell:
+                self.tell(*error.faults)
             return None
 
     def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "engine.Scene | None":
@@ -126,7 +127,7 @@ class Order:
             return None
         if duration_s is None and scene.waves is not None:
             duration_s = self.periods * scene.waves.period_s
-        self.tell(doubts(scene, duration_s))
+        self.tell(*doubts(scene, duration_s))
         if scene.waves is None:
             return scene
         from engine.physics.sea import enough_waves
@@ -142,21 +143,6 @@ class Order:
         return Job(labels, scene, self.periods)
 
 
-def no_parameters(order: Order) -> Mapping[str, object]:
-    """Nothing beside the scene, its changes and the lengths."""
-    return {}
-
-
-def nothing_after(order: Order) -> Iterable[Callable[[Plan, Summary], float]]:
-    """Nothing is done after the runs."""
-    return ()
-
-
-def usual_runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
-    """`runner.run`: every run of the order, as its scene begins."""
-    return run(plan, jobs)
-
-
 @dataclass(frozen=True)
 class Study:
     """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
@@ -167,7 +153,7 @@ class Study:
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
-    parameters: Callable[[Order], Mapping[str, object]] = no_parameters  # in its provenance, beside those of scenes
+    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
     answer: Callable[[Order, Rows], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
@@ -180,10 +166,11 @@ class Study:
     lengths: Lengths | None = None  # None: its cases have lengths of their own
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    runs: Callable = usual_runs  # what does the runs, as of `usual_runs`
+    # what does the runs; without it each of them is done as its scene begins
+    runs: Callable[[Order, Plan, Jobs], Summary] = lambda order, plan, jobs: run(plan, jobs)
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = nothing_after
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
@@ -220,7 +207,7 @@ class Study:
         as_shipped = not self.scene or (not values.set and values.scene == self.scene)
         if values.mistyped and as_shipped:
             return order  # answered before anything heavy is loaded
-        order.options.read(how.out, faults)
+        order.options.read(faults)
         if self.cases is None or (faults and as_shipped):
             return order
         order.name = values.scene
@@ -263,7 +250,7 @@ class Study:
         refused = []
         if base is not None:
             refused = list(without_waves(order.name, base))
-        order.tell(refused)
+        order.tell(*refused)
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
 

@@ -13,7 +13,6 @@ against their own refined runs and against ours; what is not installed is a row 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import isfinite
-from pathlib import Path
 from statistics import median
 
 import engine
@@ -39,7 +38,7 @@ class Options(cli.Options):
     no_peers: bool = cli.flag("leave out scipy and other codes")
     effort: Effort = FULL
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The effort."""
         effort = QUICK if self.quick else FULL
         chosen = self.works or effort.works

@@ -15,7 +15,6 @@ from rest is found by bisection of states. The order of the starts is drawn by -
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
@@ -42,7 +41,7 @@ class Options(cli.Options):
     displacement: float = cli.option("M", "places go so far from that of rest both ways, m", cli.POSITIVE, MOVED_M)
     seed: int = cli.seed("of the order of the starts, that of a scrambled Halton sequence")
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The grid in place of the words of --across and --grid."""
         across = " ".join(self.across)
         if across not in PAIRS:
@@ -71,7 +70,7 @@ def cases(order: Order) -> Iterator[Job]:
     if scene is None:
         return
     if not carries_tangents(scene):
-        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY}"])
+        order.tell(f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY}")
         return
     scene = judged_scene(order, REST)
     if scene is not None:

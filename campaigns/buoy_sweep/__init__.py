@@ -15,7 +15,6 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 import engine
 from campaigns.explore import sweep as motions
@@ -53,7 +52,7 @@ class Options(motions.Starts):
 
     grid: Grid | None = None  # the steepnesses
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The steepnesses of --steepness or --steepness-range, or STEEPNESS without either."""
         if self.steepness is not None and self.steepness_range is not None:
             faults.append("--steepness and --steepness-range: given both; allowed: one of them")
@@ -77,7 +76,7 @@ def cases(order: Order) -> Iterator[Job]:
             try:
                 spatial, _ = in_space(scene)
             except engine.SceneError as error:
-                order.tell(error.faults)
+                order.tell(*error.faults)
                 continue
             if dimensions == "3":
                 scene = spatial

@@ -136,7 +136,9 @@ class Grid:
 
     def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
         """A key that is varied cannot be set too."""
-        order.tell(f"--set {key.key}: this campaign sets it{instead}" for key in self.keys if key.key in order.changes)
+        for key in self.keys:
+            if key.key in order.changes:
+                order.tell(f"--set {key.key}: this campaign sets it{instead}")
 
     def changes(self, place: Row, base) -> tuple[dict, list[str]]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
@@ -152,7 +154,7 @@ class Grid:
         most: as of `campaigns.judge.judged_job`.
         """
         changes, faults = self.changes(place, order.base())
-        order.tell(faults)
+        order.tell(*faults)
         if faults:
             return None
         scene = judged_scene(order, changes)

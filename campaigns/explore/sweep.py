@@ -78,7 +78,7 @@ def start_of(order: Order, scene):
             raise ValueError("given for a scene without waves; allowed: with waves")
         return checked_start(scene, run_in(order.options.start_from)).at_zero()
     except ValueError as error:
-        order.tell([f"--start-from: {error}"])
+        order.tell(f"--start-from: {error}")
     return None
 
 
@@ -109,7 +109,7 @@ def kicks_of(order: Order) -> int | None:
     elif options.starts != REST:
         return options.starts
     if options.starts not in (None, REST):
-        order.tell([f"--starts: given {options.starts}{allowed}"])
+        order.tell(f"--starts: given {options.starts}{allowed}")
     return None
 
 

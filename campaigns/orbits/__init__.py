@@ -62,7 +62,7 @@ class Options(cli.Options):
     second: object = None  # the key of --curves
     grid: Grid = field(default_factory=Grid)  # the key with its values, read from --vary and --values
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The key with its values in the words of --vary."""
         if self.motion is not None and self.start_from is not None:
             faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
@@ -104,11 +104,13 @@ def cases(order: Order) -> Iterator[Job]:
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
-        order.tell([f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a "
-                    "plane with bending stiffness, an integrator with error control"])  # fmt: skip
+        order.tell(
+            f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a plane with "
+            "bending stiffness, an integrator with error control"
+        )
     if len(grids) > 1:
         key = order.options.grid.keys[0].key
-        order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
+        order.tell(f"--vary {key}: changes the grid of the line; allowed: a key that does not")
     if order.options.second is not None:
         _check_second(order, jobs[0].scene)
     yield from jobs
@@ -121,18 +123,18 @@ def _check_second(order: Order, scene) -> None:
     key = order.options.second
     value, (low, high) = key.of(scene), (key.values[0], key.values[-1])
     if value is None or not low <= value <= high:
-        order.tell([f"--curves {key.key}: given {low:g} to {high:g}; allowed: a range with the value of the scene, "
-                    f"{value}"])  # fmt: skip
+        allowed = f"a range with the value of the scene, {value}"
+        order.tell(f"--curves {key.key}: given {low:g} to {high:g}; allowed: {allowed}")
         return
     try:
         grids = {scene_at(scene, key, end).tether.nodes for end in (low, high)}
     except ArithmeticError as why:
-        order.tell([f"--curves {key.key}: given {low:g} to {high:g}; {why}"])
+        order.tell(f"--curves {key.key}: given {low:g} to {high:g}; {why}")
         return
     if all(isinstance(end, int) for end in (low, high)):
-        order.tell([f"--curves {key.key}: holds a whole number; allowed: a key that holds any number"])
+        order.tell(f"--curves {key.key}: holds a whole number; allowed: a key that holds any number")
     elif grids != {scene.tether.nodes}:
-        order.tell([f"--curves {key.key}: changes the grid of the line; allowed: a key that does not"])
+        order.tell(f"--curves {key.key}: changes the grid of the line; allowed: a key that does not")
 
 
 def _jobs(order: Order) -> Iterator[Job]:
@@ -155,9 +157,9 @@ def _job_of_file(order: Order) -> Iterator[Job]:
             raise ValueError(f"given a run with {key.key} = {value}; allowed: {key.values[0]:g} to {key.values[-1]:g}")
         yield job_from({key.key: value, "dimensions": 2}, scene, 1, run.final_state.at_zero())
     except SceneError as error:
-        order.tell(error.faults)
+        order.tell(*error.faults)
     except ValueError as error:
-        order.tell([f"--start-from: {error}"])
+        order.tell(f"--start-from: {error}")
 
 
 def measures(order: Order) -> Measures:
@@ -275,4 +277,4 @@ STUDY = Study(
     runs=runs,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

@@ -21,19 +21,21 @@ from campaigns.study import Order, Study
 
 @dataclass
 class Options(cli.Options):
-    """The options of this campaign."""
+    """The options of this campaign. out: that of the command, the folder of the results."""
 
     parts: list[str] = cli.option(
         "A B ...", f"parts to run (default: {' '.join(PARTS)})", cli.one_of(PARTS), PARTS, many=True
     )
     quick: bool = cli.flag("shorter and fewer runs: shows the report, concludes nothing")
+    out: Path | None = None
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The parts in the order in which they run."""
         self.parts = [part for part in PARTS if part in self.parts]
         for part in PARTS:
-            if (out / part).exists() and not (out / part).is_dir():
-                faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
+            if (self.out / part).exists() and not (self.out / part).is_dir():
+                given = f"--out: given {str(self.out)!r}, where {part} is a file"
+                faults.append(f"{given}; allowed: a folder of this campaign")
 
 
 def perform(order: Order) -> Summary:

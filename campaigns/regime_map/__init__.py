@@ -14,7 +14,6 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import varied
@@ -56,7 +55,7 @@ class Options(cli.Options):
     screen: bool = cli.flag("a massless tether only")
     grid: CellGrid | None = None
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The keys of the map, and the values of --cut."""
         words = self.vary
         if len(words) != 8:
@@ -96,7 +95,7 @@ def cases(order: Order) -> Iterator[Job]:
     if base is None:
         return
     if not carries_tangents(base):
-        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
+        order.tell(f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}")
         return
     from engine.massless import why_not_covered
 
@@ -104,14 +103,14 @@ def cases(order: Order) -> Iterator[Job]:
         fault_count, job = len(order.faults), grid.job_at(order, cell)
         if job is None or len(order.faults) > fault_count:  # hundreds of others may be at fault in the same way
             place = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
-            order.tell([f"--vary: that is at {place}, the first cell of the map that cannot be"])
+            order.tell(f"--vary: that is at {place}, the first cell of the map that cannot be")
             return
         reason = order.options.screen and why_not_covered(job.scene)
         if reason:
-            order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
+            order.tell(f"--screen: given; allowed: only what a massless tether covers, and this has {reason}")
             return
         if cell == (0, 0, 0, 0) and order.options.curves is not None:
-            order.tell(curves.faults(order.options.curves, grid, grid.labels(cell), job.scene))
+            order.tell(*curves.faults(order.options.curves, grid, grid.labels(cell), job.scene))
         yield job
 
 

@@ -19,7 +19,6 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
-from pathlib import Path
 
 from campaigns.explore.grid import Grid, grid_of
 from campaigns.explore.sweep import kick_speed, table_of
@@ -74,7 +73,7 @@ class Options(cli.Options):
     )
     grid: Grid = field(default_factory=Grid)
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The keys with their values in the words of --vary; thresholds that contradict each other."""
         if self.screen:
             self.starts = 1
@@ -120,7 +119,8 @@ def cases(order: Order) -> Iterator[Job]:
     options: Options = order.options
     options.grid.refuse_set(order)
     taken = [key for key in options.grid.keys if key.name in STUDY.taken]
-    order.tell(f"--vary {key.key}: this campaign sets it; {STUDY.taken[key.name]}" for key in taken)
+    for key in taken:
+        order.tell(f"--vary {key.key}: this campaign sets it; {STUDY.taken[key.name]}")
     if taken:
         return
     order.changes = {**usual_sea(order), **order.changes}
@@ -128,17 +128,17 @@ def cases(order: Order) -> Iterator[Job]:
         order.changes["tether.nodes"] = SCREEN_NODES
     for place in options.grid.places():
         changes, faults = options.grid.changes(place, order.base())
-        order.tell(faults)
+        order.tell(*faults)
         scene = order.base(changes, tell=True)
         if scene is None:
             return
         if scene.end.kind != "buoy" or scene.waves is None or not scene.waves.irregular:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
-            order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
+            order.tell(f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}")
             return
         listed = _seed_key(scene) is None and scene.waves.significant_steepness is None
         if listed and options.seeds > 1:
-            order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
+            order.tell(f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum")
             return
         yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 

@@ -13,7 +13,6 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 from campaigns.machinery import Summary, cli
 from campaigns.study import Order, Study
@@ -33,7 +32,7 @@ class Options(cli.Options):
         cli.whole(0),
     )
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """What is usual depends on --quick."""
         if self.drift_periods is None:
             self.drift_periods = 0 if self.quick else DRIFT_PERIODS

@@ -46,7 +46,7 @@ class Options(motions.Starts):
     duration: float | None = cli.option("S", "length of every run in seconds, for a scene without waves", cli.SECONDS)
     grid: Grid = field(default_factory=Grid)
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The keys with their values in the words of --vary."""
         self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
@@ -61,16 +61,16 @@ def cases(order: Order) -> Iterator[Job]:
         return
     duration_s, periods = order.options.duration, order.periods
     if base.waves is not None and duration_s is not None:
-        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
+        order.tell("--duration: given for a scene with waves; allowed: --periods")
     if base.waves is None:
         periods = None
         if duration_s is None:
             absent = f"--duration: given nothing for {order.name!r}, a scene without waves"
-            order.tell([f"{absent}; allowed: seconds, above 0"])
+            order.tell(f"{absent}; allowed: seconds, above 0")
     for place in grid.places():
         changes, faults = grid.changes(place, base)
         if faults:
-            order.tell(faults)
+            order.tell(*faults)
             continue
         scene = order.scene(changes, duration_s)
         if scene is not None and in_regular_waves(scene):

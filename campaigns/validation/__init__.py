@@ -11,7 +11,6 @@ source gives, is fitted, told in the row, and not judged. A code that is not ins
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import engine
 from campaigns.machinery import cli
@@ -27,7 +26,7 @@ class Options(cli.Options):
     quick: bool = cli.flag(f"the cases without long runs: {' '.join(QUICK)}")
     cases: tuple[Case, ...] = ()
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The cases."""
         chosen = self.only or (QUICK if self.quick else CASES)
         self.cases = tuple(CASES[name] for name in CASES if name in chosen)
