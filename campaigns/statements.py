@@ -64,7 +64,7 @@ class Statement:
         """Of "holds if": where it holds, and where not; else nothing."""
         if self.verdict != HOLDS_IF:
             return ""
-        places: dict[bool, list[str]] = {True: [], False: []}
+        places = {True: [], False: []}
         for where, holds in self.checks:
             places[holds].append(where)
         return f"{grouped(places[True])}; not {grouped(places[False])}"

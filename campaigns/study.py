@@ -85,7 +85,7 @@ class Order:
     how: cli.Running
     options: object = None  # the study's own (`Study.options`)
     name: str = ""  # of the scene
-    changes: dict[str, object] = field(default_factory=dict)  # of the scene, by --set
+    changes: dict = field(default_factory=dict)  # of the scene, by --set
     periods: int | None = None  # of a run, None without `Study.lengths`; at most, where `looks`
     transient: int | None = 0  # wave periods left out of the analysis; None: found by each run
     given_transient: int | None = None  # as the command line says, None: not at all
@@ -227,12 +227,12 @@ class Study:
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
 
-    def order(self, how: cli.Running, scene: str, changes: dict[str, object], /, **options: object) -> Order:
+    def order(self, how: cli.Running, scene: str, changes: dict, /, **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
 
         options: of this study by name, as `read` leaves them; the others have their usual values.
         """
-        faults: list[str] = []
+        faults = []
         values = cli.split(self.parser(), [], faults)
         vars(values).update(options)
         order = Order(how, cli.options_of(self.options, values), scene, changes, faults=faults)

@@ -19,6 +19,7 @@ import engine
 from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
 from campaigns.machinery import cli, stage
 from campaigns.study import Order, Study
+from tables import Rows, number_of, write_table
 
 TOLD = ("title", "measure", "period_s", "duration_s", "rough")  # of every work, in the provenance
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
@@ -51,7 +52,6 @@ def perform(order: Order):
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
     from campaigns.machinery import Plan, Summary, made_by, run, write_scene
-    from tables import write_table
 
     options, out, of_engine = order.options, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
@@ -71,7 +71,7 @@ def perform(order: Order):
     return summary
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import taking_part, version
     from campaigns.machinery import machine
 
@@ -93,9 +93,8 @@ def parameters(order: Order) -> dict[str, object]:
     }
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
-    from tables import number_of
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     sentences = []

@@ -35,7 +35,7 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     """
     references, untimed, timed = plan.phases(effort)
     wanted = taking_part(effort.works, quick) if with_peers else []
-    known: Samples = {}
+    known = {}
     ours = {(point.work, point.kind): engine_job(point, known) for point in references}
     for peer, work, _ in wanted:
         if version(peer) and peer.ours:  # our refined run with the changes that another code is to be compared with
@@ -140,7 +140,7 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
 
 def scene_of(peer: Peer, work: str, nodes: int):
     """The scene of a work for another code: no shock viscosity, nodes where they matter to it."""
-    changes: dict[str, object] = {}
+    changes = {}
     if peer.package == "scipy":
         changes["tether.nodes"] = nodes
     if work.startswith("break"):

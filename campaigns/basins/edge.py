@@ -56,7 +56,7 @@ class Edge:
         self.exploration, self.sides = exploration, (first, second)
         self.scale = np.maximum(first.settled.scale, second.settled.scale)
         self.states = [first.state.at_zero(), second.state.at_zero()]
-        self.runs: list = [None, None]
+        self.runs = [None, None]
         self.known = True  # that they are on either side: each begins anew, by small steps, where it has gone on to
         self.rounds = 0
 
@@ -164,7 +164,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     else:
         row["status"] = "ok"
     row["periods"] = len(distances_so_far)
-    strobed: list[np.ndarray] = []
+    strobed = []
     if runs:
         row["growth_bits_per_period"] = doublings / len(distances_so_far)
         for trajectory in runs:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from campaigns.machinery import Job, cli
 from campaigns.study import Measures, Order, Study
+from tables import Rows, listed, number_of
 
 if TYPE_CHECKING:
     from engine import Scene
@@ -91,7 +92,7 @@ def _run(order: Order, case: str, kind: str, changes: dict, duration_s: float = 
     return Job({"case": case, "kind": kind}, scene, duration_s=duration_s or LENGTHS_S[case[0]])
 
 
-def _changes(order: Order, case: str, further: dict) -> dict[str, object]:
+def _changes(order: Order, case: str, further: dict) -> dict:
     """The changes of a case: its break, with both ends at one level."""
     force_N = [FORCES_N[case[0]], 0.0, 0.0]
     changes = {**further, "end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S, "end.force_N": force_N}
@@ -142,10 +143,9 @@ def beside(order: Order) -> Iterator[Callable]:
     yield write_results
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """Speeds of the broken ends, how far they are off theory, and the paper's statements that do not hold."""
     from campaigns.answers import verdicts
-    from tables import listed, number_of
 
     speeds, errors = [], []
     for row in rows:

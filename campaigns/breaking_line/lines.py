@@ -63,7 +63,7 @@ def from_motion(line: Line, profiles: object) -> Line:
                      over the length of the line
     reached_s        when the broken end first has MOST_OF of its settled speed
     """
-    measures: Line = {}
+    measures = {}
     fast = profiles.speed_mps[:, -1] >= MOST_OF * line["end_speed_mps"]
     if fast.any():
         measures["reached_s"] = float(profiles.time_s[int(np.argmax(fast))])
@@ -85,7 +85,7 @@ def over_case_4(lines: Sequence[Line]) -> tuple[Line, ...]:
     strongest = ended(lines).get("4")
     wider_lines = []
     for line in lines:
-        further: Line = {}
+        further = {}
         for name, column in OVER_CASE_4.items():
             further[name] = line[column] / strongest[column] if strongest else math.nan
         for name, printed in PRINTED.items():

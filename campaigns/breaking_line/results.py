@@ -59,7 +59,7 @@ def write_results(plan: Plan, summary: Summary) -> float:
     return 0.0
 
 
-def exact(runs: dict[str, object]) -> xarray.Dataset | None:
+def exact(runs: dict) -> xarray.Dataset | None:
     """The content of exact.nc, of trajectories with profiles by case; None where no case has a theory."""
     import xarray
 

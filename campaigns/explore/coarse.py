@@ -19,7 +19,7 @@ from engine.scene import scene_from_toml
 
 if TYPE_CHECKING:
     from analysis import Settled
-    from campaigns.explore.motions import Motion, Motions
+    from campaigns.explore.motions import Motions
     from campaigns.explore.starts import Ending
 
 COARSER, LEAST_NODES = 4, 33  # times fewer elements; nodes of a line that has a coarse one
@@ -67,8 +67,7 @@ def coarse_forms(motions: Motions, scenes: Mapping[int, object]) -> dict[int, li
     """
     from analysis import distance
 
-    carried: list[Motion] = []
-    requests = []
+    carried, requests = [], []
     for place, scene in scenes.items():
         for motion in motions.at[place]:
             if motion.state is not None:

@@ -7,7 +7,7 @@ from analysis import distance
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Row, write_table
+from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, write_table
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
@@ -55,7 +55,7 @@ class _End:
         }
 
 
-def columns(key: Column) -> tuple[Column, ...]:
+def columns(key: Column) -> Columns:
     """Of the table of ends of a sweep over this key."""
     digits = key.digits and 5
     with_name, without_name = f"{key.name}_with", f"{key.name}_without"

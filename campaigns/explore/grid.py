@@ -142,8 +142,7 @@ class Grid:
 
     def changes(self, place: Row, base) -> tuple[dict, list[str]]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
-        changes = {}
-        faults: list[str] = []
+        changes, faults = {}, []
         for key in self.keys:
             faults += key.put(place[key.column.name], base, changes)
         return changes, faults

@@ -137,8 +137,8 @@ class Motions:
         self.jobs: list[Job] = []  # the runs from rest, by place
         self.at: list[list[Motion]] = []
         self.job_keys: dict[Motion, str] = {}  # of the judged runs of motions
-        self.rows: dict[str, dict] = {}  # of judged runs, by key
-        self.times: Counter = Counter()
+        self.rows: dict[str, Row] = {}  # of judged runs, by key
+        self.times = Counter()
         self.computed: set[str] = set()  # keys of the judged runs that were computed, or went on
 
     def add(self, jobs: Jobs) -> range:
@@ -187,7 +187,7 @@ class Motions:
         beside: the numbers of the starts beside a start. Where it is given, a coarse line is asked first
         (`campaigns.explore.coarse`). Starts beside one that ends in another motion then run on the line itself.
         """
-        coarse: dict[int, Ending] = {}
+        coarse = {}
         if beside is not None:
             coarse = coarse_endings(self, title, starts)
         endings = dict(coarse)
@@ -247,7 +247,7 @@ class Motions:
         """The row of the judged run of a motion; {} where there is none yet."""
         return self.rows.get(self.job_keys.get(motion), {})
 
-    def table(self) -> list[dict]:
+    def table(self) -> list[Row]:
         """A row for each motion, by place and letter; of a place whose run from rest has no motion, also that run's."""
         rows = []
         for job, motions in zip(self.jobs, self.at, strict=True):

@@ -246,7 +246,7 @@ class Starts:
         columns = (*keys, FOUND_BY, *OF_A_START)
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])
         self.endings: list[Ending] = []
-        self.times: Counter = Counter()
+        self.times = Counter()
         self.computed: set[str] = set()  # keys of the runs that were not there before
 
     def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:

@@ -84,7 +84,7 @@ class Summary:
     rows: list[Row]
     found: int
     computed: int
-    times: Counter[str] = field(default_factory=Counter)
+    times: Counter = field(default_factory=Counter)
     whole: bool = False
     made: frozenset[str] = frozenset()
 

@@ -181,7 +181,7 @@ def facts() -> dict[str, str]:
 
 def _differences(client) -> Iterator[str]:
     """What sets workers apart from this process, as far as they answer within ASK_S."""
-    answers: dict[str, object] = {}
+    answers = {}
 
     def collect() -> None:
         with contextlib.suppress(Exception):

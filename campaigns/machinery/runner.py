@@ -165,7 +165,7 @@ def _compile(plan: Plan, missing: Jobs) -> None:
     pool = "loky", min(plan.how.jobs, max(2, len(missing)))
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
         pool = "threading", 1
-    ended: list[dict] = []
+    ended = []
     with (
         opened(*pool) as execute,
         stage(ENGINE, len(tasks), "pieces", lambda: len(ended)),
@@ -189,8 +189,8 @@ def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     """
     by_key = {job.key: job for job in jobs}
     table = Table(plan.out / "table.csv", plan.columns, list(by_key))
-    finished: set[str] = set()
-    times: Counter[str] = Counter()
+    finished = set()
+    times = Counter()
     with stage("looking for finished runs"):
         for key, job in by_key.items():
             outcome = reuse(plan, job, print_line)

@@ -39,8 +39,7 @@ def results(
     size: how many a worker is given at once, where each takes a moment only. spare: as of `pools.opened`.
     Raises CampaignStopped where a task kills its worker twice; what is finished is kept.
     """
-    finished: dict[str, Result] = {}
-    missing: dict[str, Task] = {}
+    finished, missing = {}, {}
     reused = 0
     for task in tasks:
         result = store.get(task.key)

@@ -63,14 +63,14 @@ def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], repo
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
     goes on from there.
     """
-    under_way: list[LongRun | None] = []
+    under_way = []
     for job in jobs:
         run, outcome = _resumed(plan, job)
         if run.next_part() is None:
             outcomes[job.key] = outcome
         else:
             under_way.append(run)
-    saved_s: dict[int, float] = {}
+    saved_s = {}
     length_s = sum(_length_s(run.part) for run in under_way)  # of all parts that are known by now
 
     def progress(share: float) -> None:

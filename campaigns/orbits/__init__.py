@@ -29,7 +29,7 @@ from campaigns.judge import job_from
 from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
-from tables import number_of, read_table
+from tables import Row, Rows, number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
@@ -175,7 +175,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
 
     options = order.options
     (key,) = options.grid.keys
-    times: Counter[str] = Counter()
+    times = Counter()
     if options.start_from is not None:
         starts = [*_under_file(order, jobs[0])]
     else:
@@ -221,7 +221,7 @@ def _check_letter(letter: str | None, folder: Path) -> None:
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
     (key,) = order.options.grid.keys
-    rows_of: dict[tuple[str, int], list[dict]] = {}
+    rows_of: dict[tuple[str, int], list[Row]] = {}
     for row in read_table(folder / "table.csv"):
         period = number_of(row, "strobed_period")
         if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.options.motion in (None, row["motion"]):
@@ -257,7 +257,7 @@ def parameters(order: Order) -> dict:
     } | ({} if options.second is None else {"curves": options.curves})
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.orbits.answer import sentences
 

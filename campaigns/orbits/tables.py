@@ -11,7 +11,7 @@ from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
-from tables import MESSAGE, STATUS, Column, Row, csv_of, names, write_table
+from tables import MESSAGE, STATUS, Column, Columns, Row, csv_of, names, write_table
 
 BRANCH = Column("branch", "", "branch", "the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
@@ -50,7 +50,7 @@ OF_A_BRANCH = (
 )
 
 
-def tables(tree: Tree, key: Column) -> list[dict]:
+def tables(tree: Tree, key: Column) -> list[Row]:
     """Write all tables; returns the rows of table.csv. Raises OSError."""
     out, rows, strobes = tree.plan.out, [], []
     for branch in tree.branches:
@@ -69,7 +69,7 @@ def tables(tree: Tree, key: Column) -> list[dict]:
     return rows
 
 
-def _event_columns(key: Column) -> tuple[Column, ...]:
+def _event_columns(key: Column) -> Columns:
     meaning = "largest change over three sequences of steps, and on the finer grid where one is told"
     error = Column("error", key.unit, f"± {key.symbol}", meaning, 5)
     finer = Column("finer", key.unit, f"{key.symbol} finer", "where it is on a grid of 2n - 1 nodes", 5)
@@ -132,7 +132,7 @@ def _branches(tree: Tree) -> Iterator[Row]:
 
 def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[Row]:
     """Rows of the orbits with errors; writes the history of each into the folder."""
-    counts: Counter = Counter()
+    counts = Counter()
     for orbit in sorted(tree.chosen, key=lambda orbit: (orbit["branch"], orbit["value"])):
         branch, place = orbit["branch"], counts[orbit["branch"]]
         counts[branch] += 1

@@ -34,10 +34,10 @@ from campaigns.machinery import Summary, Table, made_by, stage, trajectory_path
 from campaigns.oscillator.options import Options
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column, of_words
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, of_words
 
 SEED = 0
-Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
+Result = tuple[dict[str, np.ndarray], Row]  # arrays by name, numbers of the row
 COLUMNS = (
     of_words("part", "what is computed"),
     STATUS,
@@ -201,7 +201,7 @@ def perform(order: Order) -> Summary:
         else:
             table.rows[key] = json.loads(row) | {"run_key": key}
     table.write()
-    times: Counter[str] = Counter()
+    times = Counter()
     if missing:
         times["compile_s"] = _compile(oscillator)
     begun = time.perf_counter()
@@ -237,7 +237,7 @@ def _compile(oscillator: SnapOscillator) -> float:
     return time.perf_counter() - begun
 
 
-def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -> dict:
+def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -> Row:
     begun = time.perf_counter()
     try:
         arrays, row = PARTS[part](oscillator, options)

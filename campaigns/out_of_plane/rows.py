@@ -39,6 +39,7 @@ from tables import (
     STATUS,
     STIFFNESS,
     Column,
+    Columns,
     Row,
     counted,
     on,
@@ -48,7 +49,7 @@ EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still
 RISE_PERIODS = 4  # after its least value, within which lateral distance has risen to the first burst
 
 
-def _lateral_columns(body: str) -> tuple[Column, ...]:
+def _lateral_columns(body: str) -> Columns:
     """What is measured of the distance from the plane of the waves of the buoy or of the rope."""
     rate = "growth rate of the {body}'s lateral distance where it grows or decays exponentially{}".format
     measures = (

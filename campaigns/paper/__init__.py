@@ -17,6 +17,7 @@ from pathlib import Path
 from campaigns.machinery import Summary, cli
 from campaigns.paper.order import PARTS
 from campaigns.study import Order, Study
+from tables import Rows
 
 
 @dataclass
@@ -52,7 +53,7 @@ def perform(order: Order) -> Summary:
     return replace(summary, whole=complete)
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     """What the provenance says of this campaign."""
     from campaigns.paper import dependence, results
 
@@ -60,7 +61,7 @@ def parameters(order: Order) -> dict[str, object]:
     return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How many of the paper's statements hold; a quick look at few and short runs says that it decides nothing."""
     from campaigns.answers import verdicts
 

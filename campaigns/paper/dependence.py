@@ -65,12 +65,12 @@ def variants(quick: bool) -> list[tuple]:
     return list(dict.fromkeys(places))
 
 
-def changes(values: tuple) -> dict[str, object]:
+def changes(values: tuple) -> dict:
     """The changes of the scene that make it a variant."""
     return dict(zip(VARIED.values(), values, strict=True)) | CARRIED
 
 
-def parameters(quick: bool) -> dict[str, object]:
+def parameters(quick: bool) -> dict:
     """What the provenance says of this part."""
     above, submergence = treatments()
     settings = {

@@ -171,7 +171,7 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     begin = round(transient_periods * period_s / step_s)
     tension, rate = columns["tension_top_N"][begin:], columns["radius_rate_mps"][begin:]
-    measures: dict[str, float] = {}
+    measures = {}
     if in_window(trajectory):
         for side, name in (("radial", "radius_m"), ("angular", "angle_rad")):
             power = spectrum(columns[name], step_s, period_s, *WINDOW).amplitude[1:] ** 2

@@ -34,7 +34,7 @@ from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column, any_rows, names, of_words
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, any_rows, names, of_words
 
 COLUMNS = (
     of_words("part", "folder of the part"),
@@ -106,7 +106,7 @@ def run(order: Order) -> Summary:
     for row in any_rows(out / "table.csv"):
         if row.keys() == known and row["part"] in PARTS:
             table.rows[row["part"]] = row
-    times: Counter[str] = Counter()
+    times = Counter()
     todo = []
     for part in order.options.parts:
         if not _is_there(table.rows.get(part), keys[part], out / part, order):
@@ -139,7 +139,7 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Order) -> bool:
+def _is_there(row: Row | None, key: str, out: Path, order: Order) -> bool:
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
@@ -151,7 +151,7 @@ def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Order) -> 
     return bool(good) and reported
 
 
-def _run_part(part: str, order: Order) -> dict[str, object]:
+def _run_part(part: str, order: Order) -> Row:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":

@@ -157,7 +157,7 @@ def answer(order: Order, rows: Rows) -> list[str]:
 
     grid = order.options.grid
     of_buoy = CellGrid(tuple(key for key in grid.keys if key.key.startswith("buoy.")))
-    scenes: dict[tuple, object] = {}
+    scenes = {}
 
     def scene(row: dict) -> object:
         values = tuple(row[column.name] for column in of_buoy.columns)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
+from tables import read_columns
 
 if TYPE_CHECKING:
     from tables import Row
@@ -26,7 +27,6 @@ def folder_of_curves(text: str) -> str:
 def faults(folder: str, grid: CellGrid, place: "Row", scene) -> Iterator[str]:
     """Why the curves of a folder cannot be drawn on a map. scene: that of the map at a place."""
     from engine.scene import SceneError, scene_from_toml
-    from tables import read_columns
 
     given = f"--curves {folder}"
     try:

@@ -116,7 +116,7 @@ def usual_sea(order: Order) -> dict:
 
 def cases(order: Order) -> Iterator[Job]:
     """Every start in every sea of every state; a few of a single state once more, on a finer grid."""
-    options: Options = order.options
+    options = order.options
     options.grid.refuse_set(order)
     taken = [key for key in options.grid.keys if key.name in STUDY.taken]
     for key in taken:
@@ -164,7 +164,7 @@ def _seed_key(scene) -> str | None:
 
 def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
     """The runs of one sea state: its first starts in the seas of these seeds; waves that are not drawn are one sea."""
-    options: Options = order.options
+    options = order.options
     changes, _ = options.grid.changes(place, order.base())
     base = order.base(changes)
     seed_key = _seed_key(base)
@@ -198,7 +198,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     from campaigns.sea.regular import regular_ahead
     from campaigns.sea.rows import unclear_places
 
-    options: Options = order.options
+    options = order.options
     if not options.no_regular:
         regular_ahead(order, plan)
     summary = run(plan, jobs)
@@ -206,7 +206,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     while seeds < most:
         unclear = unclear_places(summary.rows, options.grid.columns)
         further = range(seeds + 1, min(2 * seeds, most) + 1)
-        more: list[Job] = []
+        more = []
         for place in options.grid.places():
             if tuple(place.values()) in unclear:
                 more += _runs(order, place, further, 1)
@@ -222,7 +222,7 @@ def measures(order: Order) -> Measures:
     """A row a run (`rows.run_row`)."""
     from campaigns.sea.rows import columns_of, run_row
 
-    options: Options = order.options
+    options = order.options
     settings = {name: getattr(options, name) for name in ("transient", "window", "slack_share", "snap_share", "slope")}
     sources = ("analysis", "engine", "campaigns/sea/rows.py")
     return Measures(columns_of(options.grid.columns), partial(run_row, **settings), sources, settings)
@@ -239,7 +239,7 @@ def beside(order: Order) -> Iterator[Callable]:
 
 
 def parameters(order: Order) -> dict:
-    options: Options = order.options
+    options = order.options
     values = {entry.name: getattr(options, entry.name) for entry in Options.offered() if entry.metadata}
     del values["vary"]
     return {"sea_keys": [key.key for key in options.grid.keys], **values}

@@ -161,7 +161,7 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     of_cell: dict[tuple, list[Row]] = {}
     for row in summary.rows:
         of_cell.setdefault(tuple(row[name] for name in names(keys)), []).append(row)
-    cells: list[Row] = []
+    cells = []
     with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
         for place, rows in of_cell.items():
             cell = dict(zip(names(keys), place, strict=True))
@@ -189,7 +189,7 @@ def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None
     if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}
     lost = len(rows) - len(digests)
-    cell: Row = {
+    cell = {
         "status": "ok",
         "starts": options.starts,
         "message": f"{lost} of {len(rows)} runs failed" if lost else "",
@@ -246,7 +246,7 @@ def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
         return {}
     met = [answer for answer in answers if math.isfinite(answer.together_at)]
     mean_count = np.mean([answer.counts[options.transient :].mean() for answer in answers])
-    row: Row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
+    row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
     if met:
         periods = sum(len(answer.counts) - answer.together_at for answer in met)
         duration_s = periods * seas[0][0].scene.waves.period_s
@@ -292,7 +292,7 @@ def history(digests: Sequence[Digest], options) -> Iterator[Row]:
     for sea in seas_of(digests):
         answer = responses_of(sea, options.distance)
         for period, (count, apart) in enumerate(zip(answer.counts, answer.apart, strict=True)):
-            row: Row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
+            row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
             piece = period - options.transient
             if 0 <= piece < len(sea[0].large):
                 row |= {"large": int(sea[0].large[piece]), "forecast": int(sea[0].forecast[piece])}
@@ -305,7 +305,7 @@ def _loads(rest: Sequence[Digest], options) -> Row:
         np.array([number_of(run.row, column.name) for run in rest]) for column in (SNAPS, MEAN, EQUIVALENT)
     )
     mean_N = float(np.mean(means))
-    row: Row = {
+    row = {
         SNAPS.name: float(np.mean(rates)),
         MEAN.name: mean_N,
         EQUIVALENT.name: float(np.mean(ranges**options.slope) ** (1.0 / options.slope)),

@@ -16,7 +16,7 @@ from dataclasses import asdict, dataclass
 
 from campaigns.machinery import Summary, cli
 from campaigns.study import Order, Study
-from tables import number_of
+from tables import Rows, number_of
 
 DRIFT_PERIODS = 100_000
 
@@ -47,7 +47,7 @@ def perform(order: Order) -> Summary:
     return tasks.judge_cases(order)
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How the cases ended; what nobody can explain by name."""
     counts = Counter(str(row["verdict"]) for row in rows)
     verdicts = [f"{count} {word}" for word, count in counts.most_common()]

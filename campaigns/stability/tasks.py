@@ -14,7 +14,7 @@ from campaigns.stability.cases import COLUMNS, Case, all_cases, case_row, drift_
 from campaigns.stability.limits import DIED, load_kernels
 from engine import load_scene
 from engine.atomic import write_atomic
-from tables import write_table
+from tables import Row, write_table
 
 SOURCES = ("engine", "campaigns/stability")
 
@@ -57,7 +57,7 @@ def judge_cases(order) -> Summary:
     return Summary(rows, finished.reused, len(tasks) - finished.reused, times)
 
 
-def judged(case: Case, path: Path) -> dict[str, object]:
+def judged(case: Case, path: Path) -> Row:
     """The row of a case, in a worker."""
     load_kernels()
     return case_row(case, path)

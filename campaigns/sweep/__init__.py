@@ -30,7 +30,20 @@ from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import Job, cli, write_new
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, Rows, counted, names, read_columns, read_table
+from tables import (
+    ANSWER,
+    MESSAGE,
+    PEAK,
+    RUN_KEY,
+    STATISTICS,
+    STATUS,
+    Row,
+    Rows,
+    counted,
+    names,
+    read_columns,
+    read_table,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -53,7 +66,7 @@ class Options(motions.Starts):
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    grid: Grid = order.options.grid
+    grid = order.options.grid
     grid.refuse_set(order)
     first = {key.name: key.values[0] for key in grid.keys if key.index is None}
     base = order.base() or order.base(first, tell=True)  # keys may need each other
@@ -172,7 +185,6 @@ def answer(order: Order, rows: Rows) -> list[str]:
     from campaigns.answers import known_rows, line
     from campaigns.explore.load import load
     from campaigns.sweep import seas
-    from tables import PEAK
 
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
     symbols = dict(zip(keys, keys, strict=True))

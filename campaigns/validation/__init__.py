@@ -16,6 +16,7 @@ import engine
 from campaigns.machinery import cli
 from campaigns.study import Order, Study
 from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, Case, missing
+from tables import Rows, counted, read_table, write_table
 
 
 @dataclass
@@ -42,7 +43,6 @@ def perform(order: Order):
     from campaigns.machinery import Plan, run, write_scene
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
-    from tables import counted, write_table
 
     out = order.how.out
     plan = Plan(order.how, order.simulate or engine.simulate, counted, cases.COLUMNS)
@@ -56,7 +56,7 @@ def perform(order: Order):
     return summary
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import version
     from campaigns.accuracy.plan import PEERS
     from campaigns.machinery import machine
@@ -66,12 +66,11 @@ def parameters(order: Order) -> dict[str, object]:
     return {"cases": [case.name for case in order.options.cases], "peers": peers, "machine": machine()}
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How many cases hold, which miss and by how much, the one nearest to its bar, what was not run."""
-    from tables import read_table
 
     judged = read_table(order.how.out / "cases.csv")
-    rows_of_verdicts: dict[str, list[dict]] = {HOLDS: [], MISSES: [], NOT_RUN: []}
+    rows_of_verdicts = {HOLDS: [], MISSES: [], NOT_RUN: []}
     for row in judged:
         rows_of_verdicts.setdefault(row["verdict"], []).append(row)
     holding, missed = rows_of_verdicts[HOLDS], rows_of_verdicts[MISSES]
@@ -87,7 +86,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
         yield f"Not run: {', '.join(_cases(rows_of_verdicts[NOT_RUN]))}."
 
 
-def _cases(rows: list[dict]) -> dict[str, None]:
+def _cases(rows: Rows) -> dict[str, None]:
     """The cases of rows, each once, in their order."""
     return dict.fromkeys(row["case"] for row in rows)
 

@@ -37,7 +37,7 @@ def running_exponents(parts: Parts) -> Plan:
 def _exponents(runs: dict, transient: int) -> dict[str, Array]:
     from analysis import tangent_lyapunov, wolf_lyapunov
 
-    arrays: dict[str, Array] = {
+    arrays = {
         "transient_periods": ((), transient, "1", "wave periods left out at the start"),
         "linear_periods": ((), LINEAR_PERIODS, "1", "length of the record up to which every value is kept"),
     }
