@@ -28,7 +28,7 @@ OURS_REFINED = (321, 1e-5)
 Samples = dict[tuple[str, str], np.ndarray | None]  # by work and what they are; None of a run that failed
 
 
-def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator[list[Job]]:
+def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator[list]:
     """The jobs of four phases: our references, those of other codes, what is not timed, what is timed.
 
     The runs of each phase have to be in `out` before the next is asked for. with_peers: whether there are other codes.
@@ -65,7 +65,7 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     yield side_by_side([engine_job(point, known) for point in timed], timed_peers, effort.rounds)
 
 
-def keep_samples(known: Samples, out: Path, jobs: dict[tuple[str, str], Job]) -> None:
+def keep_samples(known: Samples, out: Path, jobs: dict[tuple, Job]) -> None:
     """Add the samples of finished runs, by work and what they are."""
     for (work, role), job in jobs.items():
         known[work, role] = kept_samples(BY_NAME[work], out, job.key)
@@ -111,7 +111,7 @@ def version(peer: Peer) -> str:
     return metadata.version(peer.package) if importlib.util.find_spec(peer.module) is not None else ""
 
 
-def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, list]]:
+def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple]:
     """(code, work, its settings) of all that is asked of other codes."""
     parts = []
     for peer in PEERS:

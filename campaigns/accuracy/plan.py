@@ -179,7 +179,7 @@ FULL = Effort(works=tuple(BY_NAME), **FILE["effort"]["full"])
 QUICK = Effort(**FILE["effort"]["quick"])
 
 
-def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
+def phases(effort: Effort) -> tuple[list, list, list]:
     """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
     works' settings in turns, round by round, and the paper's scheme once."""
     works = [BY_NAME[name] for name in BY_NAME if name in effort.works]

@@ -65,7 +65,7 @@ class Exploration(Motions):
         latest = self.starts.endings[len(self.starts.endings) - len(numbers) :]
         self.endings |= dict(zip(numbers, latest, strict=True))
 
-    def _beside(self, numbers: Sequence[int]) -> Callable[[int], list[int]]:
+    def _beside(self, numbers: Sequence[int]) -> Callable:
         """For each of these starts of the grid, by its place in the list, the places of those beside it."""
         places = {number: place for place, number in enumerate(numbers)}
 

@@ -14,14 +14,10 @@ shock, and a series of grids for case 4 and for case 3', which stays smooth. Not
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite
-from typing import TYPE_CHECKING
 
 from campaigns.machinery import Job, cli
 from campaigns.study import Measures, Order, Study
 from tables import Rows, listed, number_of
-
-if TYPE_CHECKING:
-    from engine import Scene
 
 CAMPAIGN = "breaking_line"
 SCENE = "breaking_line"
@@ -103,7 +99,7 @@ def _changes(order: Order, case: str, further: dict) -> dict:
     return changes
 
 
-def _straight(order: Order, case: str, plain: "Scene") -> Iterator[Job]:
+def _straight(order: Order, case: str, plain) -> Iterator[Job]:
     """The breaks without gravity."""
     from campaigns.breaking_line.theory import theory_of
 

@@ -104,7 +104,7 @@ def ended(lines: Sequence[Line], kind: str = "case") -> dict[str, Line]:
     return {line["case"]: line for line in lines if line["kind"] == kind and line["status"] == "ok"}
 
 
-def pairs(lines: Sequence[Line]) -> list[tuple[Line, Line]]:
+def pairs(lines: Sequence[Line]) -> list[tuple]:
     """Fast and slow break of the same tension, where both ended as asked."""
     cases, matches = ended(lines), []
     for fast, slow in zip(FAST, SLOW, strict=True):

@@ -189,7 +189,7 @@ def slack_shares(trajectory, transient_periods: float, period: int | None) -> np
     return slack.reshape(count, samples).mean(axis=1)
 
 
-def slack_error(shares: np.ndarray, companion: dict, resolved: float) -> tuple[float, list[str]]:
+def slack_error(shares: np.ndarray, companion: dict, resolved: float) -> tuple[float, list]:
     """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
     if not len(shares):
         return math.nan, []
@@ -203,7 +203,7 @@ def slack_error(shares: np.ndarray, companion: dict, resolved: float) -> tuple[f
     return error, words
 
 
-def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:
+def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
     """E of the head of this file, nan where it is not known, and what a reader has to be told of it.
 
     row: of the run, whose T_b is usual_N; companion: the row of its companion.

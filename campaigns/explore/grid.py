@@ -140,7 +140,7 @@ class Grid:
             if key.key in order.changes:
                 order.tell(f"--set {key.key}: this campaign sets it{instead}")
 
-    def changes(self, place: Row, base) -> tuple[dict, list[str]]:
+    def changes(self, place: Row, base) -> tuple[dict, list]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
         changes, faults = {}, []
         for key in self.keys:

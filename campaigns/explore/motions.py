@@ -101,7 +101,7 @@ def settled_in(motions: Sequence[Motion]) -> tuple:
     return tuple(motion.settled for motion in motions)
 
 
-def in_a_row(count: int) -> Callable[[int], dict[int, str]]:
+def in_a_row(count: int) -> Callable:
     """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
 
     def neighbours(place: int) -> dict[int, str]:
@@ -125,7 +125,7 @@ class Motions:
         self,
         plan: Plan,
         keys: Columns,
-        neighbours: Callable[[int], dict[int, str]],
+        neighbours: Callable,
         match_distance: float = 0.0,
         folder: str = "",
     ):
@@ -179,8 +179,8 @@ class Motions:
     def run_starts(
         self,
         title: str,
-        starts: Sequence[tuple[int, Start]],
-        beside: Callable[[int], Iterable[int]] | None = None,
+        starts: Sequence[tuple],
+        beside: Callable | None = None,
     ) -> list[Motion | None]:
         """Run starts at places; returns the motion in which each ended, None where it did not settle.
 
@@ -228,7 +228,7 @@ class Motions:
         *labels, label = grouped([*settled_in(motions), ending.settled]).tolist()
         return motions[labels.index(label)] if label in labels else None
 
-    def branches(self) -> list[list[Motion]]:
+    def branches(self) -> list[list]:
         """The motions of each branch, by place."""
         members: dict[Motion, list[Motion]] = {}
         for motion in self.all_motions():

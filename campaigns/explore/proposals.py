@@ -18,7 +18,7 @@ LONGER = 320  # wave periods of the start from rest and of kicks that come neare
 DIFFERENCE = 1e-5  # of a state, for the derivative of the map over a wave period
 
 
-def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple[float, float]]:
+def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple]:
     """Velocities (m/s) drawn independently and uniformly from the square of half width speed_mps, for a place.
 
     The interval of a share (`analysis.share_of`) needs independent draws. Eight points of a Halton sequence are a
@@ -28,7 +28,7 @@ def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple[flo
     return [tuple(kick) for kick in drawn.tolist()]
 
 
-def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[dict]]:
+def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     """For each scene the motions of its massless tether; none where that model does not cover a scene.
 
     A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
@@ -48,7 +48,7 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 
-def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
+def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
     starts = []
     for motions in screened(plan, scenes, speed_mps, seed):

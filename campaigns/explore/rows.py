@@ -4,10 +4,7 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -36,9 +33,6 @@ from tables import (
     finite,
     names,
 )
-
-if TYPE_CHECKING:
-    from campaigns.explore.judgement import Judgement
 
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0, PLANE)
 TRANSIENT = Column(
@@ -161,13 +155,13 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, judgement: Judgement) -> Row:
+def buoy_row(trajectory, judgement) -> Row:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
-    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. A record that does not
-    outlast the transient of its judgement by a wave period has statistics only. A loop release after the transient
-    leaves offplane_growth unknown, because across the plane a loop has no rate of its own. `campaigns.explore.space`
-    fills the columns planar_.
+    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. judgement: of it
+    (`campaigns.explore.judgement.Judgement`). A record that does not outlast the transient of its judgement by a wave
+    period has statistics only. A loop release after the transient leaves offplane_growth unknown, because across the
+    plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
     """
     columns, scene = sound_part(trajectory.columns), trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
@@ -195,7 +189,7 @@ def buoy_row(trajectory, judgement: Judgement) -> Row:
     return row
 
 
-def regime_of(judgement: Judgement) -> Row:
+def regime_of(judgement) -> Row:
     """The columns of the verdict and of the exponents."""
     verdict, record = judgement.verdict, judgement.record
     evidence = evidence_text(verdict)

@@ -11,7 +11,7 @@ The order is that of the continuation of attractors in Attractors.jl (Datseris, 
 (2023)): find at each value from the motions of the one before, then match.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from string import ascii_uppercase
@@ -27,7 +27,7 @@ from campaigns.machinery import Job, Jobs, in_parts
 TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 
 
-def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable[[], None]) -> None:
+def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable) -> None:
     """Find the motions of the places of these runs from rest; later: further parts of the same work.
 
     Raises as `runner.run`.
@@ -40,7 +40,7 @@ def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable[[], N
     in_parts([*parts, partial(judge, motions, search), partial(name, motions), *later])
 
 
-def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable[[], object]]:
+def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable]:
     """What finds the motions of places beside those from rest, to be called in this order."""
     return [
         partial(propose, motions, places, search),
@@ -230,7 +230,7 @@ def _follow_back(motions: Sequence[Motion], candidates: Sequence[Motion], place:
             motion.becomes[neighbour] = back[0]
 
 
-def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[Motion, dict[int, Motion]]) -> None:
+def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[Motion, dict]) -> None:
     """Join the branches of motions that become each other, unless both have a motion at one place, as round a cusp."""
     for motion in motions.at[place]:
         successor = motion.becomes.get(neighbour)
@@ -243,7 +243,7 @@ def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[
                 branches[member] = branch
 
 
-def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable[[int], Iterable[int]]) -> list[Job]:
+def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[Job]:
     """The jobs whose chaos has not lasted long enough; they go on until it has.
 
     It may be a transient, because periodic motions beside it began as chaos, or because only a kick led to it.

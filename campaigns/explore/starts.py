@@ -169,7 +169,7 @@ def start_row(trajectory, known: Sequence = (), settles: bool = True) -> Row:
     return row | {"outcome": UNSETTLED}
 
 
-def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
+def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list]:
     """Strobed states (n + 1, 4) of a run, (n, 3) least and largest r (m) and largest tension (N) of each period, and
     what counts as 1 in the states. r is taken OFTEN times a period, so that runs of more samples compare. States are
     those at phase 0 of the wave, so that runs that begin at other phases compare too.

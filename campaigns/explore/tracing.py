@@ -99,7 +99,7 @@ def _computed(do: Callable, line: Line, arguments: tuple) -> dict:
     return {"result": result, "points": points}
 
 
-def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list[Solved], int]:
+def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list, int]:
     """Results of tasks with their points, in their order, and how many of them were there before.
 
     Raises CampaignStopped as `campaigns.machinery.tasks.results`.

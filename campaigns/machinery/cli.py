@@ -43,7 +43,7 @@ class Kind:
     allowed: str
 
 
-def number(allowed: str, is_sound: Callable[[float], bool]) -> Kind:
+def number(allowed: str, is_sound: Callable) -> Kind:
     """Numbers for which `is_sound` holds."""
     return Kind(lambda text: _checked(is_sound, float(text)), allowed)
 

@@ -57,7 +57,7 @@ def write_scene(directory: Path, campaign: str, jobs: Jobs) -> None:
     write_atomic(directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
 
 
-def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
+def groups_of(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
     Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
@@ -78,7 +78,7 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
     return groups
 
 
-def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
+def _dealt(jobs: Jobs, count: int) -> list[list]:
     """The jobs in so many groups, none of them empty, dealt like cards: neighbours cost alike, and so the groups do.
 
     Jobs whose lines have unlike numbers of nodes, or carry unlike numbers of perturbations, share no lanes. If there
@@ -130,7 +130,7 @@ def _missing(folder: Path, jobs: Jobs) -> list[Job]:
     return [job for job in jobs if not trajectory_path(folder, job.key).exists()]
 
 
-def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
+def _keys(groups: Sequence[Sequence]) -> set[str]:
     return {job.key for job in chain.from_iterable(groups)}
 
 
@@ -227,7 +227,7 @@ def _row(job: Job, outcome: Outcome) -> Row:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple[str, Outcome]]:
+def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
     """Key and outcome of the jobs, as they come: those that can share a worker first, then what these leave undone.
 
     A run that kills its worker twice, the second time alone, is given up. reused: runs that were there before.

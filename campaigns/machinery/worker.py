@@ -25,7 +25,7 @@ from engine.atomic import write_atomic
 SAVED_S = 10.0  # of work that a killed campaign may lose of a long run, beside the part that is under way
 
 
-def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple[str, Outcome]]:
+def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Key and outcome of one job, whatever goes wrong in its run; of several jobs, of those that came to an end.
 
     Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
@@ -57,7 +57,7 @@ class Spare(NamedTuple):
             run_jobs(self.plan, self.jobs)
 
 
-def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
+def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], report: Callable) -> None:
     """Runs of one part, or of as many as they need (`campaigns.machinery.long_runs`).
 
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
@@ -145,7 +145,7 @@ def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome) -> Outcome:
     return outcome
 
 
-def reuse(plan: Plan, job: Job, report: Callable[[str], None] = lambda _: None) -> Outcome | None:
+def reuse(plan: Plan, job: Job, report: Callable = lambda _: None) -> Outcome | None:
     """The outcome of a run that is there already; None where it has to be computed.
 
     A file that is damaged, or not of the run that its name and the order say, is as good as none; report(why).

@@ -83,7 +83,7 @@ class Tree:
         self.there, self.computed = self.there + there, self.computed + len(tasks) - there
         return results
 
-    def grow(self, starts: Sequence[tuple[str, float, int, object]]) -> None:
+    def grow(self, starts: Sequence[tuple]) -> None:
         """Follow the orbits under runs (motion, value, period, FinalState), and the branches that begin at flips."""
         seeds = self._seeds(starts)
         while seeds and len(self.branches) < self.room:
@@ -101,7 +101,7 @@ class Tree:
             self.failed.append((seed, f"not followed: {self.room} branches are (--branches)"))
         self._meet()
 
-    def _seeds(self, starts: Sequence[tuple[str, float, int, object]]) -> list[Seed]:
+    def _seeds(self, starts: Sequence[tuple]) -> list[Seed]:
         """The orbits under runs."""
         tasks = [line_task(under, self.line, start[1:]) for start in starts]
         seeds, results = [], self.work("orbits under motions", tasks)

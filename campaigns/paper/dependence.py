@@ -38,7 +38,7 @@ CARRIED = {"output.tangent_vectors": 1, "output.lateral_growth": True}
 COLUMNS = (*VARIED, *(column for column in OF_A_RUN if column not in VARIED))
 
 
-def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
+def treatments() -> tuple[tuple, tuple]:
     """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
     from engine.scene.sections import Buoy, Waves
 

@@ -27,7 +27,7 @@ from tables import (
 )
 
 
-def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
+def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv and table.csv.
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
@@ -96,7 +96,7 @@ def _peak(peak: Row, motions: Rows, keys: Columns) -> str:
     return f"{sentence}."
 
 
-def _use(motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
+def _use(motions: Rows, keys: Columns, scene: Callable) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
     if not motions:
         return

@@ -3,14 +3,10 @@
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
-from tables import read_columns
-
-if TYPE_CHECKING:
-    from tables import Row
+from tables import Row, read_columns
 
 FOLDER = "curves"
 FILES = "columns.csv", "table.csv"
@@ -24,7 +20,7 @@ def folder_of_curves(text: str) -> str:
     return text
 
 
-def faults(folder: str, grid: CellGrid, place: "Row", scene) -> Iterator[str]:
+def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
     """Why the curves of a folder cannot be drawn on a map. scene: that of the map at a place."""
     from engine.scene import SceneError, scene_from_toml
 

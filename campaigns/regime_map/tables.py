@@ -1,8 +1,10 @@
-"""Tables of a map: its motions, its cells, the massless screen, and the strobes of every motion."""
+"""Tables of a map: its motions, its cells, the massless screen, and the strobes of every motion.
+
+map_: `campaigns.regime_map.maps.Map`.
+"""
 
 import io
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,9 +30,6 @@ from tables import (
     Row,
     number_of,
 )
-
-if TYPE_CHECKING:
-    from campaigns.regime_map.maps import Map
 
 STROBES = 64  # wave periods of a motion at most
 LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0, SHEET)
@@ -78,7 +77,7 @@ def motion_columns(keys: Columns) -> Columns:
     return tuple(columns)
 
 
-def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
+def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
     write_part(plan, "screen", (*grid.columns, *OF_THE_SCREEN), rows)
@@ -103,7 +102,7 @@ def screen_row(motions: list[dict]) -> Row:
     return row
 
 
-def write_cells(map_: "Map") -> None:
+def write_cells(map_) -> None:
     """cells/table.csv: a row for each cell of every level. Raises OSError."""
     widths = []
     for key in map_.grid.axes:
@@ -112,7 +111,7 @@ def write_cells(map_: "Map") -> None:
     write_part(map_.plan, "cells", (*map_.grid.columns, *widths, *OF_A_CELL), _cells(map_))
 
 
-def _cells(map_: "Map") -> Iterator[dict]:
+def _cells(map_) -> Iterator[dict]:
     grid, rows = map_.grid, {}
     for cell, screened in zip(grid.coarse(), map_.screen, strict=True):
         rows[cell] = {"source": SCREENED, **screen_row(screened)}
@@ -124,7 +123,7 @@ def _cells(map_: "Map") -> Iterator[dict]:
         yield {**grid.labels(cell), **grid.widths(cell), "level": cell.level, **row}
 
 
-def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
+def _cell(map_, motions: Sequence[Motion], rest: dict) -> Row:
     """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
     rows = list(filter(None, map(map_.row_of, motions))) or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
@@ -161,7 +160,7 @@ def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
     return any(number_of(row, column.name) > 0.0 for row in rows)
 
 
-def write_strobes(map_: "Map") -> None:
+def write_strobes(map_) -> None:
     """strobes.npz: r (m) once a wave period, and the largest tension (N) of the period that begins there, of a motion.
 
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.

@@ -85,7 +85,7 @@ class Options(cli.Options):
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
 
 
-def kicks(options: Options) -> list[tuple[float, float]]:
+def kicks(options: Options) -> list[tuple]:
     """Velocities (x, z) of the starts in m/s: rest, then even in a disc."""
     import numpy as np
 

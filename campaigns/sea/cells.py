@@ -208,7 +208,7 @@ def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None
     return finite_row(cell)
 
 
-def seas_of(digests: Sequence[Digest]) -> Iterator[list[Digest]]:
+def seas_of(digests: Sequence[Digest]) -> Iterator[list]:
     """The runs in each sea, without the finer one."""
     for seed in sorted({run.row["sea"] for run in digests}):
         yield [run for run in digests if run.row["sea"] == seed and not run.row["solver"]]
@@ -239,7 +239,7 @@ def responses_of(sea: Sequence[Digest], distance: float) -> Responses:
     return responses(states, np.max([run.scale for run in sea], axis=0), distance)
 
 
-def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
+def _together(seas: Sequence[Sequence], options) -> Row:
     """The columns on the responses of all starts."""
     answers = [responses_of(sea, options.distance) for sea in seas if len(sea) > 1]
     if not answers:
@@ -260,7 +260,7 @@ def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
     return row
 
 
-def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
+def _visits(name: str, flags: Sequence[Sequence]) -> Row:
     """The columns on the large motion, or on its forecast, from the flags of the runs in each sea."""
     answer = residence(list(chain.from_iterable(flags)))
     shares = [residence(of_sea).share for of_sea in flags]

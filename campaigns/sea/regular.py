@@ -191,7 +191,7 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Rows, wave
     return 0.5 * (last + waves[place])
 
 
-def design_loads(rows: Rows, amplitude_m: float) -> list[tuple[str, float]]:
+def design_loads(rows: Rows, amplitude_m: float) -> list[tuple]:
     """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
 
     A wave of the sweep within NEAR counts as this one. Else the tension of a motion lies between those of the next

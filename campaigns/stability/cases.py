@@ -168,8 +168,7 @@ def _judged(case: Case, path: Path | None) -> Row:
         if run.status not in case.statuses:
             verdict = UNEXPLAINED
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
-    measured, way, *tensions = getattr(checks, case.check)(run, case)
-    tension, *_ = *tensions, None
+    measured, way, tension = getattr(checks, case.check)(run, case)
     row |= {"verdict": OK, "how": way}
     holds = run.own_message or tension is None or tension <= case.bar_tension
     right = measured <= case.bar and holds  # neither where a number is nan

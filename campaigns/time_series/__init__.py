@@ -16,14 +16,10 @@ import os
 import sys
 from collections import namedtuple
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from campaigns.machinery import cli, stage
 from campaigns.machinery.cli import FOLDER, FRACTION, POSITIVE, Kind, fault_of, number
 from campaigns.machinery.session import command
-
-if TYPE_CHECKING:
-    from campaigns.time_series.record import Record
 
 CAMPAIGN, MODULE = "time_series", "analysis"
 # What `answer` and the report write, the first one first, told here because importing either takes a second.
@@ -163,7 +159,7 @@ def _written_over(out: Path, file: str | None) -> str:
     return ""
 
 
-def _no_fit(period: float, record: "Record") -> str:
+def _no_fit(period: float, record) -> str:
     """Why a record cannot be seen once per period, as a fault line; "" where it can."""
     length = (len(record.values) - 1) * record.step
     fault = f"--period: given {period:.6g} {record.unit}"

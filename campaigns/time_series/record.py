@@ -120,7 +120,7 @@ class Table:
         """The lines below the names."""
         return islice(_lines(self.path), int(self.named), None)
 
-    def rows(self) -> Iterator[list[str]]:
+    def rows(self) -> Iterator[list]:
         """The cells of each line. Raises ValueError at the first row with more or fewer cells than there are names."""
         for number, cells in enumerate(_cells(self.path, self.lines(), self.mark), 1):
             if len(cells) == len(self.names):
@@ -251,7 +251,7 @@ def read_table(path: Path) -> Table:
     return table
 
 
-def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list[str]]:
+def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list]:
     """The cells of each line."""
     if mark is None:
         for line in lines:

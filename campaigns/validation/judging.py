@@ -18,7 +18,7 @@ POINTS = (
 )
 
 
-def judged(out: Path, cases: Iterable[Case]) -> tuple[list[Row], list[Row]]:
+def judged(out: Path, cases: Iterable[Case]) -> tuple[list, list]:
     """(rows of `cases.JUDGED`, rows of POINTS) of all cases, from the runs in `out`."""
     rows, points = [], []
     for case in cases:

@@ -84,7 +84,7 @@ def sections(parts: Parts) -> Plan:
     return Plan(title, (origin, reduced), lambda: _sections(trajectory, points, states, numbers))
 
 
-def _oscillator(parts: Parts) -> tuple[np.ndarray, dict[str, float], Source]:
+def _oscillator(parts: Parts) -> tuple[np.ndarray, dict, Source]:
     """Strobed states (m, 2) of eq. (33), its numbers, and where they are from."""
     from scipy.io import netcdf_file
 
