@@ -15,6 +15,11 @@ def periods_of(scene, columns) -> float:
     return (len(columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
 
 
+def samples_of(scene, periods: float) -> int:
+    """Samples in so many wave periods."""
+    return round(periods * scene.waves.period_s / scene.sample_step_s())
+
+
 def tangent_of(trajectory, transient_periods: int):
     """The exponent of a run's tangent dynamics in bits per wave period; no value if it carried no perturbation."""
     from analysis.exponents import BITS_PER_PERIOD, no_exponent

@@ -171,7 +171,7 @@ def grouped(places: list[str]) -> str:
     >>> grouped(["H = 21 m", "H = 22 m", "H = 22 m with a cap"]), grouped(["r", "theta"])
     ('H = 21 and 22 m, and H = 22 m with a cap', 'r and theta')
     """
-    groups: dict[tuple[str, str], list[str]] = {}
+    groups = {}  # numbers by the words before and after them
     for place in places:
         before, number, after = place, "", ""
         part = re.fullmatch(r"(\D*)(\d\S*)(.*)", place)

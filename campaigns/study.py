@@ -67,7 +67,7 @@ class Lengths:
         if self.budget and periods is None:
             if transient is not None:
                 order.tell(f"--transient: given {transient} without --periods; allowed: with --periods")
-            order.looks, order.periods, order.transient = True, values.budget, None
+            order.look_by_look(values.budget)
             return
         if self.budget and values.budget != self.budget:
             order.tell(f"--budget: given {values.budget} with --periods; allowed: without --periods")
@@ -99,6 +99,10 @@ class Order:
     def scenes(self) -> list:
         """The scenes of the cases."""
         return [case.scene for case in self.cases]
+
+    def look_by_look(self, budget: int) -> None:
+        """Let runs take as long as their regime needs, but no more wave periods than the budget."""
+        self.periods, self.looks, self.transient = budget, True, None
 
     def tell(self, *faults: str) -> None:
         """Add faults, each once."""

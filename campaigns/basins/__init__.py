@@ -63,7 +63,7 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The scene from rest, judged as long as it needs; the starts follow from it (`exploration`)."""
-    order.periods, order.looks, order.transient = BUDGET, True, None
+    order.look_by_look(BUDGET)
     if order.name == STUDY.scene:
         order.changes.setdefault("water.depth_m", DEPTH_M)
     scene = order.base(REST, tell=True)

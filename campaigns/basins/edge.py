@@ -17,7 +17,7 @@ from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
 from campaigns.machinery import run_of
 from engine.views import LONGEST_PERIOD
-from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, of_words, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -29,8 +29,8 @@ LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = EXTREMES[0], EXTREMES[1], EXTREMES[5]  # of the radius, and of the largest tension
 COLUMNS = (
-    Column("motion", "", "on one side", "motion to which a run falls on one side"),
-    Column("other", "", "on the other", "motion to which it falls on the other side"),
+    of_words("motion", "motion to which a run falls on one side", "on one side"),
+    of_words("other", "motion to which it falls on the other side", "on the other"),
     Column("periods", "", "periods", "wave periods over which it was followed; extremes are of the later half", 0),
     Column("strobed_period", "", "N", "wave periods after which it repeats; empty where none is found", 0),
     Column("growth_bits_per_period", "bits/period", "growth", "rate at which runs leave it", 2),

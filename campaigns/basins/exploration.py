@@ -21,7 +21,7 @@ class Exploration(Motions):
     def __init__(self, plan: Plan, grid: StartGrid):
         super().__init__(plan, (STEEPNESS,), lambda place: {}, folder="motions")
         self.grid = grid
-        self.endings: dict[int, Ending] = {}  # of the starts of the grid, by number
+        self.endings = {}  # of the starts of the grid, by number
 
     @property
     def motions(self) -> list[Motion]:

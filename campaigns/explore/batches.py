@@ -30,16 +30,16 @@ from tables import (
     RUN_KEY,
     STATUS,
     WALL_S,
-    Column,
     Columns,
     Row,
     Rows,
     counted,
     names,
     number_of,
+    of_words,
 )
 
-ROLE = Column("role", "", "role", "what was changed in the run of table.csv")
+ROLE = of_words("role", "what was changed in the run of table.csv")
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
 COMPANIONS = (ROLE, STEEPNESS, MOTION, NODES, *OF_A_RUN)

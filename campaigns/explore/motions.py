@@ -14,11 +14,12 @@ from typing import NamedTuple
 from analysis import grouped, share_of
 from campaigns.explore.coarse import coarse_endings
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
-from campaigns.machinery import Job, Jobs, Plan, Summary, orbits_in, run_of
+from campaigns.judge import samples_of
+from campaigns.machinery import Jobs, Plan, Summary, orbits_in, run_of
 from campaigns.study import Order
-from tables import REGIMES, SHEET, Column, Columns, Row, write_table
+from tables import REGIMES, SHEET, Column, Columns, Row, of_words, write_table
 
-MOTION = Column("motion", "", "motion", "letter of the motion, the same along a branch over the values")
+MOTION = of_words("motion", "letter of the motion, the same along a branch over the values")
 MOTIONS = (
     MOTION,
     Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
@@ -134,12 +135,12 @@ class Motions:
         self.orbits = orbits_in(self.folder)
         self.starts = Starts(plan, (*self.keys, MOTION))
         self.kicks = 0  # at each place
-        self.jobs: list[Job] = []  # the runs from rest, by place
-        self.at: list[list[Motion]] = []
-        self.job_keys: dict[Motion, str] = {}  # of the judged runs of motions
-        self.rows: dict[str, Row] = {}  # of judged runs, by key
+        self.jobs = []  # the runs from rest, by place
+        self.at = []  # the motions, by place
+        self.job_keys = {}  # of the judged runs, by motion
+        self.rows = {}  # of judged runs, by key
         self.times = Counter()
-        self.computed: set[str] = set()  # keys of the judged runs that were computed, or went on
+        self.computed = set()  # keys of the judged runs that were computed, or went on
 
     def add(self, jobs: Jobs) -> range:
         """Add the places of these runs from rest; returns their numbers."""
@@ -174,7 +175,7 @@ class Motions:
     def fine(self, place: int, start: Start) -> Start:
         """The start with as many samples as a run of its place, which then takes up its last state to the moment."""
         scene = self.jobs[place].scene
-        return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
+        return replace(start, often=samples_of(scene, 1))
 
     def run_starts(
         self,
@@ -230,7 +231,7 @@ class Motions:
 
     def branches(self) -> list[list]:
         """The motions of each branch, by place."""
-        members: dict[Motion, list[Motion]] = {}
+        members = {}  # by the first motion of a branch
         for motion in self.all_motions():
             members.setdefault(motion.branch, []).append(motion)
         return [*members.values()]

@@ -14,7 +14,7 @@ from analysis.snaps import NEAR_ZERO
 from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
-from campaigns.judge import periods_of
+from campaigns.judge import periods_of, samples_of
 from engine.run.rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
@@ -164,7 +164,6 @@ def buoy_row(trajectory, judgement) -> Row:
     plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
     """
     columns, scene = sound_part(trajectory.columns), trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     row = counted(trajectory)
     row[HEIGHT.name] = height_m(scene, columns)
     if len(columns["time_s"]):
@@ -180,7 +179,7 @@ def buoy_row(trajectory, judgement) -> Row:
             measured[STROBED.name] = judgement.verdict.period
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
-            first = round(transient_periods * period_s / step_s)  # sample after the transient
+            first = samples_of(scene, transient_periods)  # sample after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:

@@ -127,7 +127,7 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
     for place in places:
         for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
             starts.append((place, Start(KICKED, velocity)))
-    kicked: dict[Motion, tuple[int, Start]] = {}  # the motions that kicks have found, each with its last kick
+    kicked = {}  # the motions that kicks have found, each with its last kick
     for start, motion in zip(starts, motions.run_starts("kicks", starts, nothing_beside), strict=True):
         if motion is not None:
             motion.kicks += 1
@@ -167,11 +167,11 @@ def merge(motions: Motions, settled: Mapping[Motion, object]) -> None:
 
     settled: what these runs settled to.
     """
-    merged: dict[Motion, Motion] = {}
+    merged = {}  # by motion the one into which it is merged
     for place, motions_here in enumerate(motions.at):
         for motion in motions_here:
             motion.settled = settled.get(motion, motion.settled)
-        first: dict[int, Motion] = {}
+        first = {}  # motion of each label
         for label, motion in zip(grouped(settled_in(motions_here)), motions_here, strict=True):
             merged[motion] = first.setdefault(int(label), motion)
             if merged[motion] is not motion:
@@ -198,7 +198,7 @@ def name(motions: Motions) -> None:
             if neighbour > place:
                 _continue_unsettled(motions, place, neighbour)
                 _join_branches(motions, place, neighbour, branches)
-    first: dict[int, Motion] = {}
+    first = {}  # motion of each branch
     for motion in ordered:
         motion.branch = first.setdefault(id(branches[motion]), motion)
         if motion.branch is motion:
@@ -255,8 +255,8 @@ def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable) ->
     rows: of their runs, by key.
     neighbours: the places beside a place.
     """
-    transients: dict[int, float] = {}  # of the places whose motion is periodic
-    chaotic: dict[int, Mapping] = {}  # rows of the places whose motion is chaotic
+    transients = {}  # by place, of those whose motion is periodic
+    chaotic = {}  # rows by place, of those whose motion is chaotic
     for place, job in enumerate(jobs):
         row = rows.get(job.key, {})
         regime = str(row.get("regime"))

@@ -41,6 +41,7 @@ from tables import (
     Row,
     counted,
     names,
+    of_words,
     write_table,
 )
 
@@ -48,7 +49,7 @@ LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
-FOUND_BY = Column("found_by", "", "found by", "rest, massless (model), kick, or carried from a neighbour")
+FOUND_BY = of_words("found_by", "rest, massless (model), kick, or carried from a neighbour", "found by")
 KICKS = (
     Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),
@@ -58,7 +59,7 @@ KICKS = (
     Column("displacement_z_m", "m", "moved z", "place of the buoy at the start, from that of its rest, upwards", 2),
     Column("phase_rad", "rad", "phase", "phase of the wave at the start", 3),
 )
-OUTCOME = Column("outcome", "", "outcome", f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
+OUTCOME = of_words("outcome", f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
 JOINS = Column("joins", "", "joins", "number of the known motion that it has joined, from 0 on", 0)
 OF_A_START = (*KICKS, OUTCOME, JOINS, STATUS, PERIODS_RUN, LOOPS, WALL_S, RUN_KEY, MESSAGE)
 
@@ -245,9 +246,9 @@ class Starts:
         self.folder, maker = plan.out / "starts", made_by({}, *SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])
-        self.endings: list[Ending] = []
+        self.endings = []  # `Ending` of every start
         self.times = Counter()
-        self.computed: set[str] = set()  # keys of the runs that were not there before
+        self.computed = set()  # keys of the runs that were not there before
 
     def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:
         """Run starts that are not there yet, side by side. title: of the progress. listed: whether in the table.

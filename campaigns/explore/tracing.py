@@ -46,6 +46,13 @@ class Scenes:
         except SceneError:
             return None
 
+    def at(self, value: float, changes: dict | None = None):
+        """The same. Raises ArithmeticError where there is none."""
+        scene = self(value, changes)
+        if scene is None:
+            raise ArithmeticError(f"no scene can have {self.key.key} = {value:.4g}")
+        return scene
+
 
 @dataclass(frozen=True, eq=False)
 class Line:
@@ -68,10 +75,7 @@ class Line:
         """The scene at a value, as its orbits are computed. Raises ArithmeticError where there is none."""
         base = self.scenes.base
         changes = {"solver.rtol": min(self.rtol, base.solver.rtol), "tether.nodes": self.nodes or base.tether.nodes}
-        scene = self.scenes(value, changes)
-        if scene is None:
-            raise ArithmeticError(f"no scene can have {self.scenes.key.key} = {value:.4g}")
-        return scene
+        return self.scenes.at(value, changes)
 
     @cached_property
     def maps(self):

@@ -205,7 +205,7 @@ def made_by(settings: dict, *sources: str) -> str:
     from machine_code.store import kept_hash
 
     root = Path(__file__).resolve().parents[2]
-    files: dict[str, Path] = {}
+    files = {}  # by name in the project
     for source in sources:
         path = root / source
         members = [path]

@@ -62,7 +62,7 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple]:
 
     Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
     """
-    alike: dict[tuple, list[Job]] = {}
+    alike = {}  # jobs by their length
     for job in jobs:
         if shares_worker(plan, job):
             alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
@@ -87,7 +87,7 @@ def _dealt(jobs: Jobs, count: int) -> list[list]:
     """
     from engine.simd.vector import COUNT
 
-    alike: dict[float, list[Job]] = {}
+    alike = {}  # jobs by their cost
     for job in jobs:
         alike.setdefault(_cost(job), []).append(job)
     together = 1

@@ -78,7 +78,7 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
 
 def condensed(faults: list[str]) -> list[str]:
     """The faults; of those of one key that differ by their numbers only, the first, and how many more there are."""
-    alike: dict[tuple[str, str], list[str]] = {}
+    alike = {}  # faults by key, and reason without its numbers
     for fault in dict.fromkeys(faults):
         key, _, reason = fault.partition(": ")
         alike.setdefault((key, re.sub(r"\d[\d.e+-]*", "#", reason)), []).append(fault)

@@ -33,7 +33,7 @@ def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple]:
     if engine.source_hash() != jobs[0].engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
     report = reporter(plan.reports, name_of(jobs))
-    outcomes: dict[str, Outcome] = {}
+    outcomes = {}  # by key
     try:
         _run_side_by_side(plan, jobs, outcomes, report)
     except CampaignStopped:

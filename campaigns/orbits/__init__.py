@@ -29,7 +29,7 @@ from campaigns.judge import job_from
 from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
-from tables import Row, Rows, number_of, read_table
+from tables import Rows, number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
@@ -90,7 +90,7 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
-    order.periods, order.looks, order.transient = BUDGET, True, None
+    order.look_by_look(BUDGET)
     if not order.options.grid.keys:
         return
     jobs_of = _jobs
@@ -118,7 +118,7 @@ def cases(order: Order) -> Iterator[Job]:
 
 def _check_second(order: Order, scene) -> None:
     """Tell what is wrong with the key of --curves in a scene."""
-    from campaigns.orbits.curves import scene_at
+    from campaigns.explore.tracing import Scenes
 
     key = order.options.second
     value, (low, high) = key.of(scene), (key.values[0], key.values[-1])
@@ -127,7 +127,7 @@ def _check_second(order: Order, scene) -> None:
         order.tell(f"--curves {key.key}: given {low:g} to {high:g}; allowed: {allowed}")
         return
     try:
-        grids = {scene_at(scene, key, end).tether.nodes for end in (low, high)}
+        grids = {Scenes(scene, key).at(end).tether.nodes for end in (low, high)}
     except ArithmeticError as why:
         order.tell(f"--curves {key.key}: given {low:g} to {high:g}; {why}")
         return
@@ -221,7 +221,7 @@ def _check_letter(letter: str | None, folder: Path) -> None:
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
     (key,) = order.options.grid.keys
-    rows_of: dict[tuple[str, int], list[Row]] = {}
+    rows_of = {}  # by letter and period
     for row in read_table(folder / "table.csv"):
         period = number_of(row, "strobed_period")
         if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.options.motion in (None, row["motion"]):

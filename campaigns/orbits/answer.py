@@ -75,7 +75,7 @@ def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) ->
     Where stability changes, the event nearest to the last stable orbit is the end.
     """
     values, stable = numbers_of(orbits, key.name), list(map(_is_stable, orbits))
-    spans: list[tuple[float, float]] = []
+    spans = []
     for number, value in enumerate(values):
         if not stable[number]:
             continue

@@ -11,9 +11,9 @@ from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
-from tables import MESSAGE, STATUS, Column, Columns, Row, csv_of, names, write_table
+from tables import MESSAGE, STATUS, Column, Columns, Row, csv_of, names, of_words, write_table
 
-BRANCH = Column("branch", "", "branch", "the period of its orbits, and a letter where there are several")
+BRANCH = of_words("branch", "the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
 PERIOD = replace(STROBED, name="period", meaning="wave periods after which the orbit repeats")
 UNSTABLE = Column("unstable", "", "unstable", "multipliers outside the unit circle; 0: the orbit is stable", 0)
@@ -32,9 +32,9 @@ MOTION_OF = (
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line on the orbit", 0),
 )
 GAP = Column("gap", "", "gap", "what is left of the equation of the orbit, the largest coordinate of its state", 12)
-KIND = Column("kind", "", "event", "fold, flip (period doubling) or torus (Neimark-Sacker) point")
+KIND = of_words("kind", "fold, flip (period doubling) or torus (Neimark-Sacker) point", "event")
 ANGLE = Column("angle_rad", "rad", "angle", "angle of the multiplier that crosses the unit circle", 3)
-LEADS = Column("leads_to", "", "begins", "branch of the orbits of twice the period that begin there")
+LEADS = of_words("leads_to", "branch of the orbits of twice the period that begin there", "begins")
 STROBE = Column("strobe", "", "strobe", "number of the strobe, from 0 on", 0)
 RADIUS = Column("radius_m", "m", "r", "distance of the buoy from the anchor at the strobe", 4)
 OF_A_BRANCH = (
@@ -43,8 +43,8 @@ OF_A_BRANCH = (
     MOTION,
     Column("orbits", "", "orbits", "orbits of the branch", 0),
     Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0),
-    Column("begins", "", "begins", "why the branch begins where it does"),
-    Column("ends", "", "ends", "why the branch ends where it does"),
+    of_words("begins", "why the branch begins where it does"),
+    of_words("ends", "why the branch ends where it does"),
     STATUS,
     MESSAGE,
 )

@@ -72,9 +72,9 @@ class Tree:
     def __init__(self, plan: Plan, line: Line, most: int, room: int):
         self.plan, self.line, self.most, self.room = plan, line, most, room
         (plan.out / FOLDER).mkdir(exist_ok=True)
-        self.branches: list[Branch] = []
-        self.chosen: list[dict] = []  # orbits with errors and history
-        self.failed: list[tuple[Seed, str]] = []  # orbits without a branch, and why
+        self.branches = []
+        self.chosen = []  # orbits with errors and history
+        self.failed = []  # seeds of orbits without a branch, and why
         self.computed = self.there = 0
 
     def work(self, title: str, tasks: Sequence[Task]) -> list[Solved]:

@@ -14,6 +14,7 @@ import numpy as np
 
 from campaigns.breaking_line.lines import read_lines
 from campaigns.figure_data import Array, Source, source
+from campaigns.judge import samples_of
 from campaigns.machinery import read_json, run_of, stored_run, trajectory_path
 from campaigns.paper.measures import buckling_waves, calm_measures, scales, snaps, violent_measures
 from tables import LARGE, SMALL, Row, read_table
@@ -192,7 +193,7 @@ def _doubled(parts: Parts, numbers: dict) -> dict:
         if row["tether.nodes"] != coarse_nodes or coarse is None or fine is None:
             continue
         off_m = fine.columns["radius_m"] - coarse.columns["radius_m"]
-        early = round(EARLY * coarse.scene.waves.period_s / coarse.scene.sample_step_s()) + 1
+        early = samples_of(coarse.scene, EARLY) + 1
         rows.append(row | {"error_early_m": _rms(off_m[:early]), "error_m": _rms(off_m)})
     return {"doubled": tuple(rows)}
 

@@ -87,7 +87,7 @@ class Options(cli.Options):
 def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
     grid = order.options.grid
-    order.periods, order.looks, order.transient = BUDGET, True, None
+    order.look_by_look(BUDGET)
     if grid is None:
         return
     grid.refuse_set(order, "")

@@ -29,6 +29,7 @@ from tables import (
     Columns,
     Row,
     number_of,
+    of_words,
 )
 
 STROBES = 64  # wave periods of a motion at most
@@ -46,8 +47,8 @@ COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)
 SHARE = Column("share_of_largest", "", "share", "share of the kicks that end in the motion of the largest tension", 2)
-SOURCE = Column("source", "", "source", "computed, failed, or only screened: with a massless tether")
-OF_REST = Column("regime_rest", "", "regime", "regime of the motion to which rest leads")
+SOURCE = of_words("source", "computed, failed, or only screened: with a massless tether")
+OF_REST = of_words("regime_rest", "regime of the motion to which rest leads", "regime")
 OF_A_CELL = (
     LEVEL,
     SOURCE,
@@ -61,7 +62,7 @@ OF_A_CELL = (
     Column("loops", "", "loops", "1 where a motion released loops, else 0", 0),
     Column("leaves_water", "", "out", "1 where the sphere of a motion rises above still water, else 0", 0),
     Column("wall_s", "s", "wall", "time of the judged runs of the cell", 2),
-    Column("run_key_rest", "", "key", "content key of the run from rest"),
+    of_words("run_key_rest", "content key of the run from rest", "key"),
     STATUS,
     MESSAGE,
 )

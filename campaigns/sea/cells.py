@@ -35,7 +35,7 @@ from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
 from engine.physics.sea import envelope_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of, of_words
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
@@ -50,7 +50,7 @@ COLUMNS = (
     Column("seas", "", "seas", "seas of this state, drawn independently", 0),
     Column("starts", "", "starts", "starts in each sea", 0),
     *TANGENT,
-    Column("sign", "", "sign", "of the exponent: +, − or open, by two standard errors", None),
+    of_words("sign", "of the exponent: +, − or open, by two standard errors"),
     Column("finer_bits_per_period", _BITS, "σ finer", "exponent of the runs marked finer", 3, SHEET),
     Column("finer_error", _BITS, "± σ finer", "standard error of the exponent of the finer runs", 3, SHEET),
     GROWING,
@@ -158,7 +158,7 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
         regular_rows = table_of(folder)
         folds = folds_of(regular_rows, table_of(folder / "ends"))
     keys = order.options.grid.columns
-    of_cell: dict[tuple, list[Row]] = {}
+    of_cell = {}  # rows by the values of the keys
     for row in summary.rows:
         of_cell.setdefault(tuple(row[name] for name in names(keys)), []).append(row)
     cells = []
@@ -275,7 +275,7 @@ def _scatter(digests: Sequence[Digest]) -> float:
 
     The runs in a sea are compared over the length of the shortest one, which is a finer run.
     """
-    tensions_N: dict[int, list[np.ndarray]] = {}
+    tensions_N = {}  # of the runs, by sea
     for run in digests:
         tensions_N.setdefault(run.row["sea"], []).append(run.high_N)
     ranges = []

@@ -154,8 +154,7 @@ class Folds:
 
 def folds_of(rows: Rows, ends: Rows) -> Folds | None:
     """The folds of a sweep of regular waves, from the rows of its tables; None where no wave has two unlike motions."""
-    waves: dict[float, list[float]] = {}
-    motions: dict[str, dict[float, float]] = {}
+    waves, motions = {}, {}  # largest tensions by amplitude; by letter and amplitude
     for row in lasting(rows):
         amplitude_m, tension_N = row[KEY], row[PEAK]
         if row.get("motion"):
@@ -198,7 +197,7 @@ def design_loads(rows: Rows, amplitude_m: float) -> list[tuple]:
     smaller and the next larger wave; a motion that only one of them has counts where that one is the nearer. Outside
     the sweep the list is empty.
     """
-    waves: dict[float, dict[str, float]] = {}
+    waves = {}  # largest tensions by amplitude and letter
     for row in lasting(rows):
         waves.setdefault(row[KEY], {})[str(row["motion"])] = row[PEAK]
     nearest = min(waves, key=lambda value: abs(value - amplitude_m), default=math.inf)

@@ -37,12 +37,13 @@ from tables import (
     finite,
     names,
     number_of,
+    of_words,
 )
 
 CLEAR = 3.0  # errors between an exponent and 0: then its sign needs no more seas
 SEA = Column("sea", "", "sea", "seed of the waves", 0)
 START = Column("start", "", "start", "number of the start; 0: rest", 0)
-SOLVER = Column("solver", "", "solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
+SOLVER = of_words("solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
 SNAPS = Column("snaps_per_hour", "1/h", "snaps", "snaps an hour after the transient", 1)
 GROWING = Column(
     "growing_share", "", "growing", "share of windows of the record in which a small perturbation grows", 2, REGIMES
@@ -131,13 +132,13 @@ def finite_row(row: Row) -> Row:
 
 def unclear_places(rows: Rows, keys: Columns) -> set[tuple]:
     """The places (values of the keys) where the mean exponent of the runs from rest is within CLEAR errors of 0."""
-    found: dict[tuple, list[tuple[float, float]]] = {}
+    exponents_at = {}  # of the seas with their errors, by place
     for row in rows:
         value, error = (number_of(row, column.name) for column in TANGENT)
         if row["start"] == 0 and not row["solver"] and math.isfinite(value):
-            found.setdefault(tuple(row[name] for name in names(keys)), []).append((value, error))
+            exponents_at.setdefault(tuple(row[name] for name in names(keys)), []).append((value, error))
     unclear = set()
-    for place, exponents_of_seas in found.items():
+    for place, exponents_of_seas in exponents_at.items():
         value, error = mean_of_seas(*zip(*exponents_of_seas, strict=True))
         if abs(value) < CLEAR * error:
             unclear.add(place)

@@ -151,7 +151,7 @@ def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[st
         except (ValueError, UserWarning):  # cell by cell, to say what is wrong; other columns may hold words
             pass
     values = {name: array("d") for name in places}
-    wrong: dict[tuple[str, str], list] = {}  # column and what is wrong: its first cell, and its rows
+    wrong = {}  # by column and what is wrong: its first cell, and its rows
     for number, cells in enumerate(table.rows(), 1):
         for name, place in places.items():
             cell = cells[place]

@@ -13,6 +13,7 @@ import numpy as np
 
 from campaigns.breaking_line.lines import named
 from campaigns.figure_data import Array
+from campaigns.judge import samples_of
 from campaigns.paper.measured import LeftOut, Parts, Plan
 from campaigns.paper.measures import WINDOW, in_window
 from engine.natural_frequencies import natural_frequencies
@@ -67,7 +68,7 @@ def history(parts: Parts, steepness: float, side: str) -> Plan:
 def history_arrays(trajectory, side: str) -> dict[str, Array]:
     """The record up to the end of the window of eq. (31)."""
     scene, dimension = trajectory.scene, ("time_s",)
-    last = round(sum(WINDOW) * scene.waves.period_s / scene.sample_step_s()) + 1
+    last = samples_of(scene, sum(WINDOW)) + 1
     shown = {name: values[:last] for name, values in trajectory.columns.items()}
     arrays = {
         "time_s": (dimension, shown["time_s"], "s", "time"),

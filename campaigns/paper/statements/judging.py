@@ -127,7 +127,7 @@ def regimes(rows: Iterable[Place], is_so: Callable) -> list[Check]:
 
 def by_regime(rows: Iterable[Place]) -> str:
     """Regimes of the runs, each with the places that have it."""
-    places: dict[str, list[str]] = {}
+    places = {}  # by regime
     for place, row in rows:
         places.setdefault(row["regime"] or "no verdict", []).append(place)
     return "; ".join(f"{regime} at {grouped(places_of)}" for regime, places_of in places.items()) or "none"
