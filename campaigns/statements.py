@@ -135,7 +135,7 @@ def _test(rule: str) -> Callable:
 def formula(text: str) -> Callable:
     """A formula over the numbers of a row, "a / b - 1"; nan where the row lacks one."""
 
-    def of(row: Mapping[str, object]) -> float:
+    def of(row):
         import pandas
 
         try:

@@ -111,6 +111,11 @@ def version(peer: Peer) -> str:
     return metadata.version(peer.package) if importlib.util.find_spec(peer.module) is not None else ""
 
 
+def sources_of(peer: Peer) -> str:
+    """Hash of the code that runs it."""
+    return made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
+
+
 def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple]:
     """(code, work, its settings) of all that is asked of other codes."""
     parts = []
@@ -131,8 +136,7 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
     reference_of_peer = None
     if kind != REFERENCE:
         reference_of_peer = known.get((work, peer.name), reference)
-    sources = made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
-    recipe = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources}"
+    recipe = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources_of(peer)}"
     scene, point = scene_of(peer, work, nodes), Point(work, kind, peer.name, nodes, peer.control, value)
     simulate, ours = partial(other_code, peer=peer, settings=setting), known.get((work, OURS + peer.name), reference)
     return job_of(point, scene, recipe, reference_of_peer, ours, simulate, peer_version=installed)

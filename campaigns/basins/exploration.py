@@ -69,7 +69,7 @@ class Exploration(Motions):
         """For each of these starts of the grid, by its place in the list, the places of those beside it."""
         places = {number: place for place, number in enumerate(numbers)}
 
-        def beside(place: int) -> list[int]:
+        def beside(place):
             return [places[number] for number in self.grid.beside(numbers[place]) if number in places]
 
         return beside

@@ -89,7 +89,7 @@ def crossing(results: Results) -> Measured:
     seconds = [time_s for _, time_s in times]
     earliest, latest = PRINTED_CROSSING_S
 
-    def off(scale: float) -> float:
+    def off(scale):
         return max(abs(scale * min(seconds) / earliest - 1.0), abs(scale * max(seconds) / latest - 1.0))
 
     checks = [("as printed", off(1.0)), ("a tenth of it is meant (0.055 to 0.091 s)", off(10.0))]

@@ -218,7 +218,7 @@ def spread(trajectory: Trajectory) -> dict[str, float]:
     T, v, s = profiles.tension_N[row], profiles.speed_mps[row], profiles.s_m
     length, top = float(s[-1]), settled_end_speed(trajectory)[0]
 
-    def over_line(values: np.ndarray) -> float:
+    def over_line(values):
         return float(np.trapezoid(values, s)) / length
 
     mean = over_line(T)

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from analysis import distance
-from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
+from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, write_part
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words, write_table
+from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
@@ -103,7 +103,7 @@ def find_ends(motions: Motions, scene_at: Callable, exact: bool = True) -> list[
             _narrow(motions, end, ending)
     of_orbits = by_orbits(motions, values, ends, scene_at) if exact else {}
     rows = [{**end.columns(key), **of_orbits.get(end, {})} for end in ends]
-    write_table(subfolder(motions.plan, FOLDER) / "table.csv", columns(key), rows)
+    write_part(motions.plan, FOLDER, columns(key), rows)
     return rows
 
 

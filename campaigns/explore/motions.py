@@ -105,7 +105,7 @@ def settled_in(motions: Sequence[Motion]) -> tuple:
 def in_a_row(count: int) -> Callable:
     """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
 
-    def neighbours(place: int) -> dict[int, str]:
+    def neighbours(place):
         return {place + step: found_by for step, found_by in CARRIED.items() if 0 <= place + step < count}
 
     return neighbours

@@ -134,7 +134,7 @@ def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):
 def _orbit_ahead(scene, strobed: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
     """A state (4,) on the periodic orbit that a massless run comes nearer to (`analysis.approaches`); None: on none."""
 
-    def step(z: np.ndarray, _: float) -> tuple:
+    def step(z, _):
         starts = np.vstack([z, z + DIFFERENCE * np.eye(4), z - DIFFERENCE * np.eye(4)])
         image, *beside = engine.massless_runs(scene, starts * scale, 1).strobed[:, -1] / scale
         if not np.isfinite(beside).all():

@@ -132,7 +132,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     (key,), options = order.options.grid.keys, order.options
     exact = not options.no_accuracy
 
-    def ends(motions) -> None:
+    def ends(motions):
         if len(jobs) > 1:
             find_ends(motions, Scenes(motions.jobs[0].scene, key), exact)
 

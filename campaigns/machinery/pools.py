@@ -183,7 +183,7 @@ def _differences(client) -> Iterator[str]:
     """What sets workers apart from this process, as far as they answer within ASK_S."""
     answers = {}
 
-    def collect() -> None:
+    def collect():
         with contextlib.suppress(Exception):
             answers.update(client.run(facts, on_error="return"))
 

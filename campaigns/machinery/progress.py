@@ -165,7 +165,7 @@ def reporter(folder: Path | None, task: str) -> Callable:
     """A function report(*numbers) by which a worker tells the progress of a task; without a folder it does nothing."""
     last_s = -REPORT_S
 
-    def report(*numbers: float) -> None:
+    def report(*numbers):
         nonlocal last_s
         now = time.monotonic()
         if folder is not None and now - last_s >= REPORT_S:

@@ -194,7 +194,7 @@ def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     with stage("looking for finished runs"):
         for key, job in by_key.items():
             outcome = reuse(plan, job, print_line)
-            if outcome is not None and _ended(job, outcome):
+            if outcome is not None and LongRun(job, row=outcome.row).next_part() is None:
                 finished.add(key)
                 times["analysis_s"] += outcome.analysis_s
                 table.rows[key] = _row(job, outcome)
@@ -219,10 +219,6 @@ def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     return Summary(table.in_order(), len(finished), len(missing), times, made=frozenset(_keys([missing])))
 
 
-def _ended(job: Job, outcome: Outcome) -> bool:
-    return LongRun(job, row=outcome.row).next_part() is None
-
-
 def _row(job: Job, outcome: Outcome) -> Row:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
@@ -245,7 +241,7 @@ def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
         if job.key not in together:
             groups.append((job,))
 
-    def count() -> float:
+    def count():
         """Runs that have ended; of groups under way those that their workers report."""
         ended = total - len(unfinished)
         for name, (runs, *_) in reports(Path(place)).items():
@@ -256,7 +252,7 @@ def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
     lengths_s = [job.duration_s or job.periods * job.scene.waves.period_s for job in jobs if job.going is None]
     of_all = f" of {sum(lengths_s):,.0f}" if len(lengths_s) == len(jobs) else ""
 
-    def simulated() -> str:
+    def simulated():
         seconds = [length_s for _, length_s in reports(Path(place)).values()]
         return f"{sum(seconds):,.0f}{of_all} s simulated"
 

@@ -73,10 +73,10 @@ def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], repo
     saved_s = {}
     length_s = sum(_length_s(run.part) for run in under_way)  # of all parts that are known by now
 
-    def progress(share: float) -> None:
+    def progress(share):
         report(len(outcomes), share * length_s)
 
-    def go_on(number: int, trajectory) -> tuple | None:
+    def go_on(number, trajectory):
         """Take a part that has ended; what the run does next, as `engine.simulate_each` asks for it."""
         nonlocal length_s
         run = under_way[number]

@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
-from campaigns.explore.motions import MOTION, subfolder
+from campaigns.explore.motions import MOTION, subfolder, write_part
 from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.orbits.tree import Tree
@@ -62,8 +62,8 @@ def tables(tree: Tree, key: Column) -> list[Row]:
     numbers = PERIOD, UNSTABLE, *PARTS, *ERRORS, MODULUS, *MOTION_OF, GAP, STATUS, MESSAGE
     write_table(out / "table.csv", (BRANCH, PLACE, key, *numbers), rows)
     write_table(out / "strobes.csv", (BRANCH, PLACE, key, STROBE, RADIUS), strobes)
-    write_table(subfolder(tree.plan, "events") / "table.csv", _event_columns(key), [*_events(tree, key)])
-    write_table(out / "branches" / "table.csv", OF_A_BRANCH, [*_branches(tree)])
+    write_part(tree.plan, "events", _event_columns(key), _events(tree, key))
+    write_part(tree.plan, "branches", OF_A_BRANCH, _branches(tree))
     folder = subfolder(tree.plan, "orbits")
     write_table(folder / "table.csv", (BRANCH, PLACE, key, MOTION, *numbers), [*_chosen(tree, key, folder)])
     return rows

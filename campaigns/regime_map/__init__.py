@@ -159,7 +159,7 @@ def answer(order: Order, rows: Rows) -> list[str]:
     of_buoy = CellGrid(tuple(key for key in grid.keys if key.key.startswith("buoy.")))
     scenes = {}
 
-    def scene(row: dict) -> object:
+    def scene(row):
         values = tuple(row[column.name] for column in of_buoy.columns)
         if values not in scenes:
             changes, _ = of_buoy.changes(row, order.base())
@@ -187,7 +187,7 @@ read_order = STUDY.read_order
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
 
-    def work(order: Order, words: list[str]) -> int:
+    def work(order, words):
         if order.options.cut:
             return cuts.cut(order, words, simulate)
         return STUDY.conduct(order, words, simulate)

@@ -160,7 +160,7 @@ def froude(run, case) -> Check:
     """Distance of r over the size, and of the tension over its cube, from a run of the scene so many times as large."""
     size = case.options["size"]
 
-    def scaled(part: dict) -> dict:
+    def scaled(part):
         found = {}
         for key, value in part.items():
             power = next((power for unit, power in POWERS.items() if key.endswith(unit)), 0.0)

@@ -93,7 +93,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line, its record read; every fault is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
 
-    def value(option: str, kind: Kind) -> object:
+    def value(option, kind):
         words = getattr(options, option[2:])
         if words is not None:
             words = [words]
