@@ -288,7 +288,7 @@ class Study:
         measures = self.measures(order)
         maker = ""
         if measures.sources:
-            maker = made_by(dict(measures.settings), *measures.sources)
+            maker = made_by(*measures.sources, **measures.settings)
         return Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
 
     def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:

@@ -17,7 +17,7 @@ from statistics import median
 
 import engine
 from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
-from campaigns.machinery import cli, stage
+from campaigns.machinery import Plan, Summary, cli, machine, made_by, run, stage, write_scene
 from campaigns.study import Order, Study
 from tables import Rows, number_of, write_table
 
@@ -51,11 +51,10 @@ def perform(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
-    from campaigns.machinery import Plan, Summary, made_by, run, write_scene
 
     options, out, of_engine = order.options, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
-    maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
+    maker = made_by("campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     plans = plan, plan, plan, one_at_a_time
@@ -73,7 +72,6 @@ def perform(order: Order):
 
 def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import taking_part, version
-    from campaigns.machinery import machine
 
     options = order.options
     works, notes = {}, {}

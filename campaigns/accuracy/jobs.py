@@ -113,7 +113,7 @@ def version(peer: Peer) -> str:
 
 def sources_of(peer: Peer) -> str:
     """Hash of the code that runs it."""
-    return made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
+    return made_by(f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
 
 
 def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple]:

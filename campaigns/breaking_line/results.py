@@ -33,9 +33,8 @@ def write_results(plan: Plan, summary: Summary) -> float:
     results = Results(read_lines(folder))
     write_statements(folder, claims().values(), results)
     cases, path = ended(results.lines), folder / EXACT
-    key = made_by(
-        {"runs": [line["run_key"] for line in cases.values()]}, "analysis", "engine", "campaigns/breaking_line"
-    )
+    runs_of_cases = [line["run_key"] for line in cases.values()]
+    key = made_by("analysis", "engine", "campaigns/breaking_line", runs=runs_of_cases)
     if attribute_of(path) == key:
         return 0.0
     runs = {}

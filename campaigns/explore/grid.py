@@ -162,6 +162,11 @@ class Grid:
         return judged_job(order, {**place, **labels, "dimensions": scene.motion.dimensions}, scene, most=most)
 
 
+def place_in(row: Row, keys: Columns) -> tuple:
+    """The values of the keys in a row."""
+    return tuple(row[name] for name in names(keys))
+
+
 def grid_of(words: list[str], faults: list[str], least: int = 0, example: str = "") -> Grid:
     """The grid over the keys in the words of --vary: KEY LO HI COUNT of each, at least so many times, at most twice."""
     if len(words) not in range(4 * least, 9, 4):

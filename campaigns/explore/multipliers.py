@@ -124,7 +124,7 @@ def orbit_under(trajectory: Trajectory, period: int, orbits: Store, iterations: 
 
 @cache
 def _maker() -> str:
-    return made_by({}, *SOURCES)
+    return made_by(*SOURCES)
 
 
 def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:

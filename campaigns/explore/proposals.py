@@ -59,7 +59,7 @@ def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list
 
 @cache
 def _maker() -> str:
-    return made_by({}, "analysis", "campaigns/explore/proposals.py")
+    return made_by("analysis", "campaigns/explore/proposals.py")
 
 
 def _motions(kicked: np.ndarray, scene) -> dict:

@@ -163,11 +163,8 @@ def buoy_row(trajectory, judgement) -> Row:
     period has statistics only. A loop release after the transient leaves offplane_growth unknown, because across the
     plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
     """
-    columns, scene = sound_part(trajectory.columns), trajectory.scene
-    row = counted(trajectory)
-    row[HEIGHT.name] = height_m(scene, columns)
-    if len(columns["time_s"]):
-        row["periods"] = periods_of(scene, columns)
+    scene = trajectory.scene
+    row, columns = begun_row(trajectory)
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
     transient_periods = judgement.transient
@@ -186,6 +183,15 @@ def buoy_row(trajectory, judgement) -> Row:
         row |= regime_of(judgement)
     row[UTILISATION.name] = utilisation(scene, row)
     return row
+
+
+def begun_row(trajectory) -> tuple[Row, dict]:
+    """The statistics of a run in waves, the height of its buoy and its length in a row; and the `sound_part` of it."""
+    row, columns = counted(trajectory), sound_part(trajectory.columns)
+    row[HEIGHT.name] = height_m(trajectory.scene, columns)
+    if len(columns["time_s"]):
+        row[PERIODS_RUN.name] = periods_of(trajectory.scene, columns)
+    return row, columns
 
 
 def regime_of(judgement) -> Row:

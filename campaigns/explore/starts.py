@@ -243,7 +243,7 @@ class Starts:
     """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
     def __init__(self, plan: Plan, keys: Columns):
-        self.folder, maker = plan.out / "starts", made_by({}, *SOURCES)
+        self.folder, maker = plan.out / "starts", made_by(*SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])
         self.endings = []  # `Ending` of every start

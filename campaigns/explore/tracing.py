@@ -85,7 +85,7 @@ class Line:
     def digest(self) -> str:
         """Of all that results depend on beside their own task."""
         numbers = self.low, self.high, self.size, self.value, self.nodes, self.rtol
-        sources = made_by({}, *SOURCES), engine.source_hash()
+        sources = made_by(*SOURCES), engine.source_hash()
         return key_of(self.scenes.base.to_toml(), self.scenes.key.key, self.state, *numbers, *sources)
 
 

@@ -175,7 +175,7 @@ def facts() -> dict[str, str]:
     from importlib import metadata  # 30 ms, which only a cluster needs
 
     versions = {name: metadata.version(name) for name in _NUMBERS}
-    sources = {f"sources of {part}": made_by({}, part)[:12] for part in PACKAGES}
+    sources = {f"sources of {part}": made_by(part)[:12] for part in PACKAGES}
     return {"Python": ".".join(platform.python_version_tuple()[:2])} | versions | sources
 
 

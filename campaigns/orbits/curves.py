@@ -80,7 +80,7 @@ class Plane:
 
     def digest(self) -> str:
         """Of all that a curve depends on beside its first event."""
-        own = made_by({}, *SOURCES, "campaigns/orbits/curves.py"), engine.source_hash()
+        own = made_by(*SOURCES, "campaigns/orbits/curves.py"), engine.source_hash()
         return key_of(self.line, self.key.key, *self.key.values, *own)
 
 

@@ -227,7 +227,7 @@ def _key(part: str, options: Options) -> str:
         del settings["force_range"]
     if part != "diagram-frequency":
         del settings["frequency_range"]
-    return made_by(settings)
+    return made_by(**settings)
 
 
 def _compile(oscillator: SnapOscillator) -> float:

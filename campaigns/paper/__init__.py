@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from campaigns.machinery import Summary, cli
+from campaigns.machinery import Summary, cli, ended, stage
 from campaigns.paper.order import PARTS
 from campaigns.study import Order, Study
 from tables import Rows
@@ -41,7 +41,6 @@ class Options(cli.Options):
 
 def perform(order: Order) -> Summary:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
-    from campaigns.machinery import ended, stage
     from campaigns.paper import parts, results
 
     out = order.how.out

@@ -17,6 +17,7 @@ from campaigns.figure_data import Array, Source, source
 from campaigns.judge import samples_of
 from campaigns.machinery import read_json, run_of, stored_run, trajectory_path
 from campaigns.paper.measures import buckling_waves, calm_measures, scales, snaps, violent_measures
+from engine.trajectory import TrajectoryError
 from tables import LARGE, SMALL, Row, read_table
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
@@ -70,8 +71,6 @@ class Parts:
 
     def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
-        from engine.trajectory import TrajectoryError
-
         rows = matching(part.rows, wanted)
         if not rows:
             raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
@@ -140,8 +139,6 @@ def matching(rows: Iterable[Row], wanted: Row) -> list[Row]:
 
 def read_results(directory: str | Path) -> Results:
     """Read the folder of `campaigns.paper`; never raises for a part."""
-    from engine.trajectory import TrajectoryError
-
     parts, numbers, fields = Parts(Path(directory)), {}, {}
     for reader in (_lines, _sweep, _buoy, _doubled, _dependence, _plane, _oscillator):
         with contextlib.suppress(LeftOut, OSError, ValueError, KeyError, TrajectoryError):

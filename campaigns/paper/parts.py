@@ -127,7 +127,7 @@ def _key(part: str, order: Order) -> str:
         settings = dependence.parameters(order.options.quick)
     else:
         settings = CAMPAIGNS[part][1 + order.options.quick]
-    return made_by({"part": part, "told": settings}, *SOURCES, *of_the_page())
+    return made_by(*SOURCES, *of_the_page(), part=part, told=settings)
 
 
 def _ended(key: str, out: Path) -> str:

@@ -14,7 +14,7 @@ SOURCES = ("analysis", "engine", "campaigns", "reports", "tables", *TABLES)
 
 def maker() -> str:
     """Hash of all that shapes what is written here and the report: files of the same are not made again."""
-    return made_by({}, *SOURCES, *of_the_page())
+    return made_by(*SOURCES, *of_the_page())
 
 
 def is_there(out: Path, report: bool) -> bool:

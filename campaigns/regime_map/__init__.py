@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from campaigns.explore import sweep as motions
-from campaigns.explore.grid import varied
+from campaigns.explore.grid import place_in, varied
 from campaigns.explore.sweep import BUDGET
 from campaigns.machinery import Job, Jobs, Plan, Summary, cli, session
 from campaigns.regime_map import curves, cuts
@@ -160,7 +160,7 @@ def answer(order: Order, rows: Rows) -> list[str]:
     scenes = {}
 
     def scene(row):
-        values = tuple(row[column.name] for column in of_buoy.columns)
+        values = place_in(row, of_buoy.columns)
         if values not in scenes:
             changes, _ = of_buoy.changes(row, order.base())
             scenes[values] = order.scene(changes)

@@ -25,6 +25,7 @@ from analysis import (
 from analysis.sampling import standard_error
 from analysis.seas import Responses
 from analysis.tangent_growth import turned
+from campaigns.explore.grid import place_in
 from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
 from campaigns.explore.sweep import table_of
@@ -160,7 +161,7 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     keys = order.options.grid.columns
     of_cell = {}  # rows by the values of the keys
     for row in summary.rows:
-        of_cell.setdefault(tuple(row[name] for name in names(keys)), []).append(row)
+        of_cell.setdefault(place_in(row, keys), []).append(row)
     cells = []
     with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
         for place, rows in of_cell.items():

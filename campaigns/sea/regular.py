@@ -13,6 +13,7 @@ import numpy as np
 
 import engine
 from analysis import slow_forecast
+from campaigns import sweep
 from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
@@ -59,8 +60,6 @@ def one_set(order: Order) -> bool:
 
 def regular_order(order: Order) -> Order | None:
     """The order of a sweep over regular waves; None where the states of a map have none in common."""
-    from campaigns import sweep
-
     if not one_set(order):
         return None
     heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
@@ -93,8 +92,6 @@ def regular_order(order: Order) -> Order | None:
 
 def regular_ahead(order: Order, plan: Plan) -> None:
     """Let workers that would wait for the last runs in a sea do those of regular waves from rest."""
-    from campaigns import sweep
-
     waves = regular_order(order)
     if waves is not None and not waves.faults:
         plan.spare.extend(spare_groups(sweep.STUDY.plan(waves), waves.how.out, waves.cases))
@@ -102,8 +99,6 @@ def regular_ahead(order: Order, plan: Plan) -> None:
 
 def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     """Do the sweep of regular waves; nothing where the states of a map have none in common. Returns seconds."""
-    from campaigns import sweep
-
     waves = regular_order(order)
     if waves is None:
         return 0.0

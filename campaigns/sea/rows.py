@@ -15,9 +15,9 @@ from analysis import (
 )
 from analysis.seas import mean_of_seas
 from analysis.tangent_growth import turned
-from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, exponents, height_m, sound_part
+from campaigns.explore.grid import place_in
+from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, begun_row, exponents
 from campaigns.explore.rows import SNAPS as SNAPS_OF_RUNS
-from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
 from engine.views import carried, snaps_of
 from tables import (
@@ -33,7 +33,6 @@ from tables import (
     Columns,
     Row,
     Rows,
-    counted,
     finite,
     names,
     number_of,
@@ -90,11 +89,8 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
 
     transient: peak periods left out. window, slack_share, snap_share, slope: options of the campaign.
     """
-    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
-    row[HEIGHT.name] = height_m(scene, columns)
+    (row, columns), scene = begun_row(trajectory), trajectory.scene
     period_s, step_s = scene.waves.period_s, scene.sample_step_s()
-    if len(columns["time_s"]):
-        row[PERIODS_RUN.name] = periods_of(scene, columns)
     if carried(trajectory):
         growth = trajectory.tangent.growth_nats[:, 0]
         row |= exponents(TANGENT, sea_lyapunov([growth], transient))
@@ -136,7 +132,7 @@ def unclear_places(rows: Rows, keys: Columns) -> set[tuple]:
     for row in rows:
         value, error = (number_of(row, column.name) for column in TANGENT)
         if row["start"] == 0 and not row["solver"] and math.isfinite(value):
-            exponents_at.setdefault(tuple(row[name] for name in names(keys)), []).append((value, error))
+            exponents_at.setdefault(place_in(row, keys), []).append((value, error))
     unclear = set()
     for place, exponents_of_seas in exponents_at.items():
         value, error = mean_of_seas(*zip(*exponents_of_seas, strict=True))

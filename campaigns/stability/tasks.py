@@ -34,7 +34,7 @@ def judge_cases(order) -> Summary:
 
     Raises CampaignStopped where a worker dies: cases have their own processes.
     """
-    out, maker = order.how.out.absolute(), made_by({}, *SOURCES)
+    out, maker = order.how.out.absolute(), made_by(*SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
     store = Store(out / "trajectories", ".row.json")
     tasks = []

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import engine
-from campaigns.machinery import cli
+from campaigns.machinery import Plan, cli, machine, run, write_scene
 from campaigns.study import Order, Study
 from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, Case, missing
 from tables import Rows, counted, read_table, write_table
@@ -40,7 +40,6 @@ class Options(cli.Options):
 
 def perform(order: Order):
     """All runs, side by side; then each case beside its source."""
-    from campaigns.machinery import Plan, run, write_scene
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
 
@@ -59,7 +58,6 @@ def perform(order: Order):
 def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import version
     from campaigns.accuracy.plan import PEERS
-    from campaigns.machinery import machine
 
     asked = {case.options.get("peer") for case in order.options.cases}
     peers = {peer.name: version(peer) or "(not installed)" for peer in PEERS if peer.name in asked}
