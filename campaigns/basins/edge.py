@@ -15,9 +15,9 @@ from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
-from campaigns.machinery import run_of
+from campaigns.machinery import filled, run_of
 from engine.views import LONGEST_PERIOD
-from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, of_words, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, of_words, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -173,7 +173,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     folder = write_part(exploration.plan, FOLDER, COLUMNS, [row])
     orbit = []
     for period, state in enumerate(strobed):
-        orbit.append(dict(zip(names(ORBIT), (period, *state, distances_so_far[period]), strict=True)))
+        orbit.append(filled(ORBIT, (period, *state, distances_so_far[period])))
     write_table(folder / "orbit.csv", ORBIT, orbit)
     return row
 
@@ -184,7 +184,7 @@ def _later_extremes(runs: list) -> dict[str, float]:
     tension = np.concatenate([run.columns[TOP] for run in runs])
     half = len(radius) // 2
     extremes = radius[half:].min(), radius[half:].max(), tension[half:].max()
-    return dict(zip(names(_EXTREMES), map(float, extremes), strict=True))
+    return filled(_EXTREMES, map(float, extremes))
 
 
 def _repeats(states: np.ndarray) -> int | None:

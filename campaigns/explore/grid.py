@@ -11,7 +11,7 @@ from functools import reduce
 from itertools import product
 
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import Job, cli
+from campaigns.machinery import Job, cli, filled
 from campaigns.study import Order
 from tables import Column, Columns, Row, names
 
@@ -132,7 +132,7 @@ class Grid:
     def places(self) -> Iterator[Row]:
         """The columns of every place."""
         for values in product(*(key.values for key in self.keys)):
-            yield dict(zip(names(self.columns), values, strict=True))
+            yield filled(self.columns, values)
 
     def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
         """A key that is varied cannot be set too."""

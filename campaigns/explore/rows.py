@@ -15,6 +15,7 @@ from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of, samples_of
+from campaigns.machinery import filled
 from engine.run.rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
@@ -31,7 +32,6 @@ from tables import (
     Row,
     counted,
     finite,
-    names,
 )
 
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0, PLANE)
@@ -262,7 +262,7 @@ def utilisation(scene, row: Row) -> float | None:
 
 def exponents(columns: tuple[Column, Column], exponent) -> Row:
     """An Exponent in the two columns of its value and its standard error."""
-    return dict(zip(names(columns), (finite(exponent.value), finite(exponent.error)), strict=True))
+    return filled(columns, (finite(exponent.value), finite(exponent.error)))
 
 
 def settled(scene, columns, transient_s: float) -> Row:
@@ -280,7 +280,7 @@ def settled(scene, columns, transient_s: float) -> Row:
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
     )
     ends = radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum
-    row = dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
+    row = filled(EXTREMES, (*ends, *shares))
     return row | along_line(scene, columns, transient_s)
 
 
@@ -319,7 +319,7 @@ def along_line(scene, columns, transient_s: float) -> Row:
     largest, place = float(most.max()), float(columns["tension_max_s_m"][first + int(most.argmax())])
     if top.max() > largest:
         largest, place = float(top.max()), scene.tether.length_m
-    return dict(zip(names(ALONG_LINE), (float(anchor.max()), largest, place), strict=True))
+    return filled(ALONG_LINE, (float(anchor.max()), largest, place))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -23,7 +23,20 @@ import numpy as np
 from analysis import Settled, joins, settled
 from campaigns.explore.multipliers import orbit_ahead
 from campaigns.judge import UNFOLLOWED, periods_of
-from campaigns.machinery import Job, Jobs, Plan, Store, Summary, claimed, made_by, orbits_in, run, run_of, until_settled
+from campaigns.machinery import (
+    Job,
+    Jobs,
+    Plan,
+    Store,
+    Summary,
+    claimed,
+    filled,
+    made_by,
+    orbits_in,
+    run,
+    run_of,
+    until_settled,
+)
 from engine.scene import scene_from_toml
 from engine.views import strobed_states
 from tables import (
@@ -40,7 +53,6 @@ from tables import (
     Columns,
     Row,
     counted,
-    names,
     of_words,
     write_table,
 )
@@ -93,7 +105,7 @@ class Start:
         """The columns of KICKS; those of a state are empty."""
         labels = {"found_by": self.found_by}
         if self.state is None:
-            labels |= zip(names(KICKS[:4]), (*self.kick, *self.displacement), strict=True)
+            labels |= filled(KICKS[:4], (*self.kick, *self.displacement))
             if self.phase is not None:
                 labels["phase_rad"] = self.phase
         return labels

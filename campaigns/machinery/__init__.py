@@ -23,7 +23,7 @@ from campaigns.machinery.folder import (
     write_sealed,
 )
 from campaigns.machinery.long_runs import EARLY, TANGENTS, once, until_judged, until_settled
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery.plan import Job, Jobs, Plan, Summary, filled
 from campaigns.machinery.progress import in_parts, print_line, stage
 from campaigns.machinery.runner import ENGINE, run, shares_worker, spare_groups, write_scene
 from campaigns.machinery.session import command_line, ended, machine

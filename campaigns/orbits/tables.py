@@ -9,6 +9,7 @@ from pathlib import Path
 from campaigns.explore.motions import MOTION, subfolder, write_part
 from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
+from campaigns.machinery import filled
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
 from tables import MESSAGE, STATUS, Column, Columns, Row, csv_of, names, of_words, write_table
@@ -89,7 +90,7 @@ def _numbers(orbit: dict) -> Row:
     }
     row |= zip(names(PARTS), chain.from_iterable(orbit["multipliers"]), strict=False)
     row |= zip(names(ERRORS), orbit["errors"], strict=False)
-    row |= zip(names(MOTION_OF), (*orbit["radius_m"], *orbit["tension_N"]), strict=True)
+    row |= filled(MOTION_OF, (*orbit["radius_m"], *orbit["tension_N"]))
     if not orbit["settled"]:
         return row | {"status": "unsure", "message": "its multipliers have not settled"}
     for modulus, error in zip(moduli, orbit["errors"], strict=True):

@@ -12,10 +12,10 @@ from typing import get_args
 from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.sweep import measures_of
-from campaigns.machinery import Summary, claimed
+from campaigns.machinery import Summary, claimed, filled
 from campaigns.machinery.cli import Running
 from campaigns.study import Measures, Order, Study
-from tables import DEPTH, STIFFNESS, names, of_words
+from tables import DEPTH, STIFFNESS, of_words
 from tables import PAPER_STEEPNESS as STEEPNESSES
 
 SCENE = "tethered_buoy"
@@ -100,7 +100,7 @@ def run(out: Path, jobs: int, quick: bool) -> Summary:
     running = Running(out, jobs, "loky", None, report=False)
     order = Order(running, name=SCENE, periods=settings["periods"], transient=settings["transient"])
     for values in variants(quick):
-        order.cases.append(order.case(dict(zip(names(VARIED), values, strict=True)), changes(values)))
+        order.cases.append(order.case(filled(VARIED, values), changes(values)))
     with claimed(out):
         study = Study("dependence", __doc__, scene=SCENE, cases=lambda order: order.cases, measures=measures)
         return study.work(order)

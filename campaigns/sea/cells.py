@@ -29,14 +29,14 @@ from campaigns.explore.grid import place_in
 from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
 from campaigns.explore.sweep import table_of
-from campaigns.machinery import Plan, Summary, run_of, stage
+from campaigns.machinery import Plan, Summary, filled, run_of, stage
 from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set, significant_height_m
 from campaigns.sea.regular import FOLDER as REGULAR
 from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
 from engine.physics.sea import envelope_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of, of_words
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, number_of, of_words
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
@@ -165,7 +165,7 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     cells = []
     with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
         for place, rows in of_cell.items():
-            cell = dict(zip(names(keys), place, strict=True))
+            cell = filled(keys, place)
             digests = []
             for row in rows:
                 run = run_of(plan.out, row)
