@@ -30,7 +30,7 @@ ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
 MOST_SENT = 8  # where a group's runs are sent together: few, so that a lost worker costs only what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
-# jobs for each worker below which they go alone: eight lanes cost as much as two to four runs alone, four as much as two
+# jobs for each worker below which they go alone: eight lanes cost as much as two to four runs alone, four as two
 FEWEST = 3
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
