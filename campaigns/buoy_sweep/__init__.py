@@ -34,7 +34,7 @@ DIMENSIONS = ("2", "3", "auto")
 
 
 @dataclass
-class Options(motions.Starts):
+class Options(motions.SweepOptions):
     """The options of this campaign."""
 
     steepness: list[float] | None = cli.option(

@@ -36,7 +36,7 @@ FULL = "full"
 
 
 @dataclass
-class Starts(cli.Options):
+class SweepOptions(cli.Options):
     """The options of a sweep with every motion of each value."""
 
     starts: str | int | None = cli.option(

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 @dataclass
-class Options(motions.Starts):
+class Options(motions.SweepOptions):
     """The options of this campaign. grid: the keys with their values, read from --vary."""
 
     vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
