@@ -19,10 +19,9 @@ from dataclasses import dataclass
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import Job, Jobs, Plan, Summary, cli
-from campaigns.study import Measures, Order, Study
+from campaigns.machinery import Job, Summary, cli
+from campaigns.study import Measures, Study
 from engine.views import carries_tangents
-from tables import Rows
 
 COUNT, MOVED_M = 15, 2.0
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -61,7 +60,7 @@ class Options(cli.Options):
         self.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
-def cases(order: Order) -> Iterator[Job]:
+def cases(order) -> Iterator[Job]:
     """The scene from rest, judged as long as it needs; the starts follow from it (`exploration`)."""
     order.look_by_look(BUDGET)
     if order.name == STUDY.scene:
@@ -78,14 +77,14 @@ def cases(order: Order) -> Iterator[Job]:
         yield judged_job(order, labels, scene)
 
 
-def measures(order: Order) -> Measures:
+def measures(order) -> Measures:
     """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
     from campaigns.explore.grid import STEEPNESS
 
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
+def runs(order, plan, jobs) -> Summary:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
     from campaigns.basins.edge import edge_state
     from campaigns.basins.exploration import Exploration
@@ -104,7 +103,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     return exploration.write()
 
 
-def parameters(order: Order) -> dict:
+def parameters(order) -> dict:
     options = order.options
     return {
         "across": list(options.grid.across),
@@ -114,7 +113,7 @@ def parameters(order: Order) -> dict:
     }
 
 
-def answer(order: Order, rows: Rows) -> Iterator[str]:
+def answer(order, rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.basins.answer import sentences
 

@@ -16,8 +16,7 @@ from pathlib import Path
 
 from campaigns.machinery import Summary, cli, ended, stage
 from campaigns.paper.order import PARTS
-from campaigns.study import Order, Study
-from tables import Rows
+from campaigns.study import Study
 
 
 @dataclass
@@ -39,7 +38,7 @@ class Options(cli.Options):
                 faults.append(f"{given}; allowed: a folder of this campaign")
 
 
-def perform(order: Order) -> Summary:
+def perform(order) -> Summary:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
     from campaigns.paper import parts, results
 
@@ -52,7 +51,7 @@ def perform(order: Order) -> Summary:
     return replace(summary, whole=complete)
 
 
-def parameters(order: Order) -> dict:
+def parameters(order) -> dict:
     """What the provenance says of this campaign."""
     from campaigns.paper import dependence, results
 
@@ -60,7 +59,7 @@ def parameters(order: Order) -> dict:
     return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
 
 
-def answer(order: Order, rows: Rows) -> Iterator[str]:
+def answer(order, rows) -> Iterator[str]:
     """How many of the paper's statements hold; a quick look at few and short runs says that it decides nothing."""
     from campaigns.answers import verdicts
 

@@ -28,22 +28,9 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, grid_of, varied
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import Job, cli, write_new
-from campaigns.study import Lengths, Measures, Order, Study
+from campaigns.study import Lengths, Measures, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import (
-    ANSWER,
-    MESSAGE,
-    PEAK,
-    RUN_KEY,
-    STATISTICS,
-    STATUS,
-    Row,
-    Rows,
-    counted,
-    names,
-    read_columns,
-    read_table,
-)
+from tables import ANSWER, MESSAGE, PEAK, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
 
 if TYPE_CHECKING:
     import pandas
@@ -64,7 +51,7 @@ class Options(motions.SweepOptions):
         self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
 
-def cases(order: Order) -> Iterator[Job]:
+def cases(order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
     grid = order.options.grid
     grid.refuse_set(order)
@@ -97,7 +84,7 @@ def cases(order: Order) -> Iterator[Job]:
             yield Job(labels, scene, periods, duration_s)
 
 
-def measures(order: Order) -> Measures:
+def measures(order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
     from campaigns.explore import rows
     from campaigns.sweep import seas
@@ -156,7 +143,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     return row
 
 
-def parameters(order: Order) -> dict:
+def parameters(order) -> dict:
     parameters = {
         "vary": {key.key: list(key.values) for key in order.options.grid.keys},
         "strobe_tolerance": STROBE_TOLERANCE,
@@ -167,7 +154,7 @@ def parameters(order: Order) -> dict:
     return parameters | motions.parameters(order)
 
 
-def beside(order: Order) -> Iterator[Callable]:
+def beside(order) -> Iterator[Callable]:
     """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
     if order.options.no_accuracy or len(order.options.grid.keys) > 1:
         return
@@ -177,7 +164,7 @@ def beside(order: Order) -> Iterator[Callable]:
         yield errors
 
 
-def answer(order: Order, rows: Rows) -> list[str]:
+def answer(order, rows) -> list[str]:
     """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load.
 
     In a sea the statistics of its runs (`seas.sentences`).
