@@ -191,7 +191,7 @@ def test_the_maker_changes_with_settings_and_sources():
     assert len(set(makers)) == 3 and made_by("analysis", transient=100) == makers[0]
     for absent in ("campaigns/rows_that_moved.py", "reports/templates"):
         with pytest.raises(FileNotFoundError):
-            made_by({}, "engine", absent)
+            made_by("engine", absent)
 
 
 def record(out):
