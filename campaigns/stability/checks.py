@@ -24,12 +24,12 @@ LEAST_RANGE = 1e-3  # of the length: below this a difference is measured against
 class Check(NamedTuple):
     """What a check says of a run.
 
-    measured: the number that a bar is set for. how: how we know. tension: what the largest tension at the top is off,
-    over that of the closed form or the other run; None where nothing is said of it.
+    measured: the number that a bar is set for. method: how we know it. tension: what the largest tension at the top is
+    off, over that of the closed form or the other run; None where nothing is said of it.
     """
 
     measured: float
-    how: str
+    method: str
     tension: float | None = None
 
 
@@ -78,17 +78,17 @@ def as_fine(run, case) -> Check:
     return compared(run, case, {**finer, "solver.rtol": 0.01}, f"run on {nodes} even nodes")
 
 
-def compared(run, case, changes: dict, how: str) -> Check:
+def compared(run, case, changes: dict, method: str) -> Check:
     """Rms of r - r' over the range of r', r' of the run with changes, and how far the largest tensions are apart.
 
     Both are infinite where that run does not end well.
     """
     other = simulate(load_scene("tethered_buoy", {**case.changes, **changes}), duration_s=case.length_s)
     if other.status != "ok":
-        return Check(math.inf, how, math.inf)
+        return Check(math.inf, method, math.inf)
     r, finer = run.columns["radius_m"], other.columns["radius_m"]
     scale = max(float(np.ptp(finer)), LEAST_RANGE * run.scene.tether.length_m)
-    return Check(float(np.sqrt(np.mean((r - finer) ** 2))) / scale, how, apart(largest_N(run), largest_N(other)))
+    return Check(float(np.sqrt(np.mean((r - finer) ** 2))) / scale, method, apart(largest_N(run), largest_N(other)))
 
 
 def largest_N(run: Trajectory) -> float:
