@@ -11,22 +11,22 @@ from functools import partial
 from operator import itemgetter
 from pathlib import Path
 
-from tables import FAILS, PEAK, STATEMENTS, VERDICTS, Row, any_rows, listed, number_of
+from tables import FAILS, PEAK, STATEMENTS, VERDICTS, Row, Rows, any_rows, listed, number_of
 
 NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
 
 
-def greatest(rows, name: str) -> Row | None:
+def greatest(rows: Rows, name: str) -> Row | None:
     """The row in which a column is greatest; None where no row knows it."""
     return max(known_rows(rows, name), key=partial(number_of, name=name), default=None)
 
 
-def known_rows(rows, name: str) -> list[Row]:
+def known_rows(rows: Rows, name: str) -> list[Row]:
     """The rows that know a number of a column."""
     return [row for row in rows if math.isfinite(number_of(row, name))]
 
 
-def numbers_of(rows, name: str) -> list[float]:
+def numbers_of(rows: Rows, name: str) -> list[float]:
     """The numbers of a column, nan where a row has none."""
     return [number_of(row, name) for row in rows]
 
@@ -36,7 +36,7 @@ def line(word: str, text: str) -> str:
     return f"{word:<8} {text}"
 
 
-def lasting(rows) -> list[Row]:
+def lasting(rows: Rows) -> list[Row]:
     """The rows of runs that reached their end and have a largest tension after their transient."""
     return [row for row in known_rows(rows, PEAK) if row["status"] == "ok"]
 

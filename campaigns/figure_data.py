@@ -17,7 +17,7 @@ Array = tuple[tuple[str, ...], object, str, str]  # dimensions, values, unit, lo
 Source = dict[str, object]  # one result behind a figure, as `source` makes it
 
 
-def source(label: str, folder: Path, path, key: str, settings: str, run_s: float) -> Source:
+def source(label: str, folder: Path, path: Path, key: str, settings: str, run_s: float) -> Source:
     """The record of a result file inside a campaign's folder. Raises OSError for a file that cannot be read.
 
     `label` what it is called there; `file` within the campaign's folder, with its `sha256`; `key` of the run;
@@ -48,13 +48,13 @@ def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], m
     return xarray.Dataset(variables, attrs=attributes)
 
 
-def store(path, content) -> None:
+def store(path: Path, content) -> None:
     """Write the file, sealed (`folder.write_sealed`), whole or not at all. Raises OSError."""
     content = content.assign_attrs(seal=SEAL.decode())
     write_sealed(path, bytes(content.to_netcdf(format="NETCDF3_64BIT", engine="scipy")))
 
 
-def attribute_of(path, name: str = "made_by") -> str | None:
+def attribute_of(path: Path, name: str = "made_by") -> str | None:
     """An attribute of a data file, at first the key of what it was made from; None where there is no sound file."""
     import xarray
 

@@ -71,7 +71,7 @@ class Statement:
         return f"{grouped(places[True])}; not {grouped(places[False])}"
 
 
-def judge(claim, results: object) -> Statement:
+def judge(claim: Claim, results: object) -> Statement:
     """Measure a claim in the results and apply its rule."""
     measured = claim.measure(results)
     checks = [(where, bool(claim.holds(value))) for where, value in measured.checks if math.isfinite(value)]
@@ -97,7 +97,7 @@ def as_csv(statements: Sequence[Statement]) -> bytes:
     return csv_of(STATEMENT_COLUMNS, rows)
 
 
-def read_claims(path, measures: Mapping[str, Callable]) -> dict[str, Claim]:
+def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim]:
     """The claims of a .toml file by name, in its order; a claim without a name has its text for one.
 
     measures: what `by` may be: a function of the results, and of the entries that are not fields of a Claim.

@@ -60,7 +60,7 @@ class Lengths:
         left_out = f"wave periods left out of the analysis {transient}"
         cli.Option("N", left_out, cli.whole(0)).add_to(group, "--transient")
 
-    def read(self, values: Namespace, order) -> None:
+    def read(self, values: Namespace, order: "Order") -> None:
         """Put the values of these options into an order."""
         periods, transient = values.periods, values.transient
         order.given_transient = transient
@@ -246,7 +246,7 @@ class Study:
         self._add_cases(order)
         return order
 
-    def _add_cases(self, order) -> None:
+    def _add_cases(self, order: Order) -> None:
         """Make the cases of an order; none of a scene that the study refuses."""
         from campaigns.machinery.plausible import without_waves
 
@@ -258,7 +258,7 @@ class Study:
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
 
-    def work(self, order) -> Summary:
+    def work(self, order: Order) -> Summary:
         """Do the runs that are not there yet, and what is done beside them; the folder has to be held (`claimed`).
 
         Raises CampaignStopped, OSError, KeyboardInterrupt.
@@ -278,7 +278,7 @@ class Study:
         summary.times["run_s"] += time.perf_counter() - began
         return summary
 
-    def plan(self, order) -> Plan:
+    def plan(self, order: Order) -> Plan:
         """How the runs of the order are done, and what a row of each says."""
         together = None
         if order.simulate is None:
@@ -291,7 +291,7 @@ class Study:
             maker = made_by(*measures.sources, **measures.settings)
         return Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
 
-    def conduct(self, order, argv: list[str], simulate: Callable | None = None) -> int:
+    def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:
         """Do what an order without faults asks for, to the report; argv: its words. Returns the exit code."""
         order.simulate = simulate
         if simulate is not None and not order.cases and self.cases is not None:

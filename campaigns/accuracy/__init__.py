@@ -18,8 +18,8 @@ from statistics import median
 import engine
 from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
 from campaigns.machinery import Plan, Summary, cli, machine, made_by, run, stage, write_scene
-from campaigns.study import Study
-from tables import number_of, write_table
+from campaigns.study import Order, Study
+from tables import Rows, number_of, write_table
 
 TOLD = ("title", "measure", "period_s", "duration_s", "rough")  # of every work, in the provenance
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
@@ -47,7 +47,7 @@ class Options(cli.Options):
         self.effort = replace(effort, works=works, rounds=self.rounds or effort.rounds)
 
 
-def perform(order):
+def perform(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
@@ -70,7 +70,7 @@ def perform(order):
     return summary
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import taking_part, version
 
     options = order.options
@@ -91,7 +91,7 @@ def parameters(order) -> dict:
     }
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED

@@ -18,7 +18,7 @@ import numpy as np
 
 from campaigns.accuracy import plan
 from campaigns.accuracy.peers.record import nothing
-from campaigns.accuracy.plan import BEST, BY_NAME, PEERS, Point
+from campaigns.accuracy.plan import BEST, BY_NAME, PEERS, Effort, Peer, Point
 from campaigns.accuracy.rows import kept_samples, point_row
 from campaigns.machinery import Job, made_by
 from engine.trajectory import Trajectory
@@ -28,7 +28,7 @@ OURS_REFINED = (321, 1e-5)
 Samples = dict[tuple[str, str], np.ndarray | None]  # by work and what they are; None of a run that failed
 
 
-def phases(out: Path, effort, quick: bool, with_peers: bool) -> Iterator[list]:
+def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator[list]:
     """The jobs of four phases: our references, those of other codes, what is not timed, what is timed.
 
     The runs of each phase have to be in `out` before the next is asked for. with_peers: whether there are other codes.
@@ -72,7 +72,7 @@ def keep_samples(known: Samples, out: Path, jobs: dict[tuple, Job]) -> None:
 
 
 def job_of(
-    point,
+    point: Point,
     scene,
     made: str,
     reference: np.ndarray | None = None,
@@ -87,7 +87,7 @@ def job_of(
     return Job(asdict(point) | labels, scene, **settings)
 
 
-def engine_job(point, known: Samples) -> Job:
+def engine_job(point: Point, known: Samples) -> Job:
     """The job of one of the engine's points."""
     reference = known.get((point.work, "reference"))
     if point.kind == "tolerance":
@@ -106,12 +106,12 @@ def side_by_side(ours: list[Job], peers: list[Job], rounds: int) -> list[Job]:
     return [job for _, job in turns]
 
 
-def version(peer) -> str:
+def version(peer: Peer) -> str:
     """The installed version, "" for none."""
     return metadata.version(peer.package) if importlib.util.find_spec(peer.module) is not None else ""
 
 
-def sources_of(peer) -> str:
+def sources_of(peer: Peer) -> str:
     """Hash of the code that runs it."""
     return made_by(f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
 
@@ -129,7 +129,7 @@ def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple]:
     return parts
 
 
-def peer_job(peer, work: str, kind: str, setting: tuple[int, float], known: Samples) -> Job:
+def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known: Samples) -> Job:
     """A run of another code, held against its own reference and against ours."""
     (nodes, value), installed = setting, version(peer)
     reference = known.get((work, "reference"))
@@ -142,7 +142,7 @@ def peer_job(peer, work: str, kind: str, setting: tuple[int, float], known: Samp
     return job_of(point, scene, recipe, reference_of_peer, ours, simulate, peer_version=installed)
 
 
-def scene_of(peer, work: str, nodes: int):
+def scene_of(peer: Peer, work: str, nodes: int):
     """The scene of a work for another code: no shock viscosity, nodes where they matter to it."""
     changes = {}
     if peer.package == "scipy":
@@ -152,7 +152,7 @@ def scene_of(peer, work: str, nodes: int):
     return BY_NAME[work].made(changes)
 
 
-def other_code(scene, periods=None, duration_s=None, *, peer, settings: tuple) -> Trajectory:
+def other_code(scene, periods=None, duration_s=None, *, peer: Peer, settings: tuple) -> Trajectory:
     """The run of another code in the place of engine.simulate; settings: nodes or segments, value of its control.
 
     Where it is not installed, or raises, the record of a failed run, so that it is not tried again.

@@ -179,7 +179,7 @@ FULL = Effort(works=tuple(BY_NAME), **FILE["effort"]["full"])
 QUICK = Effort(**FILE["effort"]["quick"])
 
 
-def phases(effort) -> tuple[list, list, list]:
+def phases(effort: Effort) -> tuple[list, list, list]:
     """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
     works' settings in turns, round by round, and the paper's scheme once."""
     works = [BY_NAME[name] for name in BY_NAME if name in effort.works]
@@ -199,7 +199,7 @@ def phases(effort) -> tuple[list, list, list]:
     return references, untimed, timed
 
 
-def timed_settings(work, effort) -> list[Setting]:
+def timed_settings(work: Work, effort: Effort) -> list[Setting]:
     """The settings that are timed on a work."""
     if not work.timed:
         return []
@@ -208,7 +208,7 @@ def timed_settings(work, effort) -> list[Setting]:
     return of_a_motion(work, effort)
 
 
-def series(work, effort) -> list[Point]:
+def series(work: Work, effort: Effort) -> list[Point]:
     """All of a work that is not timed."""
     kinds = {"check": [(BEST, nodes, "rtol", rtol) for nodes, rtol in work.checks]}
     if work.measure == STRAIN:
@@ -224,12 +224,12 @@ def series(work, effort) -> list[Point]:
     return points
 
 
-def entry_of(table: dict, work):
+def entry_of(table: dict, work: Work):
     """The entry for a work, or for its scene."""
     return table.get(work.name, table.get(work.scene))
 
 
-def in_time(work) -> list[Setting]:
+def in_time(work: Work) -> list[Setting]:
     """Fixed steps, halved; every method but the paper's scheme, which is too slow for them."""
     settings, nodes = [], entry_of(TIME_NODES, work)
     for method, order in ORDERS.items():
@@ -239,7 +239,7 @@ def in_time(work) -> list[Setting]:
     return settings
 
 
-def in_space(work) -> list[Setting]:
+def in_space(work: Work) -> list[Setting]:
     """Elements halved."""
     control, setting = "step_s", work.period_s / SPACE_STEPS
     if work.rough:
@@ -248,7 +248,7 @@ def in_space(work) -> list[Setting]:
     return [(BEST, (coarsest << doubling) + 1, control, setting) for doubling in range(DOUBLINGS + 2)]
 
 
-def in_both(work, effort) -> list[Setting]:
+def in_both(work: Work, effort: Effort) -> list[Setting]:
     """Elements and steps halved together, every method with and without shock viscosity."""
     length_m = work.made({}).tether.length_m
     methods = (*(method + VISCOUS for method in FIXED), *FIXED, *ADAPTIVE)
@@ -256,7 +256,7 @@ def in_both(work, effort) -> list[Setting]:
     return [(method, n, "step_s", length_m / (n - 1) / LINE_WAVE_MPS) for method, n in product(methods, nodes)]
 
 
-def of_a_motion(work, effort) -> list[Setting]:
+def of_a_motion(work: Work, effort: Effort) -> list[Setting]:
     """Timed settings of a buoy or a pendulum."""
     nodes = entry_of(effort.nodes, work)
     steps_s = [work.period_s / count for count in entry_of(effort.steps, work)]
@@ -269,7 +269,7 @@ def of_a_motion(work, effort) -> list[Setting]:
     return settings
 
 
-def of_a_line(work, effort) -> list[Setting]:
+def of_a_line(work: Work, effort: Effort) -> list[Setting]:
     """Timed settings of a breaking line."""
     nodes = entry_of(effort.nodes, work)
     middle, coarse = nodes[len(nodes) // 2], [n for n in nodes if n <= MOST_ADAPTIVE_LINE]

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, plain
+from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
 from campaigns.machinery import run_of
 from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, Row, Rows, columns, counted, number_of, of_words
 
@@ -65,14 +65,14 @@ def point_row(trajectory, work_name: str, reference: np.ndarray | None = None, o
     return row
 
 
-def samples_of(work, trajectory) -> np.ndarray:
+def samples_of(work: Work, trajectory) -> np.ndarray:
     """What is compared: r (m,) in m, or places (m, 3)."""
     if work.measure == RADIUS:
         return trajectory.columns["radius_m"]
     return np.stack([trajectory.columns[name] for name in ("x_m", "y_m", "z_m")], axis=1)
 
 
-def kept_samples(work, out: Path, key: str) -> np.ndarray | None:
+def kept_samples(work: Work, out: Path, key: str) -> np.ndarray | None:
     """The samples of a finished run; None where there is none, or where it ended early."""
     run = run_of(out, {"run_key": key, "status": "ok"})
     if run is None or run.status != "ok":
@@ -123,7 +123,7 @@ ORDER_COLUMNS = (
 TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
 
 
-def orders(out: Path, rows) -> list[Row]:
+def orders(out: Path, rows: Rows) -> list[Row]:
     """The rows of orders.csv from those of table.csv, which name the runs in `out`; in the order of the table."""
     series = {}
     for row in rows:
@@ -155,7 +155,7 @@ def _over_tolerances(method: str, series: Rows) -> Iterator[Row]:
         yield row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""}
 
 
-def _of_differences(out: Path, work, kind: str, method: str, series: Rows, early: int) -> Iterator[Row]:
+def _of_differences(out: Path, work: Work, kind: str, method: str, series: Rows, early: int) -> Iterator[Row]:
     """The order of a series in time or in space; where the rope goes slack also that of the `early` samples before."""
     samples = [kept_samples(work, out, row["run_key"]) for row in series]
     theory = 2
@@ -167,7 +167,7 @@ def _of_differences(out: Path, work, kind: str, method: str, series: Rows, early
         yield row | {"kind": f"{kind}-early", "rough": ""}
 
 
-def first_slack(out: Path, work, rows) -> int:
+def first_slack(out: Path, work: Work, rows: Rows) -> int:
     """Number of samples of a rough work's reference before its rope first goes slack; 0 where it does not."""
     wanted = {"work": work.name, "kind": "reference", "status": "ok"}
     for row in rows:

@@ -19,9 +19,10 @@ from dataclasses import dataclass
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import Job, Summary, cli
-from campaigns.study import Measures, Study
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli
+from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
+from tables import Rows
 
 COUNT, MOVED_M = 15, 2.0
 DEPTH_M = 22.5  # of the tethered buoy unless --set says otherwise: at its 21.0 m every start ends in one motion
@@ -60,7 +61,7 @@ class Options(cli.Options):
         self.grid = StartGrid(tuple(across.split()), (counts[0], counts[-1]), size)
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """The scene from rest, judged as long as it needs; the starts follow from it (`exploration`)."""
     order.look_by_look(BUDGET)
     if order.name == STUDY.scene:
@@ -77,14 +78,14 @@ def cases(order) -> Iterator[Job]:
         yield judged_job(order, labels, scene)
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """The rows of the judged runs: those of `campaigns.buoy_sweep`."""
     from campaigns.explore.grid import STEEPNESS
 
     return measures_of(order, columns_of((STEEPNESS,)))
 
 
-def runs(order, plan, jobs) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: motions, starts, smallest start and edge state, each in a folder of its own."""
     from campaigns.basins.edge import edge_state
     from campaigns.basins.exploration import Exploration
@@ -103,7 +104,7 @@ def runs(order, plan, jobs) -> Summary:
     return exploration.write()
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     options = order.options
     return {
         "across": list(options.grid.across),
@@ -113,7 +114,7 @@ def parameters(order) -> dict:
     }
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.basins.answer import sentences
 

@@ -14,7 +14,7 @@ NONE_FOUND = "No start has settled, so there is no motion to name."
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
 
-def sentences(rows, across: Sequence[str], scene, parts: Mapping[str, Rows]) -> Iterator[str]:
+def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows]) -> Iterator[str]:
     """At most eight, of the rows of table.csv and those of the tables in its folders motions, shock and edge (parts).
 
     across: as `Grid.across`; scene: from rest.
@@ -53,7 +53,7 @@ def sentences(rows, across: Sequence[str], scene, parts: Mapping[str, Rows]) -> 
         yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
 
 
-def _of_motion(row) -> str:
+def _of_motion(row: Row) -> str:
     """ "A from rest (period-1, 9.45 kN)"."""
     name = row["motion"]
     if from_rest(row):
@@ -61,7 +61,7 @@ def _of_motion(row) -> str:
     return f"{name} ({row.get('regime') or row['status']}, {kilonewton(row[PEAK])})"
 
 
-def _shares(rows, motions: Rows) -> str:
+def _shares(rows: Rows, motions: Rows) -> str:
     counts, unsettled, failed = Counter(), 0, 0
     for row in rows:
         counts[row["motion"]] += 1
@@ -92,7 +92,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     return f"{ahead}, {angle:.0f} degrees {upright}"
 
 
-def _shock(rows, across: Sequence[str]) -> str:
+def _shock(rows: Rows, across: Sequence[str]) -> str:
     unit = ("m/s", "m")["x" in across]
     good = [row for row in rows if row["status"] == "ok"]
     if not good:
@@ -108,12 +108,12 @@ def _shock(rows, across: Sequence[str]) -> str:
     return f"{words}."
 
 
-def _phase(row) -> float:
+def _phase(row: Row) -> float:
     """Time from the start to a crest, as a share of the wave period."""
     return number_of(row, COLUMNS[PHASE]) / (2.0 * math.pi)
 
 
-def _when(rows, across: Sequence[str], letter: str) -> str:
+def _when(rows: Rows, across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
     least = dict.fromkeys(sorted(map(_phase, rows)), math.inf)  # by phase
     for row in rows:

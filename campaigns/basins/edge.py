@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, run_within, section_of
@@ -51,7 +52,7 @@ ORBIT = (
 class Edge:
     """The two states on either side of the border between two motions, and their runs, which tell that they are."""
 
-    def __init__(self, exploration, first: Motion, second: Motion):
+    def __init__(self, exploration: Exploration, first: Motion, second: Motion):
         self.exploration, self.sides = exploration, (first, second)
         self.scale = np.maximum(first.settled.scale, second.settled.scale)
         self.states = [first.state.at_zero(), second.state.at_zero()]
@@ -140,7 +141,7 @@ def _start(state) -> Start:
     return Start("edge", state=state, often=SAMPLES)
 
 
-def edge_state(exploration, first: Motion, second: Motion) -> Row:
+def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     """The row of COLUMNS on the edge state between two motions; writes edge/table.csv and edge/orbit.csv.
 
     Raises as `runner.run`.

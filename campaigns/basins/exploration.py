@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 
 from campaigns.basins.grid import StartGrid
 from campaigns.explore.grid import STEEPNESS
-from campaigns.explore.motions import MOTION, Motion, Motions
+from campaigns.explore.motions import MOTION, Motion, Motions, Search
 from campaigns.explore.stages import judge, name, propose, run_from_rest
 from campaigns.explore.starts import KICKS, OUTCOME, Ending, Start
-from campaigns.machinery import Summary
+from campaigns.machinery import Job, Plan, Summary
 from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, write_table
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
@@ -18,7 +18,7 @@ COLUMNS = (*KICKS, MOTION, OUTCOME, STATUS, PERIODS_RUN, PEAK, RUN_KEY, MESSAGE)
 class Exploration(Motions):
     """The motions of a scene, found in turn by the start from rest, a massless tether, and starts of the grid."""
 
-    def __init__(self, plan, grid: StartGrid):
+    def __init__(self, plan: Plan, grid: StartGrid):
         super().__init__(plan, (STEEPNESS,), lambda place: {}, folder="motions")
         self.grid = grid
         self.endings = {}  # of the starts of the grid, by number
@@ -33,7 +33,7 @@ class Exploration(Motions):
         """That of all starts."""
         return self.jobs[0].scene
 
-    def find(self, job, search) -> None:
+    def find(self, job: Job, search: Search) -> None:
         """Find the motions, and where the starts of the grid end; job: the run from rest. Raises as `runner.run`."""
         propose(self, run_from_rest(self, [job]), search)
         waiting, points = list(self.grid.spread(search.seed)), self.grid.points()

@@ -9,6 +9,7 @@ from itertools import compress
 from operator import attrgetter
 from typing import NamedTuple
 
+from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import MOTION, Motion, write_part
 from campaigns.explore.starts import KICKS
 from campaigns.finer import finer
@@ -33,7 +34,7 @@ COLUMNS = (
 )
 
 
-def shocks(exploration, target: Motion) -> list[Row]:
+def shocks(exploration: Exploration, target: Motion) -> list[Row]:
     """The rows of COLUMNS, which are written to shock/table.csv; a row a grid of the line. Raises as `runner.run`."""
     grid, points, candidates = exploration.grid, exploration.grid.points(), []
     for number, ending in exploration.endings.items():
@@ -47,7 +48,7 @@ def shocks(exploration, target: Motion) -> list[Row]:
     return rows
 
 
-def _row(exploration, target: Motion, scene, candidates: Sequence[Polar]) -> Row:
+def _row(exploration: Exploration, target: Motion, scene, candidates: Sequence[Polar]) -> Row:
     row = {"motion": target.branch.letter, "nodes": scene.tether.nodes}
     leads = partial(_leads, exploration, target, scene)
     successful = candidates
@@ -62,7 +63,7 @@ def _row(exploration, target: Motion, scene, candidates: Sequence[Polar]) -> Row
     return row | start | {"size": least.size, "size_without": least.below, "status": "ok"}
 
 
-def _leads(exploration, target: Motion, scene, starts: Sequence[Polar]) -> list[bool]:
+def _leads(exploration: Exploration, target: Motion, scene, starts: Sequence[Polar]) -> list[bool]:
     """Whether starts, each a turn and a size, lead to the target in a scene."""
     title = f"smallest start, {scene.tether.nodes} nodes"
     starts_there = [exploration.grid.at(turn, size, title) for turn, size in starts]

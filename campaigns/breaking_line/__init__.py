@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from math import isfinite
 
 from campaigns.machinery import Job, cli
-from campaigns.study import Measures, Study
-from tables import listed, number_of
+from campaigns.study import Measures, Order, Study
+from tables import Rows, listed, number_of
 
 CAMPAIGN = "breaking_line"
 SCENE = "breaking_line"
@@ -49,7 +49,7 @@ class Options(cli.Options):
     )
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """The runs in the order of the table.
 
     kind: "case"; "doubled" (twice the elements); "stiffness" (case 4, doubled, with another EI); without gravity on an
@@ -83,12 +83,12 @@ def cases(order) -> Iterator[Job]:
         yield _run(order, case, "doubled", finer[case])
 
 
-def _run(order, case: str, kind: str, changes: dict, duration_s: float = 0.0) -> Job:
+def _run(order: Order, case: str, kind: str, changes: dict, duration_s: float = 0.0) -> Job:
     scene = order.base(_changes(order, case, changes), tell=True)
     return Job({"case": case, "kind": kind}, scene, duration_s=duration_s or LENGTHS_S[case[0]])
 
 
-def _changes(order, case: str, further: dict) -> dict:
+def _changes(order: Order, case: str, further: dict) -> dict:
     """The changes of a case: its break, with both ends at one level."""
     force_N = [FORCES_N[case[0]], 0.0, 0.0]
     changes = {**further, "end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S, "end.force_N": force_N}
@@ -99,7 +99,7 @@ def _changes(order, case: str, further: dict) -> dict:
     return changes
 
 
-def _straight(order, case: str, plain) -> Iterator[Job]:
+def _straight(order: Order, case: str, plain) -> Iterator[Job]:
     """The breaks without gravity."""
     from campaigns.breaking_line.theory import theory_of
 
@@ -124,7 +124,7 @@ def _straight(order, case: str, plain) -> Iterator[Job]:
         yield _run(order, case, kind, {**straight, "tether.nodes": nodes}, theory.arrival_s)
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """`rows.breaking_row` of every run."""
     from campaigns.breaking_line.rows import COLUMNS, breaking_row
 
@@ -132,14 +132,14 @@ def measures(order) -> Measures:
     return Measures(COLUMNS, breaking_row, ("analysis", "engine", *sources))
 
 
-def beside(order) -> Iterator[Callable]:
+def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs: statements.csv and exact.nc of the folder."""
     from campaigns.breaking_line.results import write_results
 
     yield write_results
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """Speeds of the broken ends, how far they are off theory, and the paper's statements that do not hold."""
     from campaigns.answers import verdicts
 

@@ -39,14 +39,16 @@ def values(lines: Sequence[Line], cases: Iterable[str], of: str) -> list[Check]:
     return checks
 
 
-def by_case(results, of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measured:
+def by_case(
+    results: Results, of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = ""
+) -> Measured:
     """A check for every case, or those in `only`; judge: what the rule judges, where it is not the number told."""
     deciding = values(results.lines, only or GROUPS[cases], judge or of)
     checks = [(f"case {name}", value) for name, value in deciding]
     return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
 
 
-def case_to_case(results, of: str, form: str, cases: str = "all") -> Measured:
+def case_to_case(results: Results, of: str, form: str, cases: str = "all") -> Measured:
     """A check for every step from one case to the next: by how much the number rises."""
     groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
     checks, every_number = [], []
@@ -58,7 +60,7 @@ def case_to_case(results, of: str, form: str, cases: str = "all") -> Measured:
     return Measured(checks, told(every_number, form))
 
 
-def by_pair(results, of: str, form: str, compare: Callable) -> Measured:
+def by_pair(results: Results, of: str, form: str, compare: Callable) -> Measured:
     """A check for every tension: compare(number of the fast break, number of the slow one)."""
     checks, words = [], []
     for pair in pairs(results.lines):
@@ -70,7 +72,7 @@ def by_pair(results, of: str, form: str, compare: Callable) -> Measured:
     return Measured(checks, "; ".join(words))
 
 
-def all_cases(results, of: str, form: str, judge: Callable) -> Measured:
+def all_cases(results: Results, of: str, form: str, judge: Callable) -> Measured:
     """One check of all fast cases together; judge(their numbers, in rising order)."""
     numbers = values(results.lines, FAST, of)
     if len(numbers) < 2:
@@ -79,7 +81,7 @@ def all_cases(results, of: str, form: str, judge: Callable) -> Measured:
     return Measured([("all cases", judge(in_order))], told(numbers, form))
 
 
-def crossing(results) -> Measured:
+def crossing(results: Results) -> Measured:
     """The exact times of arrival, as printed and a tenth of them."""
     times = values(results.lines, FAST, "arrival_theory_s")
     if not times:
@@ -94,7 +96,7 @@ def crossing(results) -> Measured:
     return Measured(checks, told(times, ".4f"))
 
 
-def vertical(results) -> Measured:
+def vertical(results: Results) -> Measured:
     """By how much the largest rise or fall falls from case to case, without and with the folds."""
     checks, words = [], []
     places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
@@ -108,7 +110,7 @@ def vertical(results) -> Measured:
     return Measured(checks, f"beyond the quarter there {words[0]}; with the folds {words[1]}")
 
 
-def same_motion(results) -> Measured:
+def same_motion(results: Results) -> Measured:
     """Way of the end of slow and fast breaks, as seen and with the delay of the slow break taken off."""
     seen, shifted, words = [], [], []
     for fast, slow in pairs(results.lines):
@@ -127,7 +129,7 @@ def same_motion(results) -> Measured:
     return Measured(checks, "; ".join(words))
 
 
-def dominant(results) -> Measured:
+def dominant(results: Results) -> Measured:
     """Change of the end speed over the fracture times over that over the tensions."""
     speeds = [speed for _, speed in values(results.lines, FAST, "end_speed_mps")]
     differences = [abs(slow["end_speed_mps"] - fast["end_speed_mps"]) for fast, slow in pairs(results.lines)]
@@ -138,7 +140,7 @@ def dominant(results) -> Measured:
     return Measured([("all pairs", by_time / by_tension)], words)
 
 
-def doubled(results) -> Measured:
+def doubled(results: Results) -> Measured:
     """The largest relative change that twice the elements bring, by case."""
     finer, largest = ended(results.lines, "doubled"), []
     for case, line in ended(results.lines).items():
@@ -155,7 +157,7 @@ def doubled(results) -> Measured:
     return Measured(checks, told(largest, ".3%"))
 
 
-def shock_incomplete(results) -> Measured:
+def shock_incomplete(results: Results) -> Measured:
     """Whether no shock exists before the fixed end in cases 2 and 3."""
     births, checks = [], []
     for case in ("2", "3"):
@@ -168,7 +170,7 @@ def shock_incomplete(results) -> Measured:
     return Measured(checks, told(births, ".1f"))
 
 
-def dissipates(results) -> Measured:
+def dissipates(results: Results) -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
     spread, resting = LARGER(results, "kinetic_spread", ".2f"), SMALLER(results, "resting_share", ".2f")
     ways = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}

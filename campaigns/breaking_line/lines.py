@@ -50,12 +50,12 @@ def _from_theory(run) -> Line:
     return {"static_strain": strain, "steepening": float(near / at_rest - 1.0)}
 
 
-def motion_of(folder: Path, line) -> object | None:
+def motion_of(folder: Path, line: Line) -> object | None:
     """The trajectory of a case that ended as asked; None where there is none."""
     return run_of(folder, line) if line["kind"] == "case" else None
 
 
-def from_motion(line, profiles: object) -> Line:
+def from_motion(line: Line, profiles: object) -> Line:
     """What single profiles show.
 
     tension_behind   median |T| over the static one between slack front and broken end, when the wave is half way

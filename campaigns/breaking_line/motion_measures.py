@@ -9,6 +9,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from campaigns.breaking_line.theory import Theory
+from engine.trajectory import Profiles, Trajectory
+
 SETTLED_S = 0.005  # after the break, until the corner of the force at its end has left the broken end
 MARGIN_M = 5.0  # from both ends: fronts are followed between
 LEAST_POINTS = 5
@@ -20,7 +23,7 @@ BUCKLED_RAD = 0.2
 COMPARED = 24  # profiles, at most, over which an error is averaged
 
 
-def contour(profiles, values: np.ndarray, level: float) -> np.ndarray:
+def contour(profiles: Profiles, values: np.ndarray, level: float) -> np.ndarray:
     """Place nearest the fixed end where `values` (nt, nn) falls through `level` towards the broken end; (nt,)."""
     above = values > level
     falls = above[:, :-1] & ~above[:, 1:]
@@ -33,7 +36,7 @@ def contour(profiles, values: np.ndarray, level: float) -> np.ndarray:
 
 
 def contour_speed(
-    profiles, values: np.ndarray, level: float, theory, between: tuple[float, float] | None = None
+    profiles: Profiles, values: np.ndarray, level: float, theory: Theory, between: tuple[float, float] | None = None
 ) -> float:
     """Speed (m/s) of a contour towards the fixed end until something arrives there: least squares line.
 
@@ -47,7 +50,7 @@ def contour_speed(
     return -float(np.polyfit(times[inside], places[inside], 1)[0])
 
 
-def front_speed(profiles, theory) -> float:
+def front_speed(profiles: Profiles, theory: Theory) -> float:
     """Speed (m/s) of the edge of the wave, before a shock or the far end meets it.
 
     The edge itself, a kink of second order, is smeared: ln(speed) of contours of FRONT_SHARES, a parabola in the
@@ -61,7 +64,7 @@ def front_speed(profiles, theory) -> float:
     return _extrapolated([theory.strain_at(share) for share in FRONT_SHARES], speeds, 2, theory.strain_at(1.0))
 
 
-def slack_front_speed(profiles, theory) -> float:
+def slack_front_speed(profiles: Profiles, theory: Theory) -> float:
     """Speed of the edge of the slack part: ln(speed) of contours of small strain, extrapolated to no tension."""
     speeds = [contour_speed(profiles, profiles.strain, strain, theory) for strain in SLACK_STRAINS]
     return _extrapolated(SLACK_STRAINS, speeds, 1, theory.speeds.slack_strain)
@@ -74,13 +77,13 @@ def _extrapolated(strains: Sequence[float], speeds: list[float], degree: int, st
     return float(np.exp(np.polyval(np.polyfit(strains, np.log(speeds), degree), strain)))
 
 
-def end_speeds(trajectory) -> np.ndarray:
+def end_speeds(trajectory: Trajectory) -> np.ndarray:
     """Speed (m/s) of the upper end at every sample."""
     columns = trajectory.columns
     return np.hypot(columns["radius_rate_mps"], columns["radius_m"] * columns["angle_rate_radps"])
 
 
-def settled_end_speed(trajectory) -> tuple[float, float, float]:
+def settled_end_speed(trajectory: Trajectory) -> tuple[float, float, float]:
     """Median, least and largest speed (m/s) of the broken end from SETTLED_S after the break on."""
     free = trajectory.columns["time_s"] >= trajectory.scene.end.force_decay_s + SETTLED_S
     speeds = end_speeds(trajectory)[free]
@@ -89,7 +92,7 @@ def settled_end_speed(trajectory) -> tuple[float, float, float]:
     return float(np.median(speeds)), float(speeds.min()), float(speeds.max())
 
 
-def end_speed_error(trajectory, theory) -> float:
+def end_speed_error(trajectory: Trajectory, theory: Theory) -> float:
     """Largest |v - exact v| over the exact speed v of the end, from SETTLED_S after the break on, while it is known."""
     times = trajectory.columns["time_s"]
     rows = np.flatnonzero(
@@ -102,7 +105,7 @@ def end_speed_error(trajectory, theory) -> float:
     return float(np.max(np.abs(end_speeds(trajectory)[rows] / exact - 1.0)))
 
 
-def strain_overshoot(profiles, until_s: float) -> tuple[float, float]:
+def strain_overshoot(profiles: Profiles, until_s: float) -> tuple[float, float]:
     """Shares of the static strain: largest strain above it, and largest rise of strain towards the broken end.
 
     Before a time at which nothing has come to the fixed end; an exact wave that unloads has neither: the strain falls
@@ -114,7 +117,7 @@ def strain_overshoot(profiles, until_s: float) -> tuple[float, float]:
     return float(max(np.max((strain - static) / static), 0.0)), float(rise / static.max())
 
 
-def shock_track(profiles, theory) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def shock_track(profiles: Profiles, theory: Theory) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (m,), places (m,) of the run's shock and of the exact one, where a profile shows both.
 
     The run's is where the strain passes the mean of the exact strains on the two sides.
@@ -127,7 +130,7 @@ def shock_track(profiles, theory) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return profiles.time_s[seen], places[seen], exact[seen]
 
 
-def shock_birth(profiles, theory) -> float:
+def shock_birth(profiles: Profiles, theory: Theory) -> float:
     """Distance (m) from the broken end at which the strain on the exact shock's first characteristic turns steep.
 
     In a simple wave 1/|slope| at one strain falls linearly with the way it has gone; the line through the first
@@ -151,7 +154,7 @@ def shock_birth(profiles, theory) -> float:
     return float(-first / slope)
 
 
-def strain_error(profiles, theory) -> float:
+def strain_error(profiles: Profiles, theory: Theory) -> float:
     """Mean of |strain - exact strain| over the line and over the second half of the time until something arrives.
 
     Over many profiles, since the error of a captured shock swings with its place in the element.
@@ -166,7 +169,7 @@ def strain_error(profiles, theory) -> float:
     return float(np.mean(errors))
 
 
-def tilts(profiles) -> np.ndarray:
+def tilts(profiles: Profiles) -> np.ndarray:
     """Angle (rad) of every element against the horizontal, followed along the line from the broken end; (nt, nn - 1).
 
     A fold that goes round shows angles beyond pi.
@@ -175,7 +178,7 @@ def tilts(profiles) -> np.ndarray:
     return np.unwrap(angle[:, ::-1], axis=1)[:, ::-1]
 
 
-def recoil(profiles, common_s: float) -> dict[str, float]:
+def recoil(profiles: Profiles, common_s: float) -> dict[str, float]:
     """How far the line has moved by the end of the run, and by `common_s` where the name says 120ms.
 
     recoil: way of the broken end towards the fixed one; vertical: largest rise or fall of a node, vertical_beyond: of
@@ -199,7 +202,7 @@ def recoil(profiles, common_s: float) -> dict[str, float]:
     }
 
 
-def spread(trajectory) -> dict[str, float]:
+def spread(trajectory: Trajectory) -> dict[str, float]:
     """How evenly tension and kinetic energy lie along the line when half of the strain energy is left.
 
     tension_spread: standard deviation of T along s over its mean; kinetic_spread: (int v^2)^2/(L int v^4), the share of

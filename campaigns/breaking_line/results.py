@@ -17,9 +17,9 @@ import numpy as np
 from campaigns.breaking_line.judging import Results, claims
 from campaigns.breaking_line.lines import ended, motion_of, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
-from campaigns.breaking_line.theory import theory_of
+from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import attribute_of, store
-from campaigns.machinery import made_by
+from campaigns.machinery import Plan, Summary, made_by
 from campaigns.statements import write_statements
 
 EXACT = "exact.nc"
@@ -27,7 +27,7 @@ SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)  # of the static tension: contour
 WAVES = 200  # strains of the curve of wave speed
 
 
-def write_results(plan, summary) -> float:
+def write_results(plan: Plan, summary: Summary) -> float:
     """statements.csv, and exact.nc where the law has a theory. Raises OSError. Returns 0, no seconds of analysis."""
     folder = plan.how.out
     results = Results(read_lines(folder))
@@ -86,7 +86,7 @@ def padded(curves: Sequence[np.ndarray]) -> np.ndarray:
     return np.array(points).T
 
 
-def measured_contours(profiles: object, theory) -> list[tuple]:
+def measured_contours(profiles: object, theory: Theory) -> list[tuple]:
     """(strain, speed, wave speed) of each contour of SHARES that can be followed; none that a shock eats."""
     contours = []
     for share in SHARES:

@@ -22,9 +22,10 @@ from campaigns.explore.grid import STEEPNESS as COLUMN
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import Job, Summary, cli
-from campaigns.study import Lengths, Measures, Study
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli
+from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
+from tables import Rows
 
 # From the paper's small wave (0.016) to beyond its large one (0.13); a step of 0.003 meets 0.13 too.
 STEEPNESS = tuple(round(0.016 + 0.003 * step, 3) for step in range(49))
@@ -65,7 +66,7 @@ def grid_of(values) -> Grid:
     return Grid((Varied(SWEPT, SWEPT, None, tuple(values), COLUMN),))
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every steepness, in a plane or (`--dimensions 3`) in space; `auto` checks both, and runs the plane."""
     dimensions, base = dimensions_of(order), order.base()
     for place in order.options.grid.places():
@@ -89,7 +90,7 @@ def _changes(dimensions: str) -> dict:
     return {"motion.dimensions": (2, 3)[dimensions == "3"]}
 
 
-def dimensions_of(order) -> str:
+def dimensions_of(order: Order) -> str:
     """One of DIMENSIONS: as the command line says, or the scene."""
     if order.options.dimensions is not None:
         return order.options.dimensions
@@ -99,7 +100,7 @@ def dimensions_of(order) -> str:
     return str(scene.motion.dimensions)
 
 
-def runs(order, plan, jobs) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """The runs in a plane, in space where needed, or of every motion."""
     if has_between(order):
         from campaigns.explore.batches import between_ahead
@@ -110,14 +111,14 @@ def runs(order, plan, jobs) -> Summary:
     return motions.runs(order, plan, jobs)
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """How a run becomes a row of table.csv: by `rows.buoy_row`."""
     from campaigns.explore.rows import COLUMNS
 
     return motions.measures_of(order, COLUMNS)
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     """What the provenance says of this campaign; push_mps: of the push that starts a motion out of the plane."""
     dimensions, push_mps = dimensions_of(order), None
     if dimensions != "2":
@@ -135,14 +136,14 @@ def parameters(order) -> dict:
     }
 
 
-def has_between(order) -> bool:
+def has_between(order: Order) -> bool:
     """Whether there are runs between the values of the sweep."""
     from campaigns.explore.batches import LEAST_VALUES
 
     return order.looks and not order.options.no_between and len(order.cases) >= LEAST_VALUES
 
 
-def beside(order) -> Iterator[Callable]:
+def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs (`campaigns.explore.batches`): values between, the wetted cap, errors, a close-up."""
     from campaigns.explore import batches
     from campaigns.explore.errors import errors
@@ -155,7 +156,7 @@ def beside(order) -> Iterator[Callable]:
     yield partial(batches.close_up, periods=order.periods)
 
 
-def answer(order, rows) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The findings of the sweep (`campaigns.explore.answer`)."""
     if order.options.no_accuracy:
         return motions.answer(order, rows, COLUMN.symbol)

@@ -18,7 +18,7 @@ from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, SLACK, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.explore.starts import run_within
 from campaigns.judge import UNFOLLOWED, job_from
-from campaigns.machinery import Job, Jobs, run_of, shares_worker, spare_groups
+from campaigns.machinery import Job, Jobs, Plan, Summary, run_of, shares_worker, spare_groups
 from engine.scene import scene_from_toml
 from tables import (
     CAPPED,
@@ -30,7 +30,9 @@ from tables import (
     RUN_KEY,
     STATUS,
     WALL_S,
+    Columns,
     Row,
+    Rows,
     counted,
     names,
     number_of,
@@ -47,7 +49,7 @@ BETWEEN_PERIODS, COMPANION_PERIODS = 42, 60  # of each the later third, or half,
 PERIODS, FRAMES = 12, 24  # of the close-up: wave periods, because the first snaps come after five; profiles in each
 
 
-def batch(plan, folder: str, title: str, columns, row: Callable, jobs, **changes) -> float:
+def batch(plan: Plan, folder: str, title: str, columns: Columns, row: Callable, jobs: Jobs, **changes) -> float:
     """Do the jobs in a folder below that of a campaign, with a table of these columns, of row(trajectory).
 
     Without a job the table of an earlier batch in this folder is emptied. title: of the progress. changes: further ones
@@ -65,7 +67,7 @@ def unfollowed(scene, changes: dict):
     return scene_from_toml(scene.to_toml(), UNFOLLOWED | changes)
 
 
-def unjudged(trajectory, transient_periods: int, columns) -> Row:
+def unjudged(trajectory, transient_periods: int, columns: Columns) -> Row:
     """What a run fills of these columns without a verdict."""
     row = buoy_row(trajectory, Judgement(transient_periods)) | {"nodes": trajectory.scene.tether.nodes}
     return {name: row[name] for name in names(columns) if name in row}
@@ -74,19 +76,19 @@ def unjudged(trajectory, transient_periods: int, columns) -> Row:
 ROW_BETWEEN = partial(unjudged, transient_periods=2 * BETWEEN_PERIODS // 3, columns=BETWEEN)
 
 
-def between(plan, summary, key: str, cases: Jobs) -> float:
+def between(plan: Plan, summary: Summary, key: str, cases: Jobs) -> float:
     """Enough runs between those of a sweep over `key` for LEAST_COLUMNS in all, where they can go side by side."""
     plan.spare.clear()  # what is left of `between_ahead` is done here
     return batch(plan, "between", "values between", BETWEEN, ROW_BETWEEN, jobs_between(plan, key, cases))
 
 
-def between_ahead(plan, key: str, cases: Jobs) -> None:
+def between_ahead(plan: Plan, key: str, cases: Jobs) -> None:
     """Let workers that would wait do the runs of `between`, which depend on nothing that the sweep finds."""
     jobs, settings = jobs_between(plan, key, cases), {"columns": BETWEEN, "describe": ROW_BETWEEN, "judge": None}
     plan.spare.extend(spare_groups(plan, plan.out / "between", jobs, **settings))
 
 
-def jobs_between(plan, key: str, cases: Jobs) -> list[Job]:
+def jobs_between(plan: Plan, key: str, cases: Jobs) -> list[Job]:
     """The runs of `between`; none where they cannot go side by side."""
     scenes = {job.labels["steepness"]: job.scene for job in cases}
     values, jobs = sorted(scenes), []
@@ -101,7 +103,7 @@ def jobs_between(plan, key: str, cases: Jobs) -> list[Job]:
     return jobs
 
 
-def companions(plan, summary, key: str, periods: int) -> float:
+def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     """Every value whose sphere flies, with the wetted cap, where these can go side by side; else that of the peak."""
     length, jobs, largest = min(periods, COMPANION_PERIODS), [], []
     peak = of_largest_tension(summary.rows)
@@ -121,20 +123,20 @@ def companions(plan, summary, key: str, periods: int) -> float:
     return batch(plan, "companions", "runs with the wetted cap", COMPANIONS, row, jobs)
 
 
-def start_of(plan, row: dict):
+def start_of(plan: Plan, row: dict):
     """The state in which a run begins that repeats that of a row: the last of a motion that is not found from rest."""
     if from_rest(row):
         return None
     return run_of(plan.out, row).final_state.at_zero()
 
 
-def of_largest_tension(rows) -> dict | None:
+def of_largest_tension(rows: Rows) -> dict | None:
     """The row of the largest tension; None where no run ended as asked."""
     good = [row for row in rows if row["status"] == "ok" and row.get("run_key")]
     return greatest(good, PEAK) or next(iter(good), None)
 
 
-def close_up(plan, summary, periods: int) -> float:
+def close_up(plan: Plan, summary: Summary, periods: int) -> float:
     """Compute the close-up, unless it is there or no run goes slack. periods: those of the sweep."""
     jobs, length = [], min(periods, PERIODS)
     row = of_largest_tension([row for row in summary.rows if number_of(row, SLACK.name) > 0.0])

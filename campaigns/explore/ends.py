@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from analysis import distance
-from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, write_part
-from campaigns.explore.starts import Request, Start
+from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, write_part
+from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
 from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words
 
@@ -80,7 +80,7 @@ def columns(key: Column) -> Columns:
     )
 
 
-def find_ends(motions, scene_at: Callable, exact: bool = True) -> list[Row]:
+def find_ends(motions: Motions, scene_at: Callable, exact: bool = True) -> list[Row]:
     """The ends of all branches of a sweep, each bisected with the state of its motion; rows of `columns`.
 
     scene_at: the scene of a value; None where there is none, as between two whole numbers.
@@ -107,7 +107,7 @@ def find_ends(motions, scene_at: Callable, exact: bool = True) -> list[Row]:
     return rows
 
 
-def _ends_of(motions, values: Sequence[float]) -> Iterator[_End]:
+def _ends_of(motions: Motions, values: Sequence[float]) -> Iterator[_End]:
     for branch in motions.branches():
         for motion, step in ((branch[0], DOWN), (branch[-1], UP)):
             neighbour = motion.place + step
@@ -125,7 +125,7 @@ def _is_wide(end: _End, width: float, scene_at: Callable) -> bool:
     return wide and scene_at(end.middle()) is not None
 
 
-def _narrow(motions, end: _End, ending) -> None:
+def _narrow(motions: Motions, end: _End, ending: Ending) -> None:
     """Move a side of an end to the middle: to which side the motion there belongs, the nearest of both values says."""
     end.row = {name: ending.row.get(name) for name in ("run_key", "status", "message")}
     if ending.settled is None:
@@ -145,7 +145,7 @@ def nearest(settled, motions: Sequence[Motion]) -> Motion:
     return min(motions, key=lambda motion: distance(settled, motion.settled))
 
 
-def by_orbits(motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable) -> dict[_End, Row]:
+def by_orbits(motions: Motions, values: Sequence[float], ends: Sequence[_End], scene_at: Callable) -> dict[_End, Row]:
     """The columns of the ends at which an orbit stops being stable, as the bisection says; of the others, why not.
 
     The orbit is followed from the last value of the sweep with the motion. Raises CampaignStopped.
@@ -180,7 +180,7 @@ def by_orbits(motions, values: Sequence[float], ends: Sequence[_End], scene_at: 
     return exact
 
 
-def confirm(motions) -> None:
+def confirm(motions: Motions) -> None:
     """Let every branch go on, from its state of the largest tension, at a tenth of the tolerance and on a finer grid.
 
     The words of `Motion.confirmed` of the branch say what it becomes. Raises as `runner.run`.
@@ -208,7 +208,7 @@ def confirm(motions) -> None:
         motion.branch.confirmed = f"{' and '.join(sentences)}, checked at {value:.4g}"
 
 
-def _confirmation(motion, change: str, result: Motion | None) -> str:
+def _confirmation(motion: Motion, change: str, result: Motion | None) -> str:
     """What a motion becomes with a change of the numerical method, in words."""
     if result is motion:
         return f"{('on', 'at')[change == TIGHTER]} {change}"

@@ -41,7 +41,7 @@ from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
 from campaigns.judge import UNFOLLOWED, job_from, periods_of, samples_of
-from campaigns.machinery import Job, orbits_in, run_of
+from campaigns.machinery import Job, Plan, Summary, orbits_in, run_of
 from engine import simulate
 from engine.run.rest import static_tension_N
 from tables import (
@@ -82,7 +82,7 @@ SLACK_COARSE = 0.05  # an error of the slack fraction above it is told in words
 CHANGED = "with twice the elements at a quarter of the tolerance"
 
 
-def errors(plan, summary) -> float:
+def errors(plan: Plan, summary: Summary) -> float:
     """Do the companion of every row, and fill ERROR of the rows and of table.csv; returns seconds of analysis.
 
     Rows without a transient, as of runs that ended early, stay empty. Raises as `runner.run`.
@@ -120,7 +120,7 @@ class _Companion(NamedTuple):
     resolved: float
 
 
-def _companion(plan, row: dict) -> _Companion | None:
+def _companion(plan: Plan, row: dict) -> _Companion | None:
     """The companion of a row; None where there can be none."""
     transient, run = row.get("transient_periods"), run_of(plan.out, row)
     if transient is None or run is None:

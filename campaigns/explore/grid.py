@@ -12,6 +12,7 @@ from itertools import product
 
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import Job, cli, filled
+from campaigns.study import Order
 from tables import Column, Columns, Row, names
 
 STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amplitude", 3)
@@ -133,7 +134,7 @@ class Grid:
         for values in product(*(key.values for key in self.keys)):
             yield filled(self.columns, values)
 
-    def refuse_set(self, order, instead: str = "; use --vary") -> None:
+    def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
         """A key that is varied cannot be set too."""
         for key in self.keys:
             if key.key in order.changes:
@@ -146,7 +147,7 @@ class Grid:
             faults += key.put(place[key.column.name], base, changes)
         return changes, faults
 
-    def job(self, order, place: Row, most: int | None = None, **labels: object) -> Job | None:
+    def job(self, order: Order, place: Row, most: int | None = None, **labels: object) -> Job | None:
         """The judged run from rest of a place, with more labels; None where there is no such scene: it is told.
 
         most: as of `campaigns.judge.judged_job`.
@@ -161,7 +162,7 @@ class Grid:
         return judged_job(order, {**place, **labels, "dimensions": scene.motion.dimensions}, scene, most=most)
 
 
-def place_in(row, keys: Columns) -> tuple:
+def place_in(row: Row, keys: Columns) -> tuple:
     """The values of the keys in a row."""
     return tuple(row[name] for name in names(keys))
 

@@ -13,6 +13,7 @@ from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_under
 from campaigns.explore.rows import sound_part
 from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, tangent_of
 from campaigns.machinery import Store
+from engine.trajectory import Trajectory
 from engine.views import carried, carries_tangents, in_regular_waves
 from tables import OPEN
 
@@ -49,7 +50,7 @@ class Judgement:
 
 
 def judgement_of(
-    trajectory, checks: dict | None, orbits: Store, transient_periods: int | None, full: int | None = None
+    trajectory: Trajectory, checks: dict | None, orbits: Store, transient_periods: int | None, full: int | None = None
 ) -> Judgement | None:
     """How a run of a buoy in regular waves is judged (`campaigns.judge`); None of any other line.
 
@@ -87,7 +88,7 @@ def judgement_of(
     return replace(judgement, record=record, wolf=wolf)
 
 
-def _with_orbit(trajectory, judgement, orbits: Store) -> Judgement:
+def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> Judgement:
     """The judgement with the orbit under the run, and with what that orbit says of the verdict."""
     verdict, orbit = judgement.verdict, None
     if verdict.regime in (*OPEN, "quasi-periodic"):
@@ -110,13 +111,13 @@ def _with_orbit(trajectory, judgement, orbits: Store) -> Judgement:
     return replace(judgement, verdict=verdict, orbit=orbit, note=note)
 
 
-def _confirmed(verdict) -> bool:
+def _confirmed(verdict: Verdict) -> bool:
     """Whether perturbations confirm a period that no orbit does: those of a slow torus do not grow either."""
     bits = [verdict.points * test.value for test in verdict.evidence if test.name == NO_GROWTH]
     return any(value < -SHEAR for value in bits)
 
 
-def judged_by_orbit(trajectory, verdict, orbits: Store) -> tuple[Verdict, OrbitUnder | None]:
+def judged_by_orbit(trajectory: Trajectory, verdict: Verdict, orbits: Store) -> tuple[Verdict, OrbitUnder | None]:
     """The Verdict on a run that has not settled, with what the orbit near it says; the orbit where the run comes to it.
 
     Its transient ends where the last third of the judged periods begins.

@@ -9,12 +9,25 @@ from collections.abc import Iterator, Mapping
 from campaigns.answers import greatest, kilonewton, known_rows
 from engine.natural_frequencies import natural_frequencies
 from engine.views import in_regular_waves
-from tables import BUOY_HEIGHT, CAPPED, COARSE, OPEN, OTHER_MOTION, PEAK, PEAK_ERROR, Rows, count, listed, number_of
+from tables import (
+    BUOY_HEIGHT,
+    CAPPED,
+    COARSE,
+    OPEN,
+    OTHER_MOTION,
+    PEAK,
+    PEAK_ERROR,
+    Row,
+    Rows,
+    count,
+    listed,
+    number_of,
+)
 
 FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
-def load(rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
+def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
     """The largest tension, its use, that of the largest motion that stays in the water, and what was checked of it.
 
     keys: columns of what is varied, with their symbols.
@@ -47,18 +60,18 @@ def load(rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
     return " ".join(sentences)
 
 
-def place_of(row, keys: Mapping[str, str]) -> str:
+def place_of(row: Row, keys: Mapping[str, str]) -> str:
     """ "kA = 0.1, H = 22": the values of the varied columns, which keys gives with their symbols."""
     return ", ".join(f"{symbol} = {row[key]:.4g}" for key, symbol in keys.items())
 
 
-def of_motion(row) -> str:
+def of_motion(row: Row) -> str:
     """ "motion C"; "" where motions have no letters."""
     letter = row.get("motion")
     return f"motion {letter}" if letter else ""
 
 
-def largest(row) -> str:
+def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN by grid and steps)", without the error where that is not known."""
     text, error = kilonewton(row[PEAK]), number_of(row, PEAK_ERROR)
     if math.isfinite(error):
@@ -66,7 +79,7 @@ def largest(row) -> str:
     return text
 
 
-def use_of(row, scene, searched: bool) -> str:
+def use_of(row: Row, scene, searched: bool) -> str:
     """The reasons against using the tension of a row; without any, the checks that were made of it, and those not made.
 
     searched: whether other motions were looked for.
@@ -97,7 +110,7 @@ def use_of(row, scene, searched: bool) -> str:
     return f"Checked: {listed(passed)}; not checked: {listed(missing)}."
 
 
-def reasons(row, scene) -> Iterator[str]:
+def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
     if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
         if row.get("role") != CAPPED and number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m:

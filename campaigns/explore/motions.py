@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 from analysis import grouped, share_of
 from campaigns.explore.coarse import coarse_endings
-from campaigns.explore.starts import FOUND_BY, Request, Start, Starts, run_within
+from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
 from campaigns.judge import samples_of
-from campaigns.machinery import Jobs, Summary, orbits_in, run_of
+from campaigns.machinery import Jobs, Plan, Summary, orbits_in, run_of
 from campaigns.study import Order
 from tables import REGIMES, SHEET, Column, Columns, Row, of_words, write_table
 
@@ -124,7 +124,7 @@ class Motions:
 
     def __init__(
         self,
-        plan,
+        plan: Plan,
         keys: Columns,
         neighbours: Callable,
         match_distance: float = 0.0,
@@ -142,7 +142,7 @@ class Motions:
         self.times = Counter()
         self.computed = set()  # keys of the judged runs that were computed, or went on
 
-    def add(self, jobs) -> range:
+    def add(self, jobs: Jobs) -> range:
         """Add the places of these runs from rest; returns their numbers."""
         first = len(self.jobs)
         self.jobs += jobs
@@ -158,7 +158,7 @@ class Motions:
         labels = self.jobs[place].labels
         return {key.name: labels[key.name] for key in self.keys}
 
-    def judged_runs(self, title: str, jobs, ahead: Jobs = ()) -> None:
+    def judged_runs(self, title: str, jobs: Jobs, ahead: Jobs = ()) -> None:
         """Do judged runs, and keep their rows. ahead: as of `runner.run`, which says what this raises."""
         if not jobs:
             return
@@ -172,7 +172,7 @@ class Motions:
         row = self.rows.get(key)
         return row and run_of(self.folder, row)
 
-    def fine(self, place: int, start) -> Start:
+    def fine(self, place: int, start: Start) -> Start:
         """The start with as many samples as a run of its place, which then takes up its last state to the moment."""
         scene = self.jobs[place].scene
         return replace(start, often=samples_of(scene, 1))
@@ -214,12 +214,12 @@ class Motions:
         self.starts.endings += in_order
         return [ending.motion for ending in in_order]
 
-    def request(self, place: int, start, scene=None, **options) -> Request:
+    def request(self, place: int, start: Start, scene=None, **options) -> Request:
         """A start in the scene of a place, or in another one with the same motions. options: fields of `Request`."""
         scene = scene or self.jobs[place].scene
         return Request(self.name_of(place), scene, start, settled_in(self.at[place]), **options)
 
-    def known(self, place: int, ending) -> Motion | None:
+    def known(self, place: int, ending: Ending) -> Motion | None:
         """The known motion in which a start at a place has ended; None where it has not settled, or on another one."""
         motions = self.at[place]
         if ending.joins is not None:
@@ -236,7 +236,7 @@ class Motions:
             members.setdefault(motion.branch, []).append(motion)
         return [*members.values()]
 
-    def labels(self, motion) -> Row:
+    def labels(self, motion: Motion) -> Row:
         """The columns MOTIONS of a motion."""
         labels = {"motion": motion.branch.letter, "found_by": motion.found_by}
         if self.kicks:
@@ -244,7 +244,7 @@ class Motions:
             labels |= {"share": share.share, "share_low": share.low, "share_high": share.high, "kicks": self.kicks}
         return labels | {"confirmed": motion.branch.confirmed or None}
 
-    def row_of(self, motion) -> dict:
+    def row_of(self, motion: Motion) -> dict:
         """The row of the judged run of a motion; {} where there is none yet."""
         return self.rows.get(self.job_keys.get(motion), {})
 
@@ -272,14 +272,14 @@ class Motions:
         return Summary(rows, reused, len(rows) - reused, self.times + self.starts.times)
 
 
-def subfolder(plan, name: str) -> Path:
+def subfolder(plan: Plan, name: str) -> Path:
     """A folder within that of a campaign. Raises OSError."""
     folder = plan.out / name
     folder.mkdir(exist_ok=True)
     return folder
 
 
-def write_part(plan, name: str, columns, rows: Iterable[Row]) -> Path:
+def write_part(plan: Plan, name: str, columns: Columns, rows: Iterable[Row]) -> Path:
     """Write table.csv in a folder within that of a campaign; returns the folder. Raises OSError."""
     folder = subfolder(plan, name)
     write_table(folder / "table.csv", columns, rows)

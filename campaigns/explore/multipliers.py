@@ -98,7 +98,7 @@ class OrbitUnder:
         return abs(first), abs(math.atan2(first.imag, first.real)), float(self.errors[0])
 
 
-def orbit_under(trajectory, period: int, orbits: Store, iterations: int = 20) -> OrbitUnder:
+def orbit_under(trajectory: Trajectory, period: int, orbits: Store, iterations: int = 20) -> OrbitUnder:
     """The orbit under a run that repeats, or comes to repeat, after `period` wave periods or a divisor of them.
 
     orbits: where its computation is kept. Raises ArithmeticError, with the end of a sentence, where Newton's method
@@ -127,7 +127,7 @@ def _maker() -> str:
     return made_by(*SOURCES)
 
 
-def _computed(trajectory, period: int, iterations: int) -> dict:
+def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     """The orbit under a run: `reason` why there is none, or its period, multipliers, errors, history and state."""
     from analysis.orbits import find_orbit, scatter_of
     from engine.scene import scene_from_toml
@@ -156,7 +156,7 @@ def _computed(trajectory, period: int, iterations: int) -> dict:
     }
 
 
-def orbit_ahead(trajectory, orbits: Store) -> tuple[OrbitUnder, Evidence] | None:
+def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evidence] | None:
     """The orbit near a run, and whether the run comes nearer to it; None where no orbit is looked for or found.
 
     It is looked for where the run repeats, and from the second look on where its steps shrink. That the orbit attracts,

@@ -9,7 +9,7 @@ import engine
 from analysis import approach_evidence, approached_period, joins, settled
 from analysis.orbits import NoImage, OrbitMap, find_orbit
 from campaigns.explore.starts import Start
-from campaigns.machinery import Store, Task, key_of, made_by, results
+from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.physics.strains import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
@@ -28,7 +28,7 @@ def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple]:
     return [tuple(kick) for kick in drawn.tolist()]
 
 
-def screened(plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
+def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     """For each scene the motions of its massless tether; none where that model does not cover a scene.
 
     A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
@@ -48,7 +48,7 @@ def screened(plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 
-def proposals(plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
+def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
     starts = []
     for motions in screened(plan, scenes, speed_mps, seed):

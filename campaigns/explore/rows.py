@@ -252,7 +252,7 @@ def lasts(columns, step_s: float, length_s: float) -> bool:
     return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
 
 
-def utilisation(scene, row) -> float | None:
+def utilisation(scene, row: Row) -> float | None:
     """`UTILISATION` of a row: of the tension along the line where the row has it, else of that at the top."""
     tension_N = row.get("tension_line_max_N", row.get("tension_top_max_N"))
     if tension_N is None or scene.tether.breaking_load_N is None:

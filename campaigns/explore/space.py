@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import engine.scene
 from campaigns.judge import UNFOLLOWED
-from campaigns.machinery import Summary, run
+from campaigns.machinery import Jobs, Plan, Summary, run
 
 SEED_MPS = 1e-5  # size of the push
 # components of a push along and across the waves; a mirrored push has to give the mirrored motion, and a push along the
@@ -49,7 +49,7 @@ def in_space(scene):
     return engine.scene.scene_from_toml(scene.to_toml(), changes), added
 
 
-def run_where_needed(plan, jobs) -> Summary:
+def run_where_needed(plan: Plan, jobs: Jobs) -> Summary:
     """Do the planar jobs, then the runs in three dimensions of the values whose planar run released loops.
 
     table.csv has one row for each value. Raises the same errors as `runner.run`.

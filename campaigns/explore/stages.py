@@ -18,16 +18,16 @@ from string import ascii_uppercase
 
 import engine
 from analysis import distance, grouped, matched
-from campaigns.explore.motions import FROM_REST, KICKED, Motion, settled_in
+from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search, settled_in
 from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
-from campaigns.machinery import Job, in_parts
+from campaigns.machinery import Job, Jobs, in_parts
 
 TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 
 
-def explore(motions, jobs, search, *later: Callable) -> None:
+def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable) -> None:
     """Find the motions of the places of these runs from rest; later: further parts of the same work.
 
     Raises as `runner.run`.
@@ -40,7 +40,7 @@ def explore(motions, jobs, search, *later: Callable) -> None:
     in_parts([*parts, partial(judge, motions, search), partial(name, motions), *later])
 
 
-def parts_beside_rest(motions, places: Sequence[int], search) -> list[Callable]:
+def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable]:
     """What finds the motions of places beside those from rest, to be called in this order."""
     return [
         partial(propose, motions, places, search),
@@ -50,7 +50,7 @@ def parts_beside_rest(motions, places: Sequence[int], search) -> list[Callable]:
     ]
 
 
-def run_from_rest(motions, jobs) -> range:
+def run_from_rest(motions: Motions, jobs: Jobs) -> range:
     """Add the places of these runs from rest, with the motions to which they lead; returns their numbers."""
     places, scene = motions.add(jobs), jobs[0].scene
     ahead = []
@@ -69,7 +69,7 @@ def run_from_rest(motions, jobs) -> range:
     return places
 
 
-def propose(motions, places: Sequence[int], search) -> None:
+def propose(motions: Motions, places: Sequence[int], search: Search) -> None:
     """Starts on the motions of a massless tether at each place."""
     scenes = [motions.jobs[place].scene for place in places]
     proposed = proposals(motions.plan, scenes, search.speed_mps, search.seed)
@@ -79,7 +79,7 @@ def propose(motions, places: Sequence[int], search) -> None:
     motions.run_starts("starts on motions of a massless tether", starts)
 
 
-def carry(motions) -> None:
+def carry(motions: Motions) -> None:
     """Carry every motion to the neighbours where it has not been, and the motions found there further."""
     while True:
         carried, starts = [], []
@@ -103,7 +103,7 @@ def carry(motions) -> None:
             motion.becomes[neighbour] = result
 
 
-def nearest_match(motion, candidates: Sequence[Motion], match_distance: float) -> Motion | None:
+def nearest_match(motion: Motion, candidates: Sequence[Motion], match_distance: float) -> Motion | None:
     """The nearest of the candidates with the motion's period that is nearer than match_distance; None: none is."""
     nearest, least = None, match_distance
     for candidate in candidates:
@@ -120,7 +120,7 @@ def nothing_beside(number: int) -> tuple[int, ...]:
     return ()
 
 
-def kick(motions, places: Sequence[int], search) -> None:
+def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
     """Kicks at each place; the share that ends in a motion is that of `Motions.labels`."""
     motions.kicks = search.kicks
     starts = []
@@ -142,7 +142,7 @@ def kick(motions, places: Sequence[int], search) -> None:
         motion.state = ending.state or motion.state
 
 
-def judge(motions, search) -> None:
+def judge(motions: Motions, search: Search) -> None:
     """Do the judged run of every motion that has none, from its state; motions that these find to be one are merged."""
     order, jobs = search.order, {}
     for motion in motions.all_motions():
@@ -162,7 +162,7 @@ def judge(motions, search) -> None:
     merge(motions, settled)
 
 
-def merge(motions, settled: Mapping[Motion, object]) -> None:
+def merge(motions: Motions, settled: Mapping[Motion, object]) -> None:
     """Merge the motions of a place that longer runs have found to be one; the first of them stays.
 
     settled: what these runs settled to.
@@ -184,7 +184,7 @@ def merge(motions, settled: Mapping[Motion, object]) -> None:
         ending.motion = merged.get(ending.motion)
 
 
-def name(motions) -> None:
+def name(motions: Motions) -> None:
     """Give every branch its letter: A to the one that begins at the first place, from rest where two do.
 
     `analysis.matched` is asked where no run tells how motions continue.
@@ -208,7 +208,7 @@ def name(motions) -> None:
                 motion.letter += str(repetition + 1)
 
 
-def _continue_unsettled(motions, place: int, neighbour: int) -> None:
+def _continue_unsettled(motions: Motions, place: int, neighbour: int) -> None:
     """Say how motions continue that did not settle when they were carried from a place to a neighbour, or back."""
     own_motions, neighbours = motions.at[place], motions.at[neighbour]
     _follow_back(own_motions, neighbours, place, neighbour)
@@ -230,7 +230,7 @@ def _follow_back(motions: Sequence[Motion], candidates: Sequence[Motion], place:
             motion.becomes[neighbour] = back[0]
 
 
-def _join_branches(motions, place: int, neighbour: int, branches: dict[Motion, dict]) -> None:
+def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[Motion, dict]) -> None:
     """Join the branches of motions that become each other, unless both have a motion at one place, as round a cusp."""
     for motion in motions.at[place]:
         successor = motion.becomes.get(neighbour)
@@ -243,7 +243,7 @@ def _join_branches(motions, place: int, neighbour: int, branches: dict[Motion, d
                 branches[member] = branch
 
 
-def outlasting(jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[Job]:
+def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[Job]:
     """The jobs whose chaos has not lasted long enough; they go on until it has.
 
     It may be a transient, because periodic motions beside it began as chaos, or because only a kick led to it.
@@ -272,6 +272,6 @@ def outlasting(jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[
     return late
 
 
-def as_long_as(job, periods: float) -> Job:
+def as_long_as(job: Job, periods: float) -> Job:
     """The job whose chaos counts after so many wave periods only."""
     return replace(job, going=partial(job.going, least=periods)) if job.going else job

@@ -26,6 +26,7 @@ from campaigns.judge import UNFOLLOWED, periods_of
 from campaigns.machinery import (
     Job,
     Jobs,
+    Plan,
     Store,
     Summary,
     claimed,
@@ -137,7 +138,7 @@ class Request(NamedTuple):
     settles: bool = True
 
 
-def start_job(request) -> Job:
+def start_job(request: Request) -> Job:
     """The run of a start."""
     start, scene = request.start, request.scene
     # it ends at the phase at which its scene begins, so that the scene can take up its last state
@@ -241,7 +242,7 @@ class Ending:
     motion: object = None
 
 
-def run_within(plan, folder: Path, jobs, ahead: Jobs = (), **changes) -> Summary:
+def run_within(plan: Plan, folder: Path, jobs: Jobs, ahead: Jobs = (), **changes) -> Summary:
     """Do runs in a folder of a campaign; changes: of its plan. Raises as `runner.run`."""
     claim = contextlib.nullcontext()
     if folder != plan.out:
@@ -253,7 +254,7 @@ def run_within(plan, folder: Path, jobs, ahead: Jobs = (), **changes) -> Summary
 class Starts:
     """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
-    def __init__(self, plan, keys: Columns):
+    def __init__(self, plan: Plan, keys: Columns):
         self.folder, maker = plan.out / "starts", made_by(*SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])

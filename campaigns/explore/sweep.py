@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import engine
-from campaigns.machinery import Job, Summary, cli, run
-from campaigns.study import Measures
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, run
+from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
 from tables import Columns, Rows, names, read_table
 
@@ -64,7 +64,7 @@ class SweepOptions(cli.Options):
     )
 
 
-def start_of(order, scene):
+def start_of(order: Order, scene):
     """The state of --start-from, or None. What is wrong with it, or with going on from it in this scene, is told."""
     if order.options.start_from is None:
         return None
@@ -85,14 +85,14 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def with_kicks(cases: Callable, order) -> list[Job]:
+def with_kicks(cases: Callable, order: Order) -> list[Job]:
     """The cases of an order. It is a fault if they do not allow its starts."""
     order.cases = list(cases(order))
     kicks_of(order)
     return order.cases
 
 
-def kicks_of(order) -> int | None:
+def kicks_of(order: Order) -> int | None:
     """Kicks at each value; None: runs from rest only. Kicks asked for cases that allow none are a fault."""
     options = order.options
     if len(options.grid.keys) > 1:
@@ -110,7 +110,7 @@ def kicks_of(order) -> int | None:
     return None
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     """The starts, for the provenance."""
     options, kicks = order.options, kicks_of(order)
     if kicks is None:
@@ -118,7 +118,7 @@ def parameters(order) -> dict:
     return {"starts": kicks, "kick_speed_mps": options.kick_speed, "seed": options.seed}
 
 
-def runs(order, plan, jobs) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: runs from rest only, or every motion of each value of the only key of the order's grid,
     with the ends of their ranges.
     """
@@ -142,7 +142,7 @@ def runs(order, plan, jobs) -> Summary:
     return every_motion(plan, jobs, Search(order, kicks, options.kick_speed, options.seed), *later)
 
 
-def every_motion(plan, jobs, search, *later: Callable) -> Summary:
+def every_motion(plan: Plan, jobs: Jobs, search, *later: Callable) -> Summary:
     """In place of `runner.run`: the motions of each value of the only key of the order of a search.
 
     search: `campaigns.explore.motions.Search`; later: further parts of the work, called with the `Motions` when these
@@ -173,7 +173,7 @@ def tables_of(out: Path, *folders: str) -> dict[str, Rows]:
     return {folder: table_of(out / folder) for folder in folders}
 
 
-def answer(order, rows, symbol: str, *folders: str) -> list[str]:
+def answer(order: Order, rows: Rows, symbol: str, *folders: str) -> list[str]:
     """The findings of a sweep over one key (`campaigns.explore.answer`), which is called `symbol` in words.
 
     folders: within that of the sweep, whose tables count too; that of the ends of motions is one where there are some.
@@ -186,7 +186,7 @@ def answer(order, rows, symbol: str, *folders: str) -> list[str]:
     return sentences(rows, key, symbol, order.cases[0].scene, **tables_of(order.how.out, *folders))
 
 
-def measures_of(order, columns, row: Callable | None = None, *sources: str) -> Measures:
+def measures_of(order: Order, columns: Columns, row: Callable | None = None, *sources: str) -> Measures:
     """The rows of a buoy in regular waves; row: in place of `rows.buoy_row`, with what else shapes it."""
     from campaigns.explore.judgement import judgement_of
     from campaigns.explore.rows import buoy_row

@@ -15,7 +15,7 @@ from analysis.orbits import doubled_orbit, find_orbit, follow_branch, middle_of
 from campaigns.explore.grid import Varied
 from campaigns.explore.multipliers import COUNT, TOLERANCE, cable_map
 from campaigns.explore.multipliers import SOURCES as OF_ORBITS
-from campaigns.machinery import Store, Task, key_of, made_by, results
+from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.scene import SceneError, scene_from_toml
 from tables import finite
 
@@ -89,12 +89,12 @@ class Line:
         return key_of(self.scenes.base.to_toml(), self.scenes.key.key, self.state, *numbers, *sources)
 
 
-def line_task(do: Callable, line, arguments: tuple) -> Task:
+def line_task(do: Callable, line: Line, arguments: tuple) -> Task:
     """The task do(line, *arguments) -> (result, points). arguments: numbers, words, arrays, states."""
     return Task(key_of(do.__name__, line, *arguments), partial(_computed, do, line, arguments))
 
 
-def _computed(do: Callable, line, arguments: tuple) -> dict:
+def _computed(do: Callable, line: Line, arguments: tuple) -> dict:
     """The result of a task and its points; where the orbits of a line fail, the result is the reason."""
     try:
         result, points = do(line, *arguments)
@@ -103,7 +103,7 @@ def _computed(do: Callable, line, arguments: tuple) -> dict:
     return {"result": result, "points": points}
 
 
-def work(plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list, int]:
+def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list, int]:
     """Results of tasks with their points, in their order, and how many of them were there before.
 
     Raises CampaignStopped as `campaigns.machinery.tasks.results`.
@@ -115,7 +115,7 @@ def work(plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list, i
     return pairs, finished.reused
 
 
-def under(line, value: float, period: int, state: object) -> Solved:
+def under(line: Line, value: float, period: int, state: object) -> Solved:
     """The orbit under a run, or at a state (period, 8 n): its row, errors and history."""
     cable, system = line.maps
     if not isinstance(state, np.ndarray):
@@ -126,7 +126,7 @@ def under(line, value: float, period: int, state: object) -> Solved:
     return row, [orbit.points]
 
 
-def followed(line, value: float, points: np.ndarray, most: int) -> Solved:
+def followed(line: Line, value: float, points: np.ndarray, most: int) -> Solved:
     """The branch of the orbit with these points (N, 8 n), with its events and what begins at its flips."""
     cable, system = line.maps
     orbit = _found(system, points, value, len(points))
@@ -159,7 +159,7 @@ def _doubled(system, event):
     return None
 
 
-def lost(line, period: int, ahead: float, *starts: object) -> Solved:
+def lost(line: Line, period: int, ahead: float, *starts: object) -> Solved:
     """Where the orbit under a run stops being stable: the first event from there on.
 
     ahead: 1 up, -1 down; starts: value, state, value, state ... of runs of that motion, tried in turn.
@@ -183,7 +183,7 @@ def lost(line, period: int, ahead: float, *starts: object) -> Solved:
     return _nearest(events, value, "the orbit stays stable"), []
 
 
-def sharper(line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
+def sharper(line: Line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
     """Where an event that was found at `at` is at the tolerance of the line.
 
     orbits: value, points, value, points ... of orbits on its branch, tried in turn.
@@ -191,12 +191,12 @@ def sharper(line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
     return _first_found(_event_near, line, kind, at, orbits)
 
 
-def finer(line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
+def finer(line: Line, kind: str, at: float, *orbits: float | np.ndarray) -> Solved:
     """The same on 2n - 1 nodes."""
     return _first_found(_finer_event_near, line, kind, at, orbits)
 
 
-def _first_found(find: Callable, line, kind: str, at: float, orbits: Sequence) -> Solved:
+def _first_found(find: Callable, line: Line, kind: str, at: float, orbits: Sequence) -> Solved:
     """What the first of the orbits leads to. Raises ArithmeticError, with the reason of the last, where none does:
     beside a fold an orbit may be gone at another tolerance or on another grid."""
     why = None
@@ -208,7 +208,7 @@ def _first_found(find: Callable, line, kind: str, at: float, orbits: Sequence) -
     raise ArithmeticError(str(why))
 
 
-def _event_near(line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
+def _event_near(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
     """The event on the branch of the orbit near these points, at `value`."""
     system = line.maps[1]
     orbit = _found(system, points, value, len(points))
@@ -219,7 +219,7 @@ def _event_near(line, kind: str, at: float, value: float, points: np.ndarray) ->
     return _nearest(events, at, f"no {kind} from {low:.5g} to {high:.5g}"), []
 
 
-def _finer_event_near(line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
+def _finer_event_near(line: Line, kind: str, at: float, value: float, points: np.ndarray) -> Solved:
     """The same on 2n - 1 nodes."""
     cable, _ = line.maps
     fine_line = replace(line, nodes=2 * line.scenes.base.tether.nodes - 1)

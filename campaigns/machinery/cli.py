@@ -263,7 +263,7 @@ def running(values: argparse.Namespace, places: tuple[str, ...], campaign: str, 
     return how
 
 
-def split(parser, argv: list[str], faults: list[str]) -> argparse.Namespace:
+def split(parser: Parser, argv: list[str], faults: list[str]) -> argparse.Namespace:
     """The values of the options, or their words where an option has no kind; what is not allowed becomes faults.
 
     `mistyped` of the values: whether a word of the line is no option of the parser and belongs to none.
@@ -331,7 +331,7 @@ def _with_option(word: str, parser: argparse.ArgumentParser) -> str:
     return ""
 
 
-def _parted(word: str, kind) -> str:
+def _parted(word: str, kind: Kind) -> str:
     """A hint for values that a comma holds together: "0.016,0.13", and "0,13" of a decimal comma."""
     parts = word.split(",")
     try:

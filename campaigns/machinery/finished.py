@@ -57,7 +57,7 @@ def finished(out: Path, key: str) -> Summary | None:
     return Summary(rows, record["runs"], 0)
 
 
-def keep_finished(out: Path, key: str, summary) -> None:
+def keep_finished(out: Path, key: str, summary: Summary) -> None:
     """Say that the folder is finished, unless another attempt may mend a row of it. Raises OSError."""
     statuses = [str(row["status"]) for row in summary.rows]
     if not _COMPUTED_AGAIN & set(statuses):

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import engine
 from engine.atomic import write_atomic
-from tables import Row, names, write_table
+from tables import Columns, Row, names, write_table
 
 PACKAGES = "machine_code", "tables", "engine", "analysis", "campaigns", "reports"  # of this project
 PROGRESS = ".progress-"  # begins the names of folders in which workers say how far they are
@@ -105,12 +105,12 @@ class Table:
     dictionary of its columns (columns.csv) is written before the table is.
     """
 
-    def __init__(self, path, columns, keys: list[str]):
+    def __init__(self, path: Path, columns: Columns, keys: list[str]):
         self.path, self.columns, self.keys = path, columns, keys
         self.rows: dict[str, Row] = {}
         self._written_s = -math.inf
 
-    def add(self, key: str, row) -> None:
+    def add(self, key: str, row: Row) -> None:
         """Take in a row and bring the file up to date unless that was done a moment ago. Raises OSError."""
         unknown = set(row) - set(names(self.columns))
         if unknown:
@@ -134,7 +134,7 @@ def stored_run(folder: Path, key: str) -> "engine.Trajectory":
     return engine.Trajectory.load(trajectory_path(folder, key), {"run_key": key})
 
 
-def run_of(folder: Path, row) -> "engine.Trajectory | None":
+def run_of(folder: Path, row: Row) -> "engine.Trajectory | None":
     """The trajectory of a row; None for a run that ended early, or whose file cannot be read."""
     try:
         if row["status"] == "ok":
@@ -144,13 +144,13 @@ def run_of(folder: Path, row) -> "engine.Trajectory | None":
     return None
 
 
-def write_new(path, content: bytes) -> None:
+def write_new(path: Path, content: bytes) -> None:
     """Write a file, unless it has this content already. Raises OSError."""
     if not path.exists() or path.read_bytes() != content:
         write_atomic(path, content)
 
 
-def read_json(path) -> object:
+def read_json(path: Path) -> object:
     """The content of a JSON file; None where it cannot be read."""
     try:
         return json.loads(path.read_text(encoding="utf-8"))
@@ -158,17 +158,17 @@ def read_json(path) -> object:
         return None
 
 
-def write_json(path, content: dict) -> None:
+def write_json(path: Path, content: dict) -> None:
     """Write a JSON file whole. Raises OSError."""
     write_atomic(path, (json.dumps(content, indent=2, allow_nan=False) + "\n").encode())
 
 
-def write_sealed(path, content: bytes) -> None:
+def write_sealed(path: Path, content: bytes) -> None:
     """Write a file in which SEAL stands; the digest of its name and of its content takes its place. Raises OSError."""
     write_atomic(path, _closed(path, content))
 
 
-def read_sealed(path) -> bytes | None:
+def read_sealed(path: Path) -> bytes | None:
     """What `write_sealed` was given; None where the file is not there, not whole, changed, or has another's name."""
     try:
         found = path.read_bytes()
@@ -178,17 +178,17 @@ def read_sealed(path) -> bytes | None:
     return content if SEAL in content and _closed(path, content) == found else None
 
 
-def _closed(path, content: bytes) -> bytes:
+def _closed(path: Path, content: bytes) -> bytes:
     digest = hashlib.sha256(path.name.encode() + b"\0" + content).hexdigest()
     return content.replace(SEAL, b"sha256:" + digest.encode(), 1)
 
 
-def keep_json(path, content: dict) -> None:
+def keep_json(path: Path, content: dict) -> None:
     """Write a JSON file that is read again, sealed. Raises OSError."""
     write_sealed(path, (json.dumps({"seal": SEAL.decode(), **content}, indent=1, default=float) + "\n").encode())
 
 
-def kept_json(path) -> dict:
+def kept_json(path: Path) -> dict:
     """What `keep_json` was given; {} where there is none, or it is not what was written."""
     found = read_sealed(path)
     return {} if found is None else {name: entry for name, entry in json.loads(found).items() if name != "seal"}

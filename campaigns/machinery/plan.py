@@ -142,7 +142,7 @@ class Plan:
         return replace(self, how=replace(self.how, out=folder), **changes)
 
 
-def filled(columns, values: Iterable) -> Row:
+def filled(columns: Columns, values: Iterable) -> Row:
     """The row that has these values in these columns."""
     return dict(zip(names(columns), values, strict=True))
 

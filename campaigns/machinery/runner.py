@@ -17,7 +17,7 @@ from pathlib import Path
 import engine
 from campaigns.machinery.folder import PROGRESS, Table, trajectory_path
 from campaigns.machinery.long_runs import LongRun
-from campaigns.machinery.plan import Job, Jobs, Outcome, Summary, name_of
+from campaigns.machinery.plan import Job, Jobs, Outcome, Plan, Summary, name_of
 from campaigns.machinery.pools import PoolBroken, opened
 from campaigns.machinery.progress import print_line, reports, stage
 from campaigns.machinery.store import orbits_in
@@ -35,7 +35,7 @@ FEWEST = 3
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
-def run(plan, jobs, ahead: Jobs = ()) -> Summary:
+def run(plan: Plan, jobs: Jobs, ahead: Jobs = ()) -> Summary:
     """Compile and do the runs. ahead: of these what they need is compiled too, because they come next and two processes
     are done sooner with all of it.
     """
@@ -52,13 +52,13 @@ def run(plan, jobs, ahead: Jobs = ()) -> Summary:
     return summary
 
 
-def write_scene(directory: Path, campaign: str, jobs) -> None:
+def write_scene(directory: Path, campaign: str, jobs: Jobs) -> None:
     """Write scene.toml. Raises OSError."""
     head = f"# the scene of the first run of {campaign}; what varies over the runs is listed in provenance.json\n"
     write_atomic(directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
 
 
-def groups_of(plan, jobs) -> list[tuple]:
+def groups_of(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
     Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
@@ -79,7 +79,7 @@ def groups_of(plan, jobs) -> list[tuple]:
     return groups
 
 
-def _dealt(jobs, count: int) -> list[list]:
+def _dealt(jobs: Jobs, count: int) -> list[list]:
     """The jobs in so many groups, none of them empty, dealt like cards: neighbours cost alike, and so the groups do.
 
     Jobs whose lines have unlike numbers of nodes, or carry unlike numbers of perturbations, share no lanes. If there
@@ -103,17 +103,17 @@ def _dealt(jobs, count: int) -> list[list]:
     return groups
 
 
-def _cost(job) -> float:
+def _cost(job: Job) -> float:
     """About what a wave period costs, in units of one node; a perturbation costs half as much as its run."""
     return job.scene.tether.nodes * (1.0 + 0.5 * job.scene.output.tangent_vectors)
 
 
-def shares_worker(plan, job) -> bool:
+def shares_worker(plan: Plan, job: Job) -> bool:
     """Whether a job can go side by side with others. Not in threads: nothing interrupts a group within the process."""
     return plan.simulate_each is not None and plan.how.backend != "threading" and engine.goes_in_lanes(job.scene)
 
 
-def spare_groups(plan, folder: Path, jobs, **changes) -> list[Spare]:
+def spare_groups(plan: Plan, folder: Path, jobs: Jobs, **changes) -> list[Spare]:
     """Runs of a later step in a folder of a campaign, for `Plan.spare`; none where workers do not see the folder.
 
     changes: of the plan in that step. Raises OSError.
@@ -127,7 +127,7 @@ def spare_groups(plan, folder: Path, jobs, **changes) -> list[Spare]:
     return [Spare(later, missing[first : first + MOST_SENT]) for first in firsts]
 
 
-def _missing(folder: Path, jobs) -> list[Job]:
+def _missing(folder: Path, jobs: Jobs) -> list[Job]:
     return [job for job in jobs if not trajectory_path(folder, job.key).exists()]
 
 
@@ -135,7 +135,7 @@ def _keys(groups: Sequence[Sequence]) -> set[str]:
     return {job.key for job in chain.from_iterable(groups)}
 
 
-def _mixed(jobs) -> list[Job]:
+def _mixed(jobs: Jobs) -> list[Job]:
     """The jobs in an order in which any part of them is like the whole.
 
     The slow ones of a sweep are neighbours; if they began last, they would end alone. The first one, which is often the
@@ -145,7 +145,7 @@ def _mixed(jobs) -> list[Job]:
     return [jobs[place] for place in order]
 
 
-def _compile(plan, missing: Jobs) -> None:
+def _compile(plan: Plan, missing: Jobs) -> None:
     """Compile what the runs may call: what has kernels in common in one process, the rest in others meanwhile."""
     if plan.simulate is not engine.simulate:
         return
@@ -183,7 +183,7 @@ def _compiled(pieces: dict) -> None:
             engine.compile_piece(key, scene)
 
 
-def run_campaign(plan, jobs) -> Summary:
+def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     """Do every run that is not there yet; keep table.csv up to date while results come.
 
     Raises CampaignStopped (disk full, folder lost) or KeyboardInterrupt; finished runs and their rows are then on disk.
@@ -220,11 +220,11 @@ def run_campaign(plan, jobs) -> Summary:
     return Summary(table.in_order(), len(finished), len(missing), times, made=frozenset(_keys([missing])))
 
 
-def _row(job, outcome) -> Row:
+def _row(job: Job, outcome: Outcome) -> Row:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan, jobs, reused: int) -> Iterator[tuple]:
+def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
     """Key and outcome of the jobs, as they come: those that can share a worker first, then what these leave undone.
 
     A run that kills its worker twice, the second time alone, is given up. reused: runs that were there before.
@@ -266,5 +266,5 @@ def _computed(plan, jobs, reused: int) -> Iterator[tuple]:
             yield key, outcome
 
 
-def _given_up(job, reason: str) -> Outcome:
+def _given_up(job: Job, reason: str) -> Outcome:
     return failed(job, "worker-died", f"its process ended twice, the second time running alone: {reason}")

@@ -27,7 +27,7 @@ import engine
 from campaigns.machinery.cli import EXIT_BAD_INPUT, EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Running
 from campaigns.machinery.finished import finished, keep_finished
 from campaigns.machinery.folder import CampaignStopped, claimed, read_json, write_failure, write_json, write_new
-from campaigns.machinery.plan import TIMES
+from campaigns.machinery.plan import TIMES, Summary
 from campaigns.machinery.progress import stage
 from engine.streams import open_streams, printed
 from tables import ANSWER, PROVENANCE
@@ -145,7 +145,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     return code
 
 
-def _outcome(summary) -> dict:
+def _outcome(summary: Summary) -> dict:
     """What the provenance says of a campaign that has ended."""
     counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
     counts["failed"] = _failures(summary).total()
@@ -167,7 +167,7 @@ def _fault_of_report(out: Path) -> str:
     return ""
 
 
-def _failures(summary) -> collections.Counter:
+def _failures(summary: Summary) -> collections.Counter:
     """How many rows have each status that is not ok."""
     counts = collections.Counter(str(row["status"]) for row in summary.rows)
     del counts["ok"]
@@ -258,7 +258,7 @@ def machine() -> dict:
     return {"processor": processor, "cores": cores}
 
 
-def print_summary(how: Running, summary, answer: list[str], fault: str) -> int:
+def print_summary(how: Running, summary: Summary, answer: list[str], fault: str) -> int:
     """Print the answer, what was done, where it is and where the time went; returns the exit code.
 
     fault: why there is no report.

@@ -46,7 +46,7 @@ class Store:
             return None
         return result
 
-    def put(self, key: str, result) -> None:
+    def put(self, key: str, result: Result) -> None:
         """Save a result. A full disk loses only the time to compute it again."""
         if self.folder is None:
             self.unsaved[key] = result

@@ -32,7 +32,7 @@ class Results(NamedTuple):
 
 
 def results(
-    how: Running, store, title: str, tasks: Sequence[Task], size: int = 1, spare: Sequence[Callable] = ()
+    how: Running, store: Store, title: str, tasks: Sequence[Task], size: int = 1, spare: Sequence[Callable] = ()
 ) -> Results:
     """The results of tasks; those that the store does not have are computed, and saved as they come.
 
@@ -60,11 +60,11 @@ def results(
     return Results([finished[task.key] for task in tasks], reused)
 
 
-def _computed(store, group: Sequence[Task]) -> list[tuple]:
+def _computed(store: Store, group: Sequence[Task]) -> list[tuple]:
     return [(task.key, store.finished(task.key, task.compute)) for task in group]
 
 
-def _stopped(task, reason: str) -> Result:
+def _stopped(task: Task, reason: str) -> Result:
     raise CampaignStopped(f"a worker process ended twice at the same task: {reason}; what is finished is kept")
 
 

@@ -16,8 +16,8 @@ from typing import NamedTuple
 
 import engine
 from campaigns.machinery.folder import CampaignStopped, is_full, stored_run, trajectory_path, write_failure
-from campaigns.machinery.long_runs import LongRun
-from campaigns.machinery.plan import Job, Outcome, Plan, name_of
+from campaigns.machinery.long_runs import LongRun, Part
+from campaigns.machinery.plan import Job, Jobs, Outcome, Plan, name_of
 from campaigns.machinery.progress import reporter, with_progress
 from campaigns.machinery.store import Store, orbits_in
 from engine.atomic import write_atomic
@@ -25,7 +25,7 @@ from engine.atomic import write_atomic
 SAVED_S = 10.0  # of work that a killed campaign may lose of a long run, beside the part that is under way
 
 
-def run_jobs(plan, jobs) -> list[tuple]:
+def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Key and outcome of one job, whatever goes wrong in its run; of several jobs, of those that came to an end.
 
     Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
@@ -57,7 +57,7 @@ class Spare(NamedTuple):
             run_jobs(self.plan, self.jobs)
 
 
-def _run_side_by_side(plan, jobs, outcomes: dict[str, Outcome], report: Callable) -> None:
+def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], report: Callable) -> None:
     """Runs of one part, or of as many as they need (`campaigns.machinery.long_runs`).
 
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
@@ -114,11 +114,11 @@ def _run_side_by_side(plan, jobs, outcomes: dict[str, Outcome], report: Callable
             go_on(number, simulate(scene, periods=periods, duration_s=duration_s, **further))
 
 
-def _length_s(part) -> float:
+def _length_s(part: Part) -> float:
     return part.duration_s or part.periods * part.scene.waves.period_s
 
 
-def _resumed(plan, job) -> tuple[LongRun, Outcome | None]:
+def _resumed(plan: Plan, job: Job) -> tuple[LongRun, Outcome | None]:
     """A run as far as it is on disk."""
     outcome = reuse(plan, job)
     if outcome is None:
@@ -129,7 +129,7 @@ def _resumed(plan, job) -> tuple[LongRun, Outcome | None]:
     return LongRun(job, trajectory, outcome.row), outcome
 
 
-def _saved(plan, job, trajectory, outcome) -> Outcome:
+def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome) -> Outcome:
     """Save a run that has been computed and its row, or get them ready to be sent."""
     try:
         content = trajectory.to_bytes({"run_key": job.key})
@@ -145,7 +145,7 @@ def _saved(plan, job, trajectory, outcome) -> Outcome:
     return outcome
 
 
-def reuse(plan, job, report: Callable = lambda _: None) -> Outcome | None:
+def reuse(plan: Plan, job: Job, report: Callable = lambda _: None) -> Outcome | None:
     """The outcome of a run that is there already; None where it has to be computed.
 
     A file that is damaged, or not of the run that its name and the order say, is as good as none; report(why).
@@ -172,14 +172,14 @@ def reuse(plan, job, report: Callable = lambda _: None) -> Outcome | None:
     return outcome
 
 
-def keep_row(plan, outcome, content: bytes) -> None:
+def keep_row(plan: Plan, outcome: Outcome, content: bytes) -> None:
     """Save the row of a run whose file has this content, unless it has no maker or its analysis failed."""
     if plan.row_maker and outcome.row.get("status") != "analysis-failed":
         copy = {"made_by": plan.row_maker, "run": sha256(content).hexdigest(), "row": outcome.row}
         _rows(plan).put(outcome.key, copy)
 
 
-def kept_row(plan, key: str, content: bytes) -> dict | None:
+def kept_row(plan: Plan, key: str, content: bytes) -> dict | None:
     """The row of a run whose file has this content, if the maker of today made it."""
     copy = _rows(plan).get(key) or {}
     is_current = copy.get("made_by") == plan.row_maker and copy.get("run") == sha256(content).hexdigest()
@@ -188,11 +188,11 @@ def kept_row(plan, key: str, content: bytes) -> dict | None:
     return None
 
 
-def _rows(plan) -> Store:
+def _rows(plan: Plan) -> Store:
     return Store(trajectory_path(plan.out, "").parent, ".row.json")
 
 
-def _described(plan, job, trajectory, checks: dict | None) -> Outcome:
+def _described(plan: Plan, job: Job, trajectory, checks: dict | None) -> Outcome:
     """The row of a run. What a row needs beside its run is computed here, and kept (`Plan.judge`); a row reads it."""
     start_s = time.perf_counter()
     orbits = orbits_in(plan.out)
@@ -213,10 +213,10 @@ def _reason(error: BaseException) -> str:
     return f"{type(error).__name__}: {error} (in {frame.name}, {Path(frame.filename).name}:{frame.lineno})"
 
 
-def failed(job, status: str, message: str) -> Outcome:
+def failed(job: Job, status: str, message: str) -> Outcome:
     """A run that left no record: its row says why."""
     return Outcome(job.key, {"status": status, "message": message})
 
 
-def _stopped(plan, error: BaseException) -> CampaignStopped:
+def _stopped(plan: Plan, error: BaseException) -> CampaignStopped:
     return CampaignStopped(write_failure(plan.out or f"the worker on {socket.gethostname()}", error))

@@ -26,10 +26,10 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
-from campaigns.machinery import BadInput, Job, Summary, claimed, cli, run_of
-from campaigns.study import Measures, Study
+from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, run_of
+from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
-from tables import number_of, read_table
+from tables import Rows, number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
@@ -88,7 +88,7 @@ class Options(cli.Options):
             faults.append(f"--curves {key.key}: is the key of --vary; allowed: another one")
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
     order.look_by_look(BUDGET)
     if not order.options.grid.keys:
@@ -116,7 +116,7 @@ def cases(order) -> Iterator[Job]:
     yield from jobs
 
 
-def _check_second(order, scene) -> None:
+def _check_second(order: Order, scene) -> None:
     """Tell what is wrong with the key of --curves in a scene."""
     from campaigns.explore.tracing import Scenes
 
@@ -137,13 +137,13 @@ def _check_second(order, scene) -> None:
         order.tell(f"--curves {key.key}: changes the grid of the line; allowed: a key that does not")
 
 
-def _jobs(order) -> Iterator[Job]:
+def _jobs(order: Order) -> Iterator[Job]:
     order.options.grid.refuse_set(order)
     if order.base(tell=True) is not None:
         yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 
-def _job_of_file(order) -> Iterator[Job]:
+def _job_of_file(order: Order) -> Iterator[Job]:
     from engine.scene import SceneError, scene_from_toml
 
     (key,) = order.options.grid.keys
@@ -162,12 +162,12 @@ def _job_of_file(order) -> Iterator[Job]:
         order.tell(f"--start-from: {error}")
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """The rows of the runs: those of `campaigns.sweep`."""
     return motions.measures_of(order, motions.columns_of(order.options.grid.columns))
 
 
-def runs(order, plan, jobs: list[Job]) -> Summary:
+def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     """In place of `runner.run`: the motions, in a folder of their own, and the orbits under them."""
     from campaigns.explore.tracing import Line, Scenes
     from campaigns.orbits.tables import tables
@@ -218,7 +218,7 @@ def _check_letter(letter: str | None, folder: Path) -> None:
         raise BadInput(f"--motion: given {letter!r}; allowed: {allowed}")
 
 
-def _under_motions(order, folder) -> Iterator[tuple]:
+def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
     (key,) = order.options.grid.keys
     rows_of = {}  # by letter and period
@@ -233,7 +233,7 @@ def _under_motions(order, folder) -> Iterator[tuple]:
             yield letter, number_of(row, key.column.name), period, run.final_state.at_zero()
 
 
-def _under_file(order, job) -> Iterator[tuple]:
+def _under_file(order: Order, job: Job) -> Iterator[tuple]:
     """The same of --start-from, where its run repeats."""
     from campaigns.explore.rows import after_transient, sound_part
 
@@ -245,7 +245,7 @@ def _under_file(order, job) -> Iterator[tuple]:
         yield "", job.labels[key.column.name], period, run.final_state.at_zero()
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     options = order.options
     return {
         "vary": {key.key: [key.values[0], key.values[-1]] for key in options.grid.keys},
@@ -257,7 +257,7 @@ def parameters(order) -> dict:
     } | ({} if options.second is None else {"curves": options.curves})
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.orbits.answer import sentences
 

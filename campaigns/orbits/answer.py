@@ -113,7 +113,7 @@ def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
             return
 
 
-def multiplier(row) -> str:
+def multiplier(row: Row) -> str:
     """The leading multiplier of an orbit, with its error."""
     leading = complex(number_of(row, "multiplier_1_real"), number_of(row, "multiplier_1_imag"))
     value = f"|μ| = {abs(leading):.3g}"

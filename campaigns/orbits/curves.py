@@ -16,6 +16,7 @@ from campaigns.explore.multipliers import COUNT, cable_map
 from campaigns.explore.tracing import SOURCES, Line, Scenes, Solved, line_task
 from campaigns.machinery import Store, key_of, made_by
 from campaigns.orbits.tables import ANGLE, KIND, PERIOD
+from campaigns.orbits.tree import Tree
 from tables import MESSAGE, STATUS, Column, Row, finite, of_words, write_table
 
 FOLDER = "curves"
@@ -88,7 +89,7 @@ def _of_array(image):
     return lambda z, values: image(z, tuple(map(float, values)))
 
 
-def curve(plane, kind: str, value: float, points: np.ndarray, most: int) -> Solved:
+def curve(plane: Plane, kind: str, value: float, points: np.ndarray, most: int) -> Solved:
     """The curve of an event that was found at a value of the first key, with the points (N, 8 n) of its orbit."""
     place = np.array([value, plane.value])
     store, digest = Store(plane.points, ".point.json"), plane.digest()
@@ -114,7 +115,7 @@ def _point(point) -> dict:
     }
 
 
-def curves_of(tree, plane) -> Iterator[Row]:
+def curves_of(tree: Tree, plane: Plane) -> Iterator[Row]:
     """Rows of all curves of the events of a tree; an event on a curve that is known is not followed again."""
     known = []  # first event and result of each curve
     number = 0
@@ -133,7 +134,7 @@ def curves_of(tree, plane) -> Iterator[Row]:
             yield from _rows(label, result, event, plane)
 
 
-def _lies_on(event: dict, first: dict, result: dict, plane) -> bool:
+def _lies_on(event: dict, first: dict, result: dict, plane: Plane) -> bool:
     if (event["kind"], event["period"]) != (first["kind"], first["period"]):
         return False
     for begin, end in pairwise(point["values"] for point in result["points"]):
@@ -145,7 +146,7 @@ def _lies_on(event: dict, first: dict, result: dict, plane) -> bool:
     return False
 
 
-def _rows(label: Row, result: dict, event: dict, plane) -> Iterator[Row]:
+def _rows(label: Row, result: dict, event: dict, plane: Plane) -> Iterator[Row]:
     """The points of a curve. To errors of the first key is added what a finer grid changes of its event, and they are
     no smaller than the error of that; those of the second key grow in proportion."""
     first, second = plane.line.scenes.key.column, plane.key.column
@@ -172,7 +173,7 @@ def _rows(label: Row, result: dict, event: dict, plane) -> Iterator[Row]:
             }
 
 
-def write_curves(tree, plane) -> None:
+def write_curves(tree: Tree, plane: Plane) -> None:
     """Write curves/table.csv, with its columns. Raises OSError and CampaignStopped."""
     folder = subfolder(tree.plan, FOLDER)
     first, second = (replace(key.column, digits=5) for key in (plane.line.scenes.key, plane.key))

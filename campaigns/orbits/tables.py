@@ -10,6 +10,7 @@ from campaigns.explore.motions import MOTION, subfolder, write_part
 from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
 from campaigns.machinery import filled
+from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
 from tables import MESSAGE, STATUS, Column, Columns, Row, csv_of, names, of_words, write_table
 
@@ -50,7 +51,7 @@ OF_A_BRANCH = (
 )
 
 
-def tables(tree, key: Column) -> list[Row]:
+def tables(tree: Tree, key: Column) -> list[Row]:
     """Write all tables; returns the rows of table.csv. Raises OSError."""
     out, rows, strobes = tree.plan.out, [], []
     for branch in tree.branches:
@@ -100,7 +101,7 @@ def _numbers(orbit: dict) -> Row:
     return row
 
 
-def _events(tree, key: Column) -> Iterator[Row]:
+def _events(tree: Tree, key: Column) -> Iterator[Row]:
     for branch in tree.branches:
         for event in branch.result["events"]:
             status, message = "ok", ""
@@ -116,7 +117,7 @@ def _events(tree, key: Column) -> Iterator[Row]:
             }
 
 
-def _branches(tree) -> Iterator[Row]:
+def _branches(tree: Tree) -> Iterator[Row]:
     for branch in tree.branches:
         yield branch.result | {
             "branch": branch.name,
@@ -130,7 +131,7 @@ def _branches(tree) -> Iterator[Row]:
         yield {"motion": seed.motion, "period": seed.period, "status": "no-orbit", "message": reason}
 
 
-def _chosen(tree, key: Column, folder: Path) -> Iterator[Row]:
+def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[Row]:
     """Rows of the orbits with errors; writes the history of each into the folder."""
     counts = Counter()
     for orbit in sorted(tree.chosen, key=lambda orbit: (orbit["branch"], orbit["value"])):

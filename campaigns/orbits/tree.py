@@ -7,8 +7,8 @@ from string import ascii_lowercase
 
 import numpy as np
 
-from campaigns.explore.tracing import Solved, finer, followed, line_task, sharper, under, work
-from campaigns.machinery import Task
+from campaigns.explore.tracing import Line, Solved, finer, followed, line_task, sharper, under, work
+from campaigns.machinery import Plan, Task
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
@@ -34,7 +34,7 @@ class Branch:
     def events(self) -> list[dict]:
         return self.result["events"]
 
-    def take(self, seed) -> None:
+    def take(self, seed: "Seed") -> None:
         """Note that the orbit of a seed lies on the branch: its motion is one of it, and its flip leads to it."""
         if seed.motion and seed.motion not in self.motions:
             self.motions.append(seed.motion)
@@ -69,7 +69,7 @@ class Tree:
     room: branches that are followed.
     """
 
-    def __init__(self, plan, line, most: int, room: int):
+    def __init__(self, plan: Plan, line: Line, most: int, room: int):
         self.plan, self.line, self.most, self.room = plan, line, most, room
         (plan.out / FOLDER).mkdir(exist_ok=True)
         self.branches = []
@@ -114,7 +114,7 @@ class Tree:
             seeds.append(Seed(motion, value, result["period"], result["seen"], points[0]))
         return seeds
 
-    def _add(self, seed, result: dict, points: list[np.ndarray]) -> list[Seed]:
+    def _add(self, seed: Seed, result: dict, points: list[np.ndarray]) -> list[Seed]:
         """Add the branch of a seed; returns the orbits of twice the period that begin at its flips."""
         branch = Branch(self._name(seed.period), result, points)
         self.branches.append(branch)
@@ -145,7 +145,7 @@ class Tree:
                     flips.append(event)
         return min(flips, key=lambda flip: abs(flip["value"] - orbit["value"]), default=None)
 
-    def _is_known(self, seed) -> bool:
+    def _is_known(self, seed: Seed) -> bool:
         """Whether an orbit lies on a branch; its motion is then one of that branch."""
         seen = np.array(seed.seen)
         for branch in self.branches:
@@ -217,7 +217,7 @@ class Tree:
             if event["finer"] is not None and event["error"] is not None:
                 event["error"] = max(event["error"], abs(event["finer"] - event["value"]))
 
-    def _near(self, branch, event: dict) -> list:
+    def _near(self, branch: Branch, event: dict) -> list:
         """Value, points, value, points: of the orbit nearest to an event, and of the nearest BESIDE away in value."""
         size, near, beside = self.line.size, [], []
         for orbit, points in zip(branch.orbits, branch.points, strict=False):
@@ -232,7 +232,7 @@ class Tree:
         return chosen
 
 
-def _crossings(branch, value: float) -> list[int]:
+def _crossings(branch: Branch, value: float) -> list[int]:
     """The numbers of the orbits of a branch between which and the next one a value lies."""
     places = []
     for place, (orbit, following) in enumerate(pairwise(branch.orbits)):

@@ -10,8 +10,8 @@ starts come from a fixed seed.
 """
 
 from campaigns.oscillator.options import Options
-from campaigns.study import Study
-from tables import number_of
+from campaigns.study import Order, Study
+from tables import Rows, number_of
 
 
 def _work():
@@ -21,7 +21,7 @@ def _work():
     return study
 
 
-def answer(order, rows) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The exponent in words, where that part has a result; the force up to which the line stays taut."""
     from analysis.oscillator import SnapOscillator, grazing_force
 

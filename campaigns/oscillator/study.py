@@ -11,6 +11,7 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import xarray
@@ -30,6 +31,8 @@ from analysis.oscillator import (
 from analysis.oscillator.growth import random_starts
 from campaigns.figure_data import attribute_of, store
 from campaigns.machinery import Summary, Table, made_by, stage, trajectory_path
+from campaigns.oscillator.options import Options
+from campaigns.study import Order
 from engine.atomic import write_atomic
 from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, of_words
 
@@ -66,7 +69,7 @@ def _scaled(usual: int, effort: float, least: int) -> int:
     return max(least, round(usual * effort))
 
 
-def section(o: SnapOscillator, options) -> Result:
+def section(o: SnapOscillator, options: Options) -> Result:
     """Figure 19(b), and two nested zooms round the place that the orbit visits most."""
     points, transient = _scaled(120_000, options.effort, 500), 1000
     states = strobed_states(o, START, points, transient)
@@ -93,14 +96,14 @@ def zoom_boxes(states: np.ndarray) -> np.ndarray:
     return np.stack([centre - half, centre + half], axis=2).reshape(len(ZOOMS), 4)
 
 
-def history(o: SnapOscillator, options) -> Result:
+def history(o: SnapOscillator, options: Options) -> Result:
     """The first periods from START, with the switching times."""
     motion = dict(vars(snap_motion(o, START, HISTORY_PERIODS, 128)))
     row = {"periods": HISTORY_PERIODS, "slack_fraction": motion.pop("slack_fraction")}
     return {name: values for name, values in motion.items() if len(values)}, row
 
 
-def exponents(o: SnapOscillator, options) -> Result:
+def exponents(o: SnapOscillator, options: Options) -> Result:
     """Both exponents over many random starts, with their errors, and how they settle with time."""
     starts, periods, transient = _scaled(512, options.effort, 16), 10_000, 1000
     exponent = snap_exponents(o, count=starts, transient_periods=transient, periods=periods, blocks=50, seed=SEED)
@@ -128,7 +131,7 @@ def exponents(o: SnapOscillator, options) -> Result:
     return arrays | {"block_error": np.array([exponent.block_error])}, row
 
 
-def diagram(over: str, o: SnapOscillator, options) -> Result:
+def diagram(over: str, o: SnapOscillator, options: Options) -> Result:
     """Orbit diagram over "force" or "frequency" with exponents."""
     ranges = {"force": options.forces, "frequency": options.frequencies}
     low, high, count = ranges[over]
@@ -140,7 +143,7 @@ def diagram(over: str, o: SnapOscillator, options) -> Result:
     return arrays, {"starts": 4, "periods": 1000, "transient": 500, "points": len(values)}
 
 
-def orbits(o: SnapOscillator, options) -> Result:
+def orbits(o: SnapOscillator, options: Options) -> Result:
     """Periodic orbits up to period 8, stable and unstable, by Newton's method from points of the section and a grid."""
     guesses = _scaled(400, options.effort, 20)
     settled, ends = settled_periods(o, random_starts(_scaled(300, options.effort, 40), SEED), 1500)
@@ -166,7 +169,7 @@ PARTS = {
 }
 
 
-def parameters(options) -> dict:
+def parameters(options: Options) -> dict:
     """What the provenance says of this study besides who ran it, where and with what."""
     return {
         "oscillator": asdict(SnapOscillator(**options.changes)),
@@ -178,7 +181,7 @@ def parameters(options) -> dict:
     }
 
 
-def perform(order) -> Summary:
+def perform(order: Order) -> Summary:
     """Do every part that is not there yet; keep table.csv up to date. Returns times and the summary.
 
     Parts run beside each other in threads, because the compiled loops that they spend their time in hold no lock.
@@ -218,7 +221,7 @@ def perform(order) -> Summary:
     return Summary(table.in_order(), len(PARTS) - len(missing), len(missing), times)
 
 
-def _key(part: str, options) -> str:
+def _key(part: str, options: Options) -> str:
     settings = {"part": part} | parameters(options)
     if part != "diagram-force":
         del settings["force_range"]
@@ -234,7 +237,7 @@ def _compile(oscillator: SnapOscillator) -> float:
     return time.perf_counter() - begun
 
 
-def _done(part: str, oscillator: SnapOscillator, options, path) -> Row:
+def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -> Row:
     begun = time.perf_counter()
     try:
         arrays, row = PARTS[part](oscillator, options)

@@ -19,9 +19,9 @@ from itertools import product
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.explore.sweep import ROW_SOURCES
 from campaigns.judge import LEAST_JUDGED, judged_scene
-from campaigns.machinery import Job, cli
-from campaigns.study import Lengths, Measures, Study
-from tables import LARGE, SMALL, number_of, read_table, write_table
+from campaigns.machinery import Job, Plan, Summary, cli
+from campaigns.study import Lengths, Measures, Order, Study
+from tables import LARGE, SMALL, Rows, number_of, read_table, write_table
 
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
 LOOPING_DEPTHS_M = (21.0, 21.6, 22.0)  # where planar runs of the large wave have to release loops
@@ -117,7 +117,7 @@ class Options(cli.Options):
     no_accuracy: bool = cli.flag(SUPPRESS)
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """Every run of `variants` with its scene; planar ones carry perturbations."""
     base = base_of(order)
     if base is None:
@@ -131,7 +131,7 @@ def cases(order) -> Iterator[Job]:
             yield Job({**asdict(case), "periods": periods}, scene, periods)
 
 
-def base_of(order) -> Variant | None:
+def base_of(order: Order) -> Variant | None:
     """The large wave in the scene as it is, from which the campaign varies; None, and told why, where it cannot be."""
     scene = order.base(tell=True)
     if scene is None:
@@ -140,7 +140,7 @@ def base_of(order) -> Variant | None:
     return Variant(LARGE, scene.water.depth_m, tether.bending_stiffness_Nm2, tether.nodes)
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """`rows.offplane_row` of every run."""
     from campaigns.out_of_plane.rows import COLUMNS, offplane_row
 
@@ -159,17 +159,17 @@ def variant(row: Mapping[str, object]) -> Variant:
     return Variant(**{name: row[name] for name in Variant.__dataclass_fields__})
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     return {"base": asdict(base_of(order)), "looping_depths_m": list(LOOPING_DEPTHS_M)}
 
 
-def beside(order) -> Iterator[Callable]:
+def beside(order: Order) -> Iterator[Callable]:
     """pairs.csv, and statements.csv on figure 20."""
     base = base_of(order)
     yield partial(judge, base=base, transient=order.transient, quick=order.periods - order.transient < LEAST_JUDGED)
 
 
-def judge(plan, summary, base: Variant, transient: int, quick: bool) -> float:
+def judge(plan: Plan, summary: Summary, base: Variant, transient: int, quick: bool) -> float:
     """Planar runs that released loops against those in space, and the statements on figure 20; no worker's time."""
     from campaigns.out_of_plane import pairs
     from campaigns.paper.measured import Results
@@ -189,7 +189,7 @@ def judge(plan, summary, base: Variant, transient: int, quick: bool) -> float:
     return 0.0
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How far buoy and rope leave the plane, and the paper's statements on figure 20 that do not hold."""
     from campaigns.answers import greatest, verdicts
 

@@ -16,7 +16,8 @@ from pathlib import Path
 
 from campaigns.machinery import Summary, cli, ended, stage
 from campaigns.paper.order import PARTS
-from campaigns.study import Study
+from campaigns.study import Order, Study
+from tables import Rows
 
 
 @dataclass
@@ -38,7 +39,7 @@ class Options(cli.Options):
                 faults.append(f"{given}; allowed: a folder of this campaign")
 
 
-def perform(order) -> Summary:
+def perform(order: Order) -> Summary:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
     from campaigns.paper import parts, results
 
@@ -51,7 +52,7 @@ def perform(order) -> Summary:
     return replace(summary, whole=complete)
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     """What the provenance says of this campaign."""
     from campaigns.paper import dependence, results
 
@@ -59,7 +60,7 @@ def parameters(order) -> dict:
     return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How many of the paper's statements hold; a quick look at few and short runs says that it decides nothing."""
     from campaigns.answers import verdicts
 

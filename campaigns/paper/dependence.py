@@ -89,7 +89,7 @@ def parameters(quick: bool) -> dict:
     return settings
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """The row of the buoy sweep, after the columns that name a run."""
     return measures_of(order, COLUMNS)
 

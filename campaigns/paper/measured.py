@@ -69,7 +69,7 @@ class Parts:
                 raise LeftOut(f"the part `{name}` cannot be read ({type(error).__name__}: {error})") from None
         return self._parts[name]
 
-    def run(self, part, label: str, **wanted) -> tuple[Row, object, Source]:
+    def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
         rows = matching(part.rows, wanted)
         if not rows:
@@ -146,15 +146,15 @@ def read_results(directory: str | Path) -> Results:
     return Results(**fields, numbers=numbers)
 
 
-def _lines(parts, numbers: dict) -> dict:
+def _lines(parts: Parts, numbers: dict) -> dict:
     return {"lines": read_lines(parts.root / "breaking_line")}
 
 
-def _sweep(parts, numbers: dict) -> dict:
+def _sweep(parts: Parts, numbers: dict) -> dict:
     return {"sweep": parts.part("sweep").rows}
 
 
-def _buoy(parts, numbers: dict) -> dict:
+def _buoy(parts: Parts, numbers: dict) -> dict:
     from engine import load_scene
     from engine.natural_frequencies import natural_frequencies
 
@@ -178,7 +178,7 @@ def _buoy(parts, numbers: dict) -> dict:
     return {"buoy": rows}
 
 
-def _doubled(parts, numbers: dict) -> dict:
+def _doubled(parts: Parts, numbers: dict) -> dict:
     """Rows on the coarser grid, with the rms change of r (m) on the finer one, early and over the whole record."""
     part = parts.part("doubled")
     runs = {(row["waves.steepness"], row["tether.nodes"]): run_of(part.folder, row) for row in part.rows}
@@ -199,7 +199,7 @@ def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _dependence(parts, numbers: dict) -> dict:
+def _dependence(parts: Parts, numbers: dict) -> dict:
     """Rows with `snaps` at the large wave, of those that differ from the first in depth and buoyancy at most."""
     folder = parts.root / "dependence"
     rows, provenance = read_table(folder / "table.csv"), read_json(parts.root / "provenance.json") or {}
@@ -216,7 +216,7 @@ def _dependence(parts, numbers: dict) -> dict:
     return {"dependence": tuple(rows_with_snaps)}
 
 
-def _plane(parts, numbers: dict) -> dict:
+def _plane(parts: Parts, numbers: dict) -> dict:
     part = parts.part("out_of_plane")
     with_profiles = matching(part.rows, {"profiles": 1, "status": "ok"})
     trajectory, waves = None, None
@@ -229,7 +229,7 @@ def _plane(parts, numbers: dict) -> dict:
     return {"plane": part.rows, "plane_large": float(part.provenance["base"]["steepness"])}
 
 
-def _oscillator(parts, numbers: dict) -> dict:
+def _oscillator(parts: Parts, numbers: dict) -> dict:
     part = parts.part("oscillator")
     numbers |= {f"oscillator_{key}": float(entry) for key, entry in part.provenance["oscillator"].items()}
     for row in matching(part.rows, {"part": "exponents"}):

@@ -14,8 +14,10 @@ from analysis import Spectrum, correlation_dimension, peaks_near, spectral_lines
 from analysis.correlation_sums import LEAST_POINTS
 from analysis.snaps import NEAR_ZERO
 from campaigns.explore.rows import lasts
+from engine import Scene
 from engine.natural_frequencies import Modes
 from engine.run.rest import static_tension_N
+from engine.trajectory import Profiles, Trajectory
 from engine.views import strobed_radius
 
 WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
@@ -26,13 +28,13 @@ LINES_POINTS = 32, 2000  # strobed points whose lines are looked for: the fewest
 TURN_RAD = 1e-3  # per element, below which a rope counts as straight
 
 
-def in_window(trajectory) -> bool:
+def in_window(trajectory: Trajectory) -> bool:
     """Whether a record is as long as the window of eq. (31) wants."""
     scene = trajectory.scene
     return lasts(trajectory.columns, scene.sample_step_s(), sum(WINDOW) * scene.waves.period_s)
 
 
-def calm_measures(trajectory, modes: Modes | None) -> dict[str, float]:
+def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, float]:
     """Of the run at the small wave; nothing of a record shorter than WINDOW or without natural frequencies.
 
     Shares are of the variance of eq. (31) in the paper's window, bin 0 left out.
@@ -80,7 +82,7 @@ def calm_measures(trajectory, modes: Modes | None) -> dict[str, float]:
     return {name: float(value) for name, value in measures.items()}
 
 
-def violent_measures(trajectory, transient_periods: int) -> dict[str, float]:
+def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     """Of the run at the large wave; nothing of a record shorter than WINDOW.
 
     unexplained       share of the variance of the strobed r, r' that no steady line explains (0 for a torus)
@@ -128,7 +130,7 @@ def free(
     return float(trial[largest]), float(2.0 * sizes[largest] / window.sum())
 
 
-def buckling_waves(profiles) -> float | None:
+def buckling_waves(profiles: Profiles) -> float | None:
     """Half waves of the rope while it is slack over its whole length: median number of changes of the turn's side, +1.
 
     profiles: of a run of a buoy; None where the rope is never slack.
@@ -143,7 +145,7 @@ def buckling_waves(profiles) -> float | None:
     return float(np.median(counts)) if counts else None
 
 
-def snaps(trajectory, transient_periods: int) -> dict[str, float]:
+def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     """How the line of a run snaps; a number that it does not have is left out, or nan.
 
     near_zero, compressed   shares of the time after the transient with almost no tension, and with less than none
@@ -190,7 +192,7 @@ def _share(chosen: np.ndarray) -> float:
     return float(chosen.mean()) if len(chosen) else math.nan
 
 
-def scales(scene, modes, small: float, large: float) -> dict[str, float]:
+def scales(scene: Scene, modes: Modes, small: float, large: float) -> dict[str, float]:
     """Closed forms of a scene with a buoy and waves; modes: its natural frequencies; the two slopes kA of section 4.2.
 
     small_amplitude_m    amplitude A of the wave of the small slope kA, k from the dispersion relation at depth H

@@ -32,6 +32,7 @@ from campaigns.machinery import (
 )
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
+from campaigns.study import Order
 from engine.atomic import write_atomic
 from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, any_rows, names, of_words
 
@@ -89,7 +90,7 @@ CAMPAIGNS = {  # part -> its command; the words of its command line, those of --
 assert {*CAMPAIGNS, "dependence"} == set(PARTS)
 
 
-def run(order) -> Summary:
+def run(order: Order) -> Summary:
     """Do every part of the order; keep table.csv up to date. Returns the summary, its rows those of parts.
 
     Raises CampaignStopped where a part stopped, KeyboardInterrupt where it was interrupted.
@@ -121,7 +122,7 @@ def run(order) -> Summary:
     return Summary(table.in_order(), len(order.options.parts) - len(todo), len(todo), times)
 
 
-def _key(part: str, order) -> str:
+def _key(part: str, order: Order) -> str:
     if part == "dependence":
         settings = dependence.parameters(order.options.quick)
     else:
@@ -138,7 +139,7 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _is_there(row: Row | None, key: str, out: Path, order) -> bool:
+def _is_there(row: Row | None, key: str, out: Path, order: Order) -> bool:
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
@@ -150,7 +151,7 @@ def _is_there(row: Row | None, key: str, out: Path, order) -> bool:
     return bool(good) and reported
 
 
-def _run_part(part: str, order) -> Row:
+def _run_part(part: str, order: Order) -> Row:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":

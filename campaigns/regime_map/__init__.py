@@ -18,11 +18,12 @@ from dataclasses import dataclass
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import place_in, varied
 from campaigns.explore.sweep import BUDGET
-from campaigns.machinery import Job, Summary, cli, session
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, session
 from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
-from campaigns.study import Measures, Study
+from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
+from tables import Rows
 
 USUAL = "waves.steepness 0.016 0.16 40 water.depth_m 20.8 25 40"
 STARTS, MOST_CELLS = 3, 100_000
@@ -83,7 +84,7 @@ class Options(cli.Options):
         self.cut = cuts.read(self.cut, keys, faults)
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
     grid = order.options.grid
     order.look_by_look(BUDGET)
@@ -113,7 +114,7 @@ def cases(order) -> Iterator[Job]:
         yield job
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """The row of a motion."""
     from campaigns.regime_map.maps import cell_row
     from campaigns.regime_map.tables import motion_columns
@@ -121,7 +122,7 @@ def measures(order) -> Measures:
     return motions.measures_of(order, motion_columns(order.options.grid.columns), cell_row, "campaigns/regime_map")
 
 
-def runs(order, plan, jobs) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: the screen, the coarse grid, its borders."""
     from campaigns.regime_map.maps import Map
 
@@ -133,7 +134,7 @@ def runs(order, plan, jobs) -> Summary:
     return regime_map.refine(regime_map.compute(order.options.grid.coarse(), jobs))
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     options = order.options
     parameters = {"vary": {key.key: list(key.values) for key in options.grid.axes}}
     if options.grid.page is not None:
@@ -150,7 +151,7 @@ def parameters(order) -> dict:
     return parameters
 
 
-def answer(order, rows) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The findings of the map (`answer.sentences`)."""
     from campaigns.regime_map.answer import sentences
 

@@ -59,7 +59,7 @@ def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable) -> Ite
         yield line("OPEN", f"{failed} cells have no result; the column message of cells/table.csv says why.")
 
 
-def _is_coarse(row) -> bool:
+def _is_coarse(row: Row) -> bool:
     return number_of(row, "level") == 0.0
 
 
@@ -115,7 +115,7 @@ def _share(count: int, cells: Sequence) -> str:
     return f"{100.0 * count / len(cells):.3g} %"
 
 
-def _at(row, keys: Columns) -> str:
+def _at(row: Row, keys: Columns) -> str:
     words = []
     for key, value in zip(keys, place_in(row, keys), strict=True):
         text = value

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from campaigns.explore.grid import Grid, Varied
 from campaigns.machinery import Job
+from campaigns.study import Order
 from tables import Row
 
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
@@ -60,7 +61,7 @@ class CellGrid(Grid):
         numbers = range(len(along_i.values)), range(len(along_j.values))
         return [Cell(*numbers_of_cell) for numbers_of_cell in product(pages, levels, *numbers)]
 
-    def labels(self, cell) -> Row:
+    def labels(self, cell: Cell) -> Row:
         """The values of the keys at the centre of a cell."""
         labels = {}
         if self.page is not None:
@@ -72,11 +73,11 @@ class CellGrid(Grid):
                 labels[key.key] = float(f"{key.values[0] + _step(key) * _centre(number, cell.level):.12g}")
         return labels
 
-    def widths(self, cell) -> dict[str, float]:
+    def widths(self, cell: Cell) -> dict[str, float]:
         """The size of a cell along both keys, by column."""
         return {f"width_{key.key}": _step(key) / 2**cell.level for key in self.axes}
 
-    def job_at(self, order, cell) -> Job | None:
+    def job_at(self, order: Order, cell: Cell) -> Job | None:
         """The run from rest of a cell, as `Grid.job`."""
         return self.job(order, self.labels(cell), most=order.options.budget, level=cell.level)
 
@@ -105,7 +106,7 @@ class Quadtree:
             self.cells.append(cell)
         self._neighbours.clear()
 
-    def bisected(self, cell) -> bool:
+    def bisected(self, cell: Cell) -> bool:
         """Whether a cell has parts."""
         return cell.parts()[0] in self.number
 
@@ -113,7 +114,7 @@ class Quadtree:
         """The cells that are not bisected."""
         return list(filterfalse(self.bisected, self.cells))
 
-    def touching(self, cell) -> Iterator[Cell]:
+    def touching(self, cell: Cell) -> Iterator[Cell]:
         """The cells without parts that have a side, or a part of one, in common with a cell."""
         for side in SIDES:
             neighbour = cell.next(side)
@@ -122,7 +123,7 @@ class Quadtree:
             if neighbour in self.number:
                 yield from self._facing(neighbour, side)
 
-    def _facing(self, cell, side: tuple[int, int]) -> Iterator[Cell]:
+    def _facing(self, cell: Cell, side: tuple[int, int]) -> Iterator[Cell]:
         """The cells without parts in a cell, along the side that looks back."""
         if not self.bisected(cell):
             yield cell

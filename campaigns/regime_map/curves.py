@@ -4,6 +4,7 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
 from tables import Row, read_columns
 
@@ -48,7 +49,7 @@ def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
         yield f"{given}: has curves of another scene, with another {', '.join(differing)}; allowed: of that of the map"
 
 
-def take_over(folder: str | None, plan) -> None:
+def take_over(folder: str | None, plan: Plan) -> None:
     """Copy the curves into the folder of the map, where its report finds them. Raises OSError."""
     from campaigns.explore.motions import subfolder
 

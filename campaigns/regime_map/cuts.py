@@ -9,7 +9,7 @@ from pathlib import Path
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.sweep import table_of
 from campaigns.machinery import CampaignStopped, claimed, trajectory_path
-from campaigns.study import Study
+from campaigns.study import Order, Study
 
 
 def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> dict:
@@ -36,7 +36,7 @@ def read(words: list[str] | None, keys: Sequence[Varied], faults: list[str]) -> 
     return chosen
 
 
-def cut(order, argv: list[str], simulate: Callable | None = None) -> int:
+def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     """Do the sweep of the key that is left; returns its exit code. argv, simulate: as of `Study.conduct`."""
     chosen = order.options.cut
     places = [f"{name}={value}" for name, value in chosen.items()]
@@ -56,7 +56,7 @@ def cut(order, argv: list[str], simulate: Callable | None = None) -> int:
     return study.conduct(sweep, argv, simulate)
 
 
-def _sweep_of(order) -> tuple[Study, dict]:
+def _sweep_of(order: Order) -> tuple[Study, dict]:
     """The sweep over the key of a map that is left, as done by the command of the map, and its options."""
     from campaigns import buoy_sweep, sweep
 
@@ -68,7 +68,7 @@ def _sweep_of(order) -> tuple[Study, dict]:
     return replace(study, module="campaigns.regime_map"), options
 
 
-def _share_runs(order, out: Path) -> None:
+def _share_runs(order: Order, out: Path) -> None:
     """Give the folder of a cut the judged runs of its cells."""
     chosen, folder = order.options.cut, order.how.out
     keys = {case.key for case in order.cases if chosen.items() <= case.labels.items()}

@@ -11,14 +11,15 @@ from dataclasses import replace
 
 from analysis.evidence import read_evidence
 from analysis.looks import CLOSE, NO_GROWTH
-from campaigns.explore.motions import Motions, Search
+from campaigns.explore.motions import Motion, Motions, Search
 from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
 from campaigns.explore.stages import explore
-from campaigns.machinery import Jobs, Summary, print_line
+from campaigns.machinery import Jobs, Plan, Summary, print_line
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Quadtree
 from campaigns.regime_map.tables import STATIC
+from campaigns.study import Order
 from engine.run.rest import static_tension_N
 from tables import Row, finite
 
@@ -50,7 +51,7 @@ def cell_row(trajectory, judgement) -> Row:
 class Map(Motions):
     """The cells of a map with their motions, both by number of the cell."""
 
-    def __init__(self, plan, order):
+    def __init__(self, plan: Plan, order: Order):
         self.order, self.grid, self.tree = order, order.options.grid, Quadtree()
         plan = replace(plan, on_row=self._hear)
         super().__init__(plan, self.grid.columns, self.tree.neighbours, MATCH_DISTANCE)
@@ -65,7 +66,7 @@ class Map(Motions):
         tables.write_screen(self.plan, self.grid, coarse, self.screen)
         self._show()
 
-    def compute(self, cells: list[Cell], jobs) -> Summary:
+    def compute(self, cells: list[Cell], jobs: Jobs) -> Summary:
         """Compute the motions of cells, whose runs from rest these are. Raises as `runner.run`."""
         options = self.order.options
         search = Search(self.order, options.starts - 1, options.kick_speed, options.seed, options.budget)
@@ -76,7 +77,7 @@ class Map(Motions):
         self._show()
         return summary
 
-    def refine(self, summary) -> Summary:
+    def refine(self, summary: Summary) -> Summary:
         """Bisect cells at borders, coarse ones first, into --refine more of them. Raises as `runner.run`."""
         room = self.order.options.refine
         while room >= 4:
@@ -105,7 +106,7 @@ class Map(Motions):
         coarsest = leaps[min(leaps)]
         return sorted(coarsest, key=lambda cell: -coarsest[cell])
 
-    def _leap(self, cell) -> float:
+    def _leap(self, cell: Cell) -> float:
         """Largest ratio of largest tensions of a cell and those that touch it; 0 where no border runs there."""
         kind, tension_N = self.kind(cell), self.largest_N(cell)
         leap = 0.0
@@ -117,17 +118,17 @@ class Map(Motions):
                 leap = max(leap, ratio)
         return leap
 
-    def kind(self, cell) -> tuple[object, int]:
+    def kind(self, cell: Cell) -> tuple[object, int]:
         """Regime from rest and number of motions of a cell: where they differ, a border runs."""
         place = self.tree.number[cell]
         rest = self.rows.get(self.jobs[place].key, {})
         return rest.get("regime"), len(self.at[place])
 
-    def largest_N(self, cell) -> float:
+    def largest_N(self, cell: Cell) -> float:
         """The largest tension of the motions of a cell."""
         return max(map(self.tension_N, self.at[self.tree.number[cell]]), default=0.0)
 
-    def tension_N(self, motion) -> float:
+    def tension_N(self, motion: Motion) -> float:
         """The largest tension of a motion, by its judged run where there is one."""
         return self.row_of(motion).get("tension_top_max_N") or motion.tension_N
 

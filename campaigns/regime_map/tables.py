@@ -11,6 +11,7 @@ import numpy as np
 from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
 from campaigns.explore.sweep import columns_of
+from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
 from engine.atomic import write_atomic
 from tables import (
@@ -77,7 +78,7 @@ def motion_columns(keys: Columns) -> Columns:
     return tuple(columns)
 
 
-def write_screen(plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list]) -> None:
+def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
     write_part(plan, "screen", (*grid.columns, *OF_THE_SCREEN), rows)
@@ -156,7 +157,7 @@ def _cell(map_, motions: Sequence[Motion], rest: dict) -> Row:
     return cell
 
 
-def _any_above_zero(rows: Sequence[dict], column) -> bool:
+def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
     return any(number_of(row, column.name) > 0.0 for row in rows)
 
 

@@ -23,10 +23,10 @@ from functools import partial
 from campaigns.explore.grid import Grid, grid_of
 from campaigns.explore.sweep import kick_speed, table_of
 from campaigns.finer import finer
-from campaigns.machinery import TANGENTS, Job, Summary, cli, run
-from campaigns.study import Measures, Study
+from campaigns.machinery import TANGENTS, Job, Jobs, Plan, Summary, cli, run
+from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
-from tables import LARGE, Row, names
+from tables import LARGE, Row, Rows, names
 
 HEIGHT = "waves.jonswap.significant_height_m"
 HEIGHTS = (
@@ -85,7 +85,7 @@ class Options(cli.Options):
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
 
 
-def kicks(options) -> list[tuple]:
+def kicks(options: Options) -> list[tuple]:
     """Velocities (x, z) of the starts in m/s: rest, then even in a disc."""
     import numpy as np
 
@@ -97,7 +97,7 @@ def kicks(options) -> list[tuple]:
     return velocities
 
 
-def usual_sea(order) -> dict:
+def usual_sea(order: Order) -> dict:
     """What makes the shipped buoy float in a sea as steep as the paper's large wave, but for what the order says."""
     if order.name != STUDY.scene:
         return {}
@@ -114,7 +114,7 @@ def usual_sea(order) -> dict:
     return usual
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """Every start in every sea of every state; a few of a single state once more, on a finer grid."""
     options = order.options
     options.grid.refuse_set(order)
@@ -143,12 +143,12 @@ def cases(order) -> Iterator[Job]:
         yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 
 
-def seas_with_exponent(options) -> int:
+def seas_with_exponent(options: Options) -> int:
     """Seas of a state whose run from rest carries a perturbation, which nearly doubles the cost of the run."""
     return max(EXPONENT_SEAS, math.ceil(max(EXPONENT_HOURS, options.most_hours) / options.hours))
 
 
-def finer_seas(options) -> int:
+def finer_seas(options: Options) -> int:
     """Seas of a single state whose run from rest is repeated with finer elements and steps."""
     return min(FINER_SEAS, seas_with_exponent(options), max(1, int(options.hours / FINER_HOURS)))
 
@@ -162,7 +162,7 @@ def _seed_key(scene) -> str | None:
     return "waves.seed"
 
 
-def _runs(order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
+def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
     """The runs of one sea state: its first starts in the seas of these seeds; waves that are not drawn are one sea."""
     options = order.options
     changes, _ = options.grid.changes(place, order.base())
@@ -193,7 +193,7 @@ def _runs(order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]
                 yield Job({**labels, "solver": FINER}, finer_scene, duration_s=finer_s)
 
 
-def runs(order, plan, jobs) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """In place of `runner.run`: a state whose exponent has no clear sign gets twice as many seas, again and again."""
     from campaigns.sea.regular import regular_ahead
     from campaigns.sea.rows import unclear_places
@@ -218,7 +218,7 @@ def runs(order, plan, jobs) -> Summary:
     return summary
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """A row a run (`rows.run_row`)."""
     from campaigns.sea.rows import columns_of, run_row
 
@@ -228,7 +228,7 @@ def measures(order) -> Measures:
     return Measures(columns_of(options.grid.columns), partial(run_row, **settings), sources, settings)
 
 
-def beside(order) -> Iterator[Callable]:
+def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs: the motions of regular waves, then what all runs of a sea state say together."""
     from campaigns.sea.cells import write_cells
     from campaigns.sea.regular import regular_waves
@@ -238,14 +238,14 @@ def beside(order) -> Iterator[Callable]:
     yield partial(write_cells, order)
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     options = order.options
     values = {entry.name: getattr(options, entry.name) for entry in Options.offered() if entry.metadata}
     del values["vary"]
     return {"sea_keys": [key.key for key in options.grid.keys], **values}
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.sea.answer import sentences
     from campaigns.sea.cells import FOLDER

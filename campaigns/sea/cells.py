@@ -29,13 +29,14 @@ from campaigns.explore.grid import place_in
 from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
 from campaigns.explore.sweep import table_of
-from campaigns.machinery import filled, run_of, stage
+from campaigns.machinery import Plan, Summary, filled, run_of, stage
 from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set, significant_height_m
 from campaigns.sea.regular import FOLDER as REGULAR
 from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
+from campaigns.study import Order
 from engine.physics.sea import envelope_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, number_of, of_words
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, number_of, of_words
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
@@ -119,7 +120,7 @@ class Digest:
     forecast: np.ndarray
 
 
-def digest(run, row, transient: int, folds: Folds | None) -> Digest:
+def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
     """The digest of a run that reached its end. transient: peak periods left out."""
     period_s, step_s, columns = run.scene.waves.period_s, run.scene.sample_step_s(), run.columns
     samples = period_s / step_s  # of a peak period
@@ -149,7 +150,7 @@ def _amplitudes_of_pieces(scene, periods: int) -> np.ndarray:
     return np.convolve(of_periods, np.full(MOTION_PERIODS, 1.0 / MOTION_PERIODS), "valid")
 
 
-def write_cells(order, plan, summary) -> float:
+def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     """Write cells/table.csv, a row a sea state, and of a single one history/table.csv. Returns seconds."""
     began = time.perf_counter()
     folds, regular_rows = None, ()
@@ -184,7 +185,7 @@ def write_cells(order, plan, summary) -> float:
     return time.perf_counter() - began
 
 
-def cell_row(rows, digests: Sequence[Digest], options, folds: Folds | None) -> Row:
+def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None) -> Row:
     """The columns of one sea state. rows: of all its runs; digests: of those that reached their end."""
     if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}

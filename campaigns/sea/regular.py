@@ -17,7 +17,7 @@ from campaigns import sweep
 from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
-from campaigns.machinery import CampaignStopped, spare_groups
+from campaigns.machinery import CampaignStopped, Plan, Summary, spare_groups
 from campaigns.study import Order
 from engine.views import carries_tangents
 from tables import PEAK, Rows, number_of
@@ -53,12 +53,12 @@ def _breaking_m(scene) -> float:
     return breaking_steepness(k, depth_m) / k
 
 
-def one_set(order) -> bool:
+def one_set(order: Order) -> bool:
     """Whether all states of the order have their regular waves in common: only the sea itself is varied."""
     return all(key.key.startswith(SEA_KEYS) for key in order.options.grid.keys)
 
 
-def regular_order(order) -> Order | None:
+def regular_order(order: Order) -> Order | None:
     """The order of a sweep over regular waves; None where the states of a map have none in common."""
     if not one_set(order):
         return None
@@ -90,14 +90,14 @@ def regular_order(order) -> Order | None:
     return waves
 
 
-def regular_ahead(order, plan) -> None:
+def regular_ahead(order: Order, plan: Plan) -> None:
     """Let workers that would wait for the last runs in a sea do those of regular waves from rest."""
     waves = regular_order(order)
     if waves is not None and not waves.faults:
         plan.spare.extend(spare_groups(sweep.STUDY.plan(waves), waves.how.out, waves.cases))
 
 
-def regular_waves(order, plan, summary) -> float:
+def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     """Do the sweep of regular waves; nothing where the states of a map have none in common. Returns seconds."""
     waves = regular_order(order)
     if waves is None:
@@ -147,7 +147,7 @@ class Folds:
         return float(ramp_m[np.argmax(jumped)]) if jumped.any() else math.nan
 
 
-def folds_of(rows, ends: Rows) -> Folds | None:
+def folds_of(rows: Rows, ends: Rows) -> Folds | None:
     """The folds of a sweep of regular waves, from the rows of its tables; None where no wave has two unlike motions."""
     waves, motions = {}, {}  # largest tensions by amplitude; by letter and amplitude
     for row in lasting(rows):
@@ -185,7 +185,7 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Rows, wave
     return 0.5 * (last + waves[place])
 
 
-def design_loads(rows, amplitude_m: float) -> list[tuple]:
+def design_loads(rows: Rows, amplitude_m: float) -> list[tuple]:
     """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
 
     A wave of the sweep within NEAR counts as this one. Else the tension of a motion lies between those of the next

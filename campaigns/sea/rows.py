@@ -32,6 +32,7 @@ from tables import (
     Column,
     Columns,
     Row,
+    Rows,
     finite,
     names,
     number_of,
@@ -120,12 +121,12 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
     return finite_row(row)
 
 
-def finite_row(row) -> Row:
+def finite_row(row: Row) -> Row:
     """The row with None in place of numbers that are not finite."""
     return {name: finite(entry) if isinstance(entry, float) else entry for name, entry in row.items()}
 
 
-def unclear_places(rows, keys: Columns) -> set[tuple]:
+def unclear_places(rows: Rows, keys: Columns) -> set[tuple]:
     """The places (values of the keys) where the mean exponent of the runs from rest is within CLEAR errors of 0."""
     exponents_at = {}  # of the seas with their errors, by place
     for row in rows:

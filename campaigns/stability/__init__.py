@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 
 from campaigns.machinery import Summary, cli
-from campaigns.study import Study
-from tables import number_of
+from campaigns.study import Order, Study
+from tables import Rows, number_of
 
 DRIFT_PERIODS = 100_000
 
@@ -40,14 +40,14 @@ class Options(cli.Options):
             faults.append(f"--drift-periods: given {self.drift_periods}; allowed: 0, or 1000 and above")
 
 
-def perform(order) -> Summary:
+def perform(order: Order) -> Summary:
     """Tasks and table."""
     from campaigns.stability import tasks
 
     return tasks.judge_cases(order)
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How the cases ended; what nobody can explain by name."""
     counts = Counter(str(row["verdict"]) for row in rows)
     verdicts = [f"{count} {word}" for word, count in counts.most_common()]

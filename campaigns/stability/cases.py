@@ -121,7 +121,7 @@ def _cases(group: str, row: dict) -> Iterator[Case]:
         yield Case(group, name.format(*values), changes, seconds, **row, quick=is_quick)
 
 
-def case_row(case, path: Path | None = None) -> Row:
+def case_row(case: Case, path: Path | None = None) -> Row:
     """The row of a case; its run is saved under `path` where one is given.
 
     Raises CampaignStopped where that cannot be written: it says nothing of the case.
@@ -140,7 +140,7 @@ def case_row(case, path: Path | None = None) -> Row:
     return row
 
 
-def _judged(case, path: Path | None) -> Row:
+def _judged(case: Case, path: Path | None) -> Row:
     changes = dict(case.changes)
     if case.check in NEEDS_PROFILES or (case.check == "stays" and changes.get("buoy", 1) is None):
         changes["output.profiles"] = True

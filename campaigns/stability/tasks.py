@@ -7,6 +7,7 @@ which cases start.
 import time
 from collections import Counter
 from functools import partial
+from pathlib import Path
 
 from campaigns.machinery import ENGINE, Store, Summary, Task, key_of, made_by, results, stage, trajectory_path
 from campaigns.stability.cases import COLUMNS, Case, all_cases, case_row, drift_case
@@ -56,7 +57,7 @@ def judge_cases(order) -> Summary:
     return Summary(rows, finished.reused, len(tasks) - finished.reused, times)
 
 
-def judged(case, path) -> Row:
+def judged(case: Case, path: Path) -> Row:
     """The row of a case, in a worker."""
     load_kernels()
     return case_row(case, path)

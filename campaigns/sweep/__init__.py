@@ -28,9 +28,22 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, grid_of, varied
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import Job, cli, write_new
-from campaigns.study import Lengths, Measures, Study
+from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import ANSWER, MESSAGE, PEAK, RUN_KEY, STATISTICS, STATUS, Row, counted, names, read_columns, read_table
+from tables import (
+    ANSWER,
+    MESSAGE,
+    PEAK,
+    RUN_KEY,
+    STATISTICS,
+    STATUS,
+    Row,
+    Rows,
+    counted,
+    names,
+    read_columns,
+    read_table,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -51,7 +64,7 @@ class Options(motions.SweepOptions):
         self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
 
-def cases(order) -> Iterator[Job]:
+def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
     grid = order.options.grid
     grid.refuse_set(order)
@@ -84,7 +97,7 @@ def cases(order) -> Iterator[Job]:
             yield Job(labels, scene, periods, duration_s)
 
 
-def measures(order) -> Measures:
+def measures(order: Order) -> Measures:
     """The row of a buoy in waves, or that of any line, after the values of the keys."""
     from campaigns.explore import rows
     from campaigns.sweep import seas
@@ -143,7 +156,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     return row
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     parameters = {
         "vary": {key.key: list(key.values) for key in order.options.grid.keys},
         "strobe_tolerance": STROBE_TOLERANCE,
@@ -154,7 +167,7 @@ def parameters(order) -> dict:
     return parameters | motions.parameters(order)
 
 
-def beside(order) -> Iterator[Callable]:
+def beside(order: Order) -> Iterator[Callable]:
     """What follows the runs over one key: the errors of their largest tensions (`campaigns.explore.errors`)."""
     if order.options.no_accuracy or len(order.options.grid.keys) > 1:
         return
@@ -164,7 +177,7 @@ def beside(order) -> Iterator[Callable]:
         yield errors
 
 
-def answer(order, rows) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """Over one key as `campaigns.explore.answer`; over two how often each regime is found, and the largest load.
 
     In a sea the statistics of its runs (`seas.sentences`).

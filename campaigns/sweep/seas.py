@@ -11,7 +11,7 @@ from campaigns.explore.load import load, place_of
 from campaigns.sea.rows import MEAN, SNAPS
 from engine.physics.sea import elevation_m
 from engine.views import snaps_of
-from tables import Column, Row
+from tables import Column, Row, Rows
 
 SURFACE = Column(
     "significant_elevation_m", "m", "4 σ_η", "four standard deviations of the surface at x = 0 after the transient", 2
@@ -35,7 +35,7 @@ def statistics(scene, columns, transient_s: float) -> Row:
     return row
 
 
-def sentences(rows, symbols: Mapping[str, str], scene) -> list[str]:
+def sentences(rows: Rows, symbols: Mapping[str, str], scene) -> list[str]:
     """The lines SEA, LOAD, TENSION, SNAPS and OPEN of a sweep.
 
     symbols: of what is varied, by column; scene: of one of the runs.
@@ -53,14 +53,14 @@ def sentences(rows, symbols: Mapping[str, str], scene) -> list[str]:
     return lines(texts)
 
 
-def _sea(rows, scene) -> str:
+def _sea(rows: Rows, scene) -> str:
     return (
         f"significant elevation {span(numbers_of(rows, SURFACE.name))} m, peak period {scene.waves.period_s:.3g} s; "
         f"one run for each value, the first {rows[0]['transient_periods']:.3g} peak periods left out (--transient)."
     )
 
 
-def _tension(rows, symbols: Mapping[str, str]) -> str:
+def _tension(rows: Rows, symbols: Mapping[str, str]) -> str:
     """The range of the mean, and where the standard deviation is least and largest."""
     ranked = sorted(rows, key=itemgetter(DEVIATION.name))
     ends = [f"{kilonewton(row[DEVIATION.name])} at {place_of(row, symbols)}" for row in (ranked[0], ranked[-1])]
@@ -69,14 +69,14 @@ def _tension(rows, symbols: Mapping[str, str]) -> str:
     return f"mean {kilonewton(min(means_N))} to {kilonewton(max(means_N))}; standard deviation {deviations}."
 
 
-def _snaps(rows, symbols: Mapping[str, str]) -> str:
+def _snaps(rows: Rows, symbols: Mapping[str, str]) -> str:
     counted = known_rows(rows, SNAPS.name)
     if not counted:
         return ""
     return f"{span(numbers_of(counted, SNAPS.name), places=0)} an hour. {snap_peaks(counted, symbols)}"
 
 
-def _open(rows, scene) -> str:
+def _open(rows: Rows, scene) -> str:
     """Runs that ended early, and what one run in one sea cannot say."""
     parts = ["one run in one sea has its largest tension by chance"]
     failures = sum(row["status"] != "ok" for row in rows)

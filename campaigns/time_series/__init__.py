@@ -174,7 +174,7 @@ def _no_fit(period: float, record) -> str:
     return ""
 
 
-def judge(order, argv: list[str]) -> int:
+def judge(order: Order, argv: list[str]) -> int:
     """Study the record, or count its snaps, print the page, write the folder. Returns the exit code."""
     if order.snaps is not None:
         return _count_snaps(order)
@@ -199,7 +199,7 @@ def judge(order, argv: list[str]) -> int:
     return cli.EXIT_OK
 
 
-def _count_snaps(order) -> int:
+def _count_snaps(order: Order) -> int:
     """Count the snaps of the record, print them, write them. Returns the exit code."""
     from campaigns.time_series.snaps import snap_page, snaps_in, write_snaps
 

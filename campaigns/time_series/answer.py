@@ -22,7 +22,7 @@ import numpy as np
 import pandas
 
 from analysis.poincare import PHASES
-from campaigns.time_series.study import MAXIMA, SAMPLES, STROBED
+from campaigns.time_series.study import MAXIMA, SAMPLES, STROBED, Study
 from engine.atomic import write_atomic
 from tables import Column, dictionary, names
 
@@ -58,7 +58,7 @@ COLUMNS = (
 DIMENSION = names(COLUMNS)[-4:]
 
 
-def page(study) -> str:
+def page(study: Study) -> str:
     """The text, without a last newline."""
     answers = answer(study)
     head = _rows([("record", answers["record"]), ("seen", answers["section"]["how"])])
@@ -100,7 +100,7 @@ def _rows(pairs: list[tuple]) -> list[str]:
     return lines
 
 
-def _measures(study) -> list[tuple]:
+def _measures(study: Study) -> list[tuple]:
     """(measure, value with its standard error, unit, where it comes from or why there is none) of each."""
     unit, short = study.record.unit, study.exponents["wolf"].reason
     # nats a second, but nats a sample
@@ -125,7 +125,7 @@ def _measures(study) -> list[tuple]:
     return rows
 
 
-def _notes(study) -> list[str]:
+def _notes(study: Study) -> list[str]:
     """What the reader could do for a better answer."""
     notes, view, record = [], study.seen, study.record
     noise, undecided = view.noise / np.ptp(record.values), study.verdict.regime == "undecided"
@@ -144,7 +144,7 @@ def _notes(study) -> list[str]:
     return notes
 
 
-def write_files(study, directory: Path, settings: dict[str, object]) -> None:
+def write_files(study: Study, directory: Path, settings: dict[str, object]) -> None:
     """Write the folder; settings: the campaign and the settings of the command, for provenance.json. Raises OSError.
 
     provenance.json is written last: a folder with it is whole.
@@ -167,7 +167,7 @@ def write_files(study, directory: Path, settings: dict[str, object]) -> None:
     write_atomic(directory / "provenance.json", _json(provenance).encode())
 
 
-def answer(study) -> dict[str, object]:
+def answer(study: Study) -> dict[str, object]:
     """What is said of a record as plain data, in numbers and in words; a number that was not found is NaN."""
     record, view, verdict, chosen = study.record, study.seen, study.verdict, study.embedding
     x, unit, count = record.values, record.unit, verdict.period
@@ -210,7 +210,7 @@ def _json(data: object) -> str:
     return json.dumps(plain, indent=2) + "\n"
 
 
-def curves(study) -> dict[str, pandas.DataFrame]:
+def curves(study: Study) -> dict[str, pandas.DataFrame]:
     """The curves behind an answer, by the name of their file."""
     record, view, spectrum = study.record, study.seen, study.spectrum
     time, frequency = f"time_{record.unit}", f"angular_frequency_rad_per_{record.unit}"

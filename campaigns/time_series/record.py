@@ -93,7 +93,7 @@ def read_record(
     return Record(x, step, unit, column, Path(path))
 
 
-def _unknown_columns(table, column: str | None, time: str | None) -> Iterator[str]:
+def _unknown_columns(table: Table, column: str | None, time: str | None) -> Iterator[str]:
     """What is wrong with the names of columns, as fault lines."""
     listed = ", ".join(table.names[:40])
     if len(table.names) > 40:
@@ -135,7 +135,7 @@ class Table:
             raise ValueError(f"{fault} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
 
 
-def _numbers(table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
+def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
     """Columns as floats (n,), by what they are called; without those that have faults, one for each way of them.
 
     places: numbers of the columns.
@@ -233,7 +233,7 @@ def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
     yield f"{fault}; allowed: {allowed}"
 
 
-def read_table(path) -> Table:
+def read_table(path: Path) -> Table:
     """The table of a file. Raises ValueError, with what is allowed, where it is none."""
     first = next(_lines(path), None)
     if first is None:
@@ -251,7 +251,7 @@ def read_table(path) -> Table:
     return table
 
 
-def _cells(path, lines: Iterable[str], mark: str | None) -> Iterator[list]:
+def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list]:
     """The cells of each line."""
     if mark is None:
         for line in lines:
@@ -264,7 +264,7 @@ def _cells(path, lines: Iterable[str], mark: str | None) -> Iterator[list]:
         raise ValueError(f"{path}: no table ({error}); allowed: {FORMAT}") from None
 
 
-def _lines(path) -> Iterator[str]:
+def _lines(path: Path) -> Iterator[str]:
     """The lines of a text file that say something."""
     if os.path.isdir(path):
         raise ValueError(f"{path}: a folder; allowed: {FORMAT}")

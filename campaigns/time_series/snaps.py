@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from analysis import Snaps, detect_snaps
+from campaigns.time_series.record import Record
 from engine.atomic import write_atomic
 from tables import ANSWER, Column, names, write_table
 
@@ -24,12 +25,12 @@ COLUMNS = (
 )
 
 
-def snaps_in(record, options: dict[str, float]) -> Snaps:
+def snaps_in(record: Record, options: dict[str, float]) -> Snaps:
     """`analysis.detect_snaps` of a record; its mean is the static tension where options do not say another."""
     return detect_snaps(record.values, record.step, **{"static_N": record.values.mean(), **options})
 
 
-def snap_page(record, found: Snaps) -> str:
+def snap_page(record: Record, found: Snaps) -> str:
     """The text: how many, by which thresholds, how large; the largest snaps."""
     lines = [f"{record.path}, column {record.column}: {found} (static: {found.static_N:.4g} N)"]
     if not len(found):

@@ -84,7 +84,7 @@ class Study:
     used: int  # samples looked at by exponents and dimension: the last of the record
 
 
-def study(record, period: float | None = None, tolerance: float | None = None) -> Study:
+def study(record: Record, period: float | None = None, tolerance: float | None = None) -> Study:
     """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
 
     tolerance: share of the range within which a motion repeats; None: 0.001, or what splines leave of a sine sampled as

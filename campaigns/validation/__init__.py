@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 import engine
 from campaigns.machinery import Plan, cli, machine, run, write_scene
-from campaigns.study import Study
+from campaigns.study import Order, Study
 from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, Case, missing
-from tables import counted, read_table, write_table
+from tables import Rows, counted, read_table, write_table
 
 
 @dataclass
@@ -38,7 +38,7 @@ class Options(cli.Options):
             faults.append(f"--only: given {' '.join(chosen)}: {reasons[0]}; allowed: a case that can be run here")
 
 
-def perform(order):
+def perform(order: Order):
     """All runs, side by side; then each case beside its source."""
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
@@ -55,7 +55,7 @@ def perform(order):
     return summary
 
 
-def parameters(order) -> dict:
+def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import version
     from campaigns.accuracy.plan import PEERS
 
@@ -64,7 +64,7 @@ def parameters(order) -> dict:
     return {"cases": [case.name for case in order.options.cases], "peers": peers, "machine": machine()}
 
 
-def answer(order, rows) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How many cases hold, which miss and by how much, the one nearest to its bar, what was not run."""
 
     judged = read_table(order.how.out / "cases.csv")
@@ -84,7 +84,7 @@ def answer(order, rows) -> Iterator[str]:
         yield f"Not run: {', '.join(_cases(rows_of_verdicts[NOT_RUN]))}."
 
 
-def _cases(rows) -> dict[str, None]:
+def _cases(rows: Rows) -> dict[str, None]:
     """The cases of rows, each once, in their order."""
     return dict.fromkeys(row["case"] for row in rows)
 

@@ -82,7 +82,7 @@ CASES = {case.name: case for case in all_cases()}
 QUICK = tuple(case.name for case in CASES.values() if case.quick)
 
 
-def own_jobs(case) -> Iterator[Job]:
+def own_jobs(case: Case) -> Iterator[Job]:
     """Runs of the engine."""
     from engine import load_scene
 
@@ -98,7 +98,7 @@ def own_jobs(case) -> Iterator[Job]:
         yield Job({"run": ", ".join(words)}, scene, duration_s=length_s)
 
 
-def peer_jobs(case) -> Iterator[Job]:
+def peer_jobs(case: Case) -> Iterator[Job]:
     """A run of ours and one of another code, on a work of `campaigns.accuracy`."""
     from campaigns.accuracy.jobs import other_code, scene_of, sources_of, version
     from campaigns.accuracy.plan import BY_NAME
@@ -111,7 +111,7 @@ def peer_jobs(case) -> Iterator[Job]:
     yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=maker)
 
 
-def missing(case) -> str:
+def missing(case: Case) -> str:
     """Why a case is not run, "" where it is."""
     if case.family == "peer":
         from campaigns.accuracy.jobs import version
@@ -123,7 +123,7 @@ def missing(case) -> str:
     return case.not_run
 
 
-def peer_of(case):
+def peer_of(case: Case):
     """The other code of a case (`campaigns.accuracy.plan.Peer`)."""
     from campaigns.accuracy.plan import PEERS
 
@@ -157,6 +157,6 @@ def jobs(cases: Iterable[Case]) -> list[Job]:
     return sorted(by_key.values(), key=lambda job: -size_of(job))
 
 
-def size_of(job) -> float:
+def size_of(job: Job) -> float:
     """About how long a run takes: its length times its nodes, and by these again where they shorten the steps."""
     return job.duration_s * job.scene.tether.nodes ** (2 if job.scene.solver.courant else 1)

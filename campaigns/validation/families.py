@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from campaigns.validation.cases import DATA, period_of
+from campaigns.validation.cases import DATA, Case, period_of
 from campaigns.validation.exact import catenary, frequencies
 from engine import Trajectory
 from engine.physics.sea import rows_of
@@ -72,7 +72,7 @@ def span(values: np.ndarray, unit: str) -> str:
     return f"{values.min():.2f} to {values.max():.2f} {unit}"
 
 
-def measured_history(case, runs: Sequence[Trajectory]) -> Outcome:
+def measured_history(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension over a period against a measured one, both averaged over periods; rms as a share of their range."""
     run, period_s = runs[0], period_of(runs[0].scene)
     record = table("lindahl_history.csv")
@@ -86,7 +86,7 @@ def measured_history(case, runs: Sequence[Trajectory]) -> Outcome:
     return Outcome(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.3f} s")
 
 
-def measured_maxima(case, runs: Sequence[Trajectory]) -> Outcome:
+def measured_maxima(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Mean of the maxima of the last periods against measured ones, one a run."""
     rows = {(period, radius): largest for period, radius, largest in table("lindahl_maxima.csv")}
     motions = [run.scene.end.motion for run in runs]
@@ -122,7 +122,7 @@ def mean_maximum(time_s: np.ndarray, values: np.ndarray, period_s: float, rounds
     return float(np.mean([values[back == i].max() for i in range(rounds)]))
 
 
-def computed_history(case, runs: Sequence[Trajectory]) -> Outcome:
+def computed_history(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension of the last period against that of another code, along its record; rms in kN.
 
     With the option settled_s the outcome has the rms from that time on, too, because a record may not be periodic where
@@ -145,14 +145,14 @@ def computed_history(case, runs: Sequence[Trajectory]) -> Outcome:
     return Outcome(numbers, [("", time_s, ours, theirs)], f"ours shifted by {shift_s:.2f} s")
 
 
-def resting_tension(case, runs: Sequence[Trajectory]) -> Outcome:
+def resting_tension(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Top tension at rest against a printed number."""
     tension_kN, right = 1e-3 * float(runs[0].columns["tension_top_N"][0]), case.options["tension_kN"]
     numbers = {"tension at rest": Number(f"{tension_kN:.4g} kN", f"{right:.4g} kN", abs(tension_kN - right))}
     return Outcome(numbers, [])
 
 
-def elastic_catenary(case, runs: Sequence[Trajectory]) -> Outcome:
+def elastic_catenary(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Shape and tension at rest against the closed form (`campaigns.validation.exact`)."""
     lines, scene = runs[0].profiles, runs[0].scene
     exact = catenary(scene)
@@ -174,7 +174,7 @@ def in_metres(place: np.ndarray) -> str:
     return f"{x:.4f}, {z:.4f} m"
 
 
-def free_motion(case, runs: Sequence[Trajectory]) -> Outcome:
+def free_motion(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Peaks of the spectrum of a line that was plucked at its end, against the modes of the elastic catenary."""
     lines, count = runs[0].profiles, case.options["modes"]
     free = lines.time_s >= case.options["after_s"]
@@ -199,7 +199,7 @@ def peak_near(at: np.ndarray, power: np.ndarray, frequency: float) -> float:
     return float(at[top] + 0.5 * (left - right) / (left - 2.0 * middle + right) * (at[1] - at[0]))
 
 
-def breaking_line(case, runs: Sequence[Trajectory]) -> Outcome:
+def breaking_line(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Strain along the line against the exact motion by characteristics; mean over line and time."""
     from campaigns.accuracy.rows import strain_error
     from campaigns.breaking_line.theory import theory_of
@@ -213,7 +213,7 @@ def breaking_line(case, runs: Sequence[Trajectory]) -> Outcome:
     return Outcome(numbers, [("", lines.s_m, strain, exact)])
 
 
-def taut_buoy(case, runs: Sequence[Trajectory]) -> Outcome:
+def taut_buoy(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Surge and top tension of a taut buoy in a low sea, wave by wave, against its two linear oscillators.
 
     The sphere of mass M + M_a is driven by (rho V + M_a) dU/dt of a wave at its place, on a spring: across the line
@@ -248,7 +248,7 @@ def amplitudes(time_s: np.ndarray, values: np.ndarray, omega: np.ndarray) -> np.
     return np.hypot(*parts.reshape(2, -1))
 
 
-def peer(case, runs: Sequence[Trajectory]) -> Outcome:
+def peer(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Distance of the buoy from its anchor against that of another code; rms as a share of its range."""
     ours, theirs = [run.columns["radius_m"] for run in runs]
     error = 100.0 * rms(ours - theirs) / float(np.ptp(theirs))
@@ -256,7 +256,7 @@ def peer(case, runs: Sequence[Trajectory]) -> Outcome:
     return Outcome(numbers, [("", runs[0].columns["time_s"], ours, theirs)])
 
 
-def whoi_mine(case, runs: Sequence[Trajectory]) -> Outcome:
+def whoi_mine(case: Case, runs: Sequence[Trajectory]) -> Outcome:
     """Shape and tension at rest in a current against the printed table."""
     rows, lines = table("whoi_mine.csv"), runs[0].profiles
     s, x, z = rows[:, :3].T

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.record import SAMPLE_S, nothing, sampled, system
-from engine import Trajectory
+from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 DECK = """---------------------- CableDyn Input File ----------------------
@@ -35,7 +35,7 @@ Point2pz
 """
 
 
-def simulate(scene, duration_s: float, segments: int, step_s: float) -> Trajectory:
+def simulate(scene: Scene, duration_s: float, segments: int, step_s: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places, or the program's own words where it fails."""
     short = _program(_deck(scene, segments, step_s, 2 * step_s))
     wall_s, fault, table = _program(_deck(scene, segments, step_s, duration_s))

@@ -29,7 +29,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.peers.record import SAMPLE_S, sampled, system, volume
-from engine import Trajectory
+from engine import Scene, Trajectory
 from engine.physics.waves import wave_number
 
 BED = -100.0  # m: MoorDyn's still water level is z = 0, far above the buoy
@@ -102,7 +102,7 @@ def airy(scene):
     return water
 
 
-def simulate(scene, duration_s: float, segments: int, steps_per_period: float) -> Trajectory:
+def simulate(scene: Scene, duration_s: float, segments: int, steps_per_period: float) -> Trajectory:
     """A run as the engine's record: a Trajectory of the buoy's places."""
     periods = round(duration_s / scene.waves.period_s)
     with silent(), np.errstate(all="ignore"):  # a run that ends in NaN complains at length

@@ -23,7 +23,7 @@ import time
 import numpy as np
 
 from campaigns.accuracy.peers.record import as_trajectory, nothing
-from engine import Trajectory
+from engine import Scene, Trajectory
 from engine.arrays import Stage
 from engine.compiled import kernel
 from engine.dimensions import size_of
@@ -106,7 +106,7 @@ class Equations:
         return self.J.copy()
 
 
-def simulate(scene, duration_s: float, nodes: int, rtol: float, method: str) -> Trajectory:
+def simulate(scene: Scene, duration_s: float, nodes: int, rtol: float, method: str) -> Trajectory:
     """One run of solve_ivp: a Trajectory with the places of the upper end and, if the scene has them, strain profiles.
 
     method: "Radau" or "BDF". rtol: relative tolerance; the absolute tolerance is rtol/100, for strains of the order

@@ -13,7 +13,7 @@ import numpy as np
 
 from campaigns.figure_data import Array, Source, source
 from campaigns.machinery import trajectory_path
-from campaigns.paper.measured import LeftOut, Plan
+from campaigns.paper.measured import LeftOut, Parts, Plan
 from engine.natural_frequencies import natural_frequencies
 from engine.views import carried, strobed_radius
 from tables import LARGE, SMALL
@@ -24,7 +24,7 @@ WAVES = {"large": LARGE, "small": SMALL}  # in the order of the paper's key
 LEAST_POINTS = 20
 
 
-def running_exponents(parts) -> Plan:
+def running_exponents(parts: Parts) -> Plan:
     """Figure 14."""
     runs = {name: parts.of_buoy(steepness) for name, steepness in WAVES.items()}
     for name, (trajectory, _) in runs.items():
@@ -73,7 +73,7 @@ def _thinned(periods: np.ndarray) -> np.ndarray:
     return np.unique(np.concatenate([np.arange(first), np.round(later).astype(int) - 1])).clip(max=len(periods) - 1)
 
 
-def sections(parts) -> Plan:
+def sections(parts: Parts) -> Plan:
     """Figure 19."""
     trajectory, origin = parts.of_buoy(LARGE)
     points = strobed_radius(trajectory, int(parts.part("buoy").provenance["transient"]))
@@ -84,7 +84,7 @@ def sections(parts) -> Plan:
     return Plan(title, (origin, reduced), lambda: _sections(trajectory, points, states, numbers))
 
 
-def _oscillator(parts) -> tuple[np.ndarray, dict, Source]:
+def _oscillator(parts: Parts) -> tuple[np.ndarray, dict, Source]:
     """Strobed states (m, 2) of eq. (33), its numbers, and where they are from."""
     from scipy.io import netcdf_file
 

@@ -14,7 +14,7 @@ import numpy as np
 from campaigns.breaking_line.lines import named
 from campaigns.figure_data import Array
 from campaigns.judge import samples_of
-from campaigns.paper.measured import LeftOut, Plan
+from campaigns.paper.measured import LeftOut, Parts, Plan
 from campaigns.paper.measures import WINDOW, in_window
 from engine.natural_frequencies import natural_frequencies
 from tables import BODIES, LARGE, SMALL
@@ -31,7 +31,7 @@ MOTIONS = {"radial": ("radius_m", "r/r_0", "1"), "angular": ("angle_rad", "theta
 WAVES = {"small": SMALL, "large": LARGE}  # in the order of the paper's key
 
 
-def breaking(parts, cases: tuple[str, ...], quantity: str) -> Plan:
+def breaking(parts: Parts, cases: tuple[str, ...], quantity: str) -> Plan:
     """Figures 2-4 (cases FAST) and 5-7 (SLOW); quantity: a key of SHOWN."""
     part = parts.part("breaking_line")
     runs = {case: parts.run(part, f"case {named(case)}", case=case, kind="case") for case in cases}
@@ -59,7 +59,7 @@ def _breaking(runs: dict, quantity: str) -> dict[str, Array]:
     return arrays
 
 
-def history(parts, steepness: float, side: str) -> Plan:
+def history(parts: Parts, steepness: float, side: str) -> Plan:
     """Figures 9-11, 13, 15 and 16; side: "tension", "radial" or "angular"."""
     trajectory, source = parts.of_buoy(steepness)
     return Plan(f"{TITLES[side]} at kA = {steepness:g}", (source,), lambda: history_arrays(trajectory, side))
@@ -94,7 +94,7 @@ def history_arrays(trajectory, side: str) -> dict[str, Array]:
     return arrays | {"angle_rad": (dimension, shown["angle_rad"], "rad", "angle of the buoy from the vertical")}
 
 
-def spectra(parts, steepness: float, sides: tuple[str, ...]) -> Plan:
+def spectra(parts: Parts, steepness: float, sides: tuple[str, ...]) -> Plan:
     """Figures 12, 17 and 18: eq. (31) of the radial and the angular motion."""
     trajectory, source = parts.of_buoy(steepness)
     if not in_window(trajectory):
@@ -134,7 +134,7 @@ def _spectra(trajectory, sides: tuple[str, ...]) -> dict[str, Array]:
     return arrays
 
 
-def offplane_histories(parts) -> Plan:
+def offplane_histories(parts: Parts) -> Plan:
     """Figure 20."""
     part, runs = parts.part("out_of_plane"), {}
     for name, kA in WAVES.items():

@@ -9,7 +9,7 @@ from itertools import groupby
 
 from campaigns.answers import greatest
 from campaigns.explore.motions import from_rest
-from campaigns.paper.measured import STRANGE, matching
+from campaigns.paper.measured import STRANGE, Results, matching
 from campaigns.paper.measures import EARLY, WINDOW
 from campaigns.paper.statements import judging
 from campaigns.paper.statements.judging import (
@@ -31,13 +31,13 @@ RESONANT = 0.1  # relative distance of a ratio of natural frequencies from 1, 2 
 NEGLIGIBLE = 0.01  # share of the variance below which a coupling is negligible
 
 
-def always_taut(results) -> Measured:
+def always_taut(results: Results) -> Measured:
     """Least top tension [N], of the whole long run and of the short ones after their transients."""
     short = [(place, number_of(row, "tension_top_min_N")) for place, row in everywhere(results, SMALL)]
     return each([(f"kA = {SMALL:g}, {LONG}", results.number("long_tension_min_N")), *short], ".4g")
 
 
-def regular(results) -> Measured:
+def regular(results: Results) -> Measured:
     """The regime of the long run, and of the short ones."""
     rows, long = everywhere(results, SMALL), results.buoy.get(SMALL)
     if not long and not rows:
@@ -49,7 +49,7 @@ def regular(results) -> Measured:
     return Measured(judging.regimes(places, lambda regime: regime.startswith("period-")), words)
 
 
-def uncoupled(results) -> Measured:
+def uncoupled(results: Results) -> Measured:
     """Ratio of the natural frequencies, and shares of the variance that lie at the frequency of the other motion."""
     ratio = results.number("estimate_radial_radps") / results.number("estimate_pendulum_radps")
     into_r, into_theta = results.number("radial_coupled"), results.number("angular_coupled")
@@ -66,7 +66,7 @@ def uncoupled(results) -> Measured:
     return Measured(checks, words)
 
 
-def on_estimates(results) -> Measured:
+def on_estimates(results: Results) -> Measured:
     """Frequencies seen early and in the window of fig. 12, against the estimates; its spectrum tells none closer than
     a bin apart."""
     wave = results.number("estimate_wave_radps")
@@ -88,7 +88,7 @@ def on_estimates(results) -> Measured:
     )
 
 
-def exponent_to_zero(results) -> Measured:
+def exponent_to_zero(results: Results) -> Measured:
     """The exponent of the long run by two methods."""
     row = results.buoy.get(SMALL, {})
     wolf, error = number_of(row, WOLF_EXPONENT), number_of(row, WOLF_ERROR)
@@ -99,7 +99,7 @@ def exponent_to_zero(results) -> Measured:
     return Measured(passed(("Wolf's method", abs(wolf) <= NOT_IN_DOUBT * error), ("tangent dynamics", tangent)), words)
 
 
-def doubled_buoy(results) -> Measured:
+def doubled_buoy(results: Results) -> Measured:
     """Rms change of r over its range, on twice the elements, early and over all of the record."""
     checks = []
     for row in results.doubled:
@@ -120,7 +120,7 @@ def by_motion(rows) -> list[Row]:
     return sorted(good(rows), key=lambda row: row.get("motion") or "")
 
 
-def threshold(results) -> Measured:
+def threshold(results: Results) -> Measured:
     """From which wave steepness on the line goes slack, in every motion of the sweep."""
     rows = by_motion(results.sweep)
     if not rows:
@@ -135,7 +135,7 @@ def threshold(results) -> Measured:
     return Measured(checks, f"{spans([*map(is_slack, rows)], rows)} of {spans([True] * len(rows), rows)}")
 
 
-def chaos_beyond(results) -> Measured:
+def chaos_beyond(results: Results) -> Measured:
     """The regimes of all motions whose line goes slack; of those from rest the long runs where there are both."""
     long = {row["steepness"]: row for row in good(results.buoy.values())}
     swept = []
@@ -161,7 +161,7 @@ def chaos_beyond(results) -> Measured:
     return Measured(passed(*checks), "; ".join(words))
 
 
-def is_slack(row) -> bool:
+def is_slack(row: Row) -> bool:
     """Whether the line goes slack at all."""
     return number_of(row, "slack_fraction") > 0.0
 
@@ -186,7 +186,7 @@ def _span(motion: str, steepnesses: list[float]) -> str:
     return words
 
 
-def positive_exponent(results) -> Measured:
+def positive_exponent(results: Results) -> Measured:
     """The exponent of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
     deciding, exponents = {}, []
@@ -206,7 +206,7 @@ def positive_exponent(results) -> Measured:
     return Measured(passed(*checks), sentence)
 
 
-def chaotic(results) -> Measured:
+def chaotic(results: Results) -> Measured:
     """The regime of the long run, and of the short ones; at the shipped depth the long run decides."""
     long, depth = results.buoy.get(LARGE), f"H = {results.depth():g} m"
     short = everywhere(results, LARGE)
@@ -222,7 +222,7 @@ def chaotic(results) -> Measured:
     return Measured(judging.regimes(sorted(deciding.items()), "chaotic".__eq__), sentence)
 
 
-def never_repeats(results) -> Measured:
+def never_repeats(results: Results) -> Measured:
     """The strobed period of the short runs; none where the motion does not repeat."""
     periods, checks = [], []
     for row in results.over_depth(LARGE):
@@ -232,7 +232,7 @@ def never_repeats(results) -> Measured:
     return Measured(passed(*checks), told(periods, "g"))
 
 
-def no_dominant_mode(results) -> Measured:
+def no_dominant_mode(results: Results) -> Measured:
     """Largest share of the variance on one bin of eq. (31), of r and theta."""
     rows, long = dict(everywhere(results, LARGE)), results.buoy.get(LARGE)
     if long is not None:
@@ -254,13 +254,13 @@ def no_dominant_mode(results) -> Measured:
     return Measured(checks, words)
 
 
-def _line_in_words(name: str, side: str, row) -> str:
+def _line_in_words(name: str, side: str, row: Row) -> str:
     """The largest share of the variance of r or theta on one bin, and where the bin is."""
     share, frequency = number_of(row, f"{side}_line"), number_of(row, f"{side}_at")
     return f"{name} {shown(share, '.1%')} at {shown(frequency, '.3g')} of the waves' frequency"
 
 
-def strange(results) -> Measured:
+def strange(results: Results) -> Measured:
     """Largest exponent and Kaplan-Yorke dimension of the attractor of eq. (33)."""
     numbers = [results.number(name) for name in STRANGE]
     if not all(map(math.isfinite, numbers)):
@@ -275,22 +275,22 @@ def strange(results) -> Measured:
     return Measured(checks, f"{words}dimension {shown(dimension, '.3f')} ± {shown(error, '.3f')}")
 
 
-def pushed(results) -> list[Row]:
+def pushed(results: Results) -> list[Row]:
     """Runs of the large wave in three dimensions that were pushed out of the plane and ended as asked, by depth."""
     rows = sorted(_spatial(results, results.plane_large), key=lambda row: row["depth_m"])
     return [row for row in rows if row["seed_direction"] != "along" and not row["profiles"]]
 
 
-def _spatial(results, steepness: float) -> list[Row]:
+def _spatial(results: Results, steepness: float) -> list[Row]:
     return matching(results.plane, {"status": "ok", "steepness": steepness, "dimensions": 3})
 
 
-def grows(row) -> bool:
+def grows(row: Row) -> bool:
     """Whether the motion of buoy or rope across the plane grows exponentially."""
     return "growth" in (row["buoy_motion"], row["rope_motion"])
 
 
-def planar(results) -> Measured:
+def planar(results: Results) -> Measured:
     """Largest lateral distance of any node of runs that were pushed along the waves."""
     farthest = greatest(matching(results.plane, {"status": "ok", "seed_direction": "along"}), "rope_lateral_max_m")
     if farthest is None:
@@ -299,7 +299,7 @@ def planar(results) -> Measured:
     return Measured([("push along the waves", distance_m)], f"{shown(distance_m, '.3g')} m")
 
 
-def small_decays(results) -> Measured:
+def small_decays(results: Results) -> Measured:
     """How many runs of the small wave grow, of those in three dimensions that ended as asked."""
     small = min((row["steepness"] for row in results.plane), default=LARGE)
     rows = _spatial(results, small)
@@ -311,7 +311,7 @@ def small_decays(results) -> Measured:
     return Measured([("all pushes, depths, stiffnesses, grids", growing)], words)
 
 
-def large_grows(results) -> Measured:
+def large_grows(results: Results) -> Measured:
     """At which depths a run of the large wave grows."""
     rows = pushed(results)
     if not rows:
@@ -324,7 +324,7 @@ def large_grows(results) -> Measured:
     return Measured(passed(*checks.items()), words)
 
 
-def comparable(results) -> Measured:
+def comparable(results: Results) -> Measured:
     """Largest lateral distance of buoy and rope over half the range of the buoy in the plane."""
     checks, words = [], []
     for body in BODIES:
@@ -339,7 +339,7 @@ def comparable(results) -> Measured:
     return Measured(checks, ", ".join(words))
 
 
-def spatial(results) -> Measured:
+def spatial(results: Results) -> Measured:
     """Largest lateral distance of the rope, m, at every depth."""
     largest = {}
     for row in pushed(results):

@@ -6,6 +6,7 @@
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
+from campaigns.paper.measured import Results
 from campaigns.statements import Check, Measured, formula, grouped, shown
 from tables import LARGE, OPEN, TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
 
@@ -16,7 +17,7 @@ LONG = "the long run"
 
 
 def numbers(
-    results,
+    results: Results,
     of: dict[str, str],
     form: str,
     judge: str = "",
@@ -46,7 +47,7 @@ def numbers(
     return Measured(checks, ", ".join(words))
 
 
-def depths(results, of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Measured:
+def depths(results: Results, of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Measured:
     """A check for every depth, at the large wave, of a formula over the row and the results' numbers.
 
     also: formulas that are told besides; judge: the formula that the rule judges.
@@ -89,23 +90,23 @@ def exponent(row: Row | None) -> str:
     return f"{shown(value, '.3f')} ± {shown(number_of(row, TANGENT_ERROR), '.3f')}"
 
 
-def positive(row) -> bool:
+def positive(row: Row) -> bool:
     """Whether that exponent is above zero beyond doubt."""
     return number_of(row, TANGENT_EXPONENT) - NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) > 0.0
 
 
-def settled(row) -> bool:
+def settled(row: Row) -> bool:
     """Whether the run says if its exponent is positive: by the exponent itself, or by a regime that excludes it."""
     below = number_of(row, TANGENT_EXPONENT) + NOT_IN_DOUBT * number_of(row, TANGENT_ERROR) < 0.0
     return positive(row) or below or row["regime"] not in UNDECIDED
 
 
-def at(row) -> str:
+def at(row: Row) -> str:
     """The depth of a row, in words."""
     return f"H = {row['depth_m']:g} m"
 
 
-def everywhere(results, steepness: float) -> list[Place]:
+def everywhere(results: Results, steepness: float) -> list[Place]:
     """The short runs of a wave by depth: as shipped, then with a buoy that loses buoyancy out of the water."""
     places = [(at(row), row) for row in results.over_depth(steepness)]
     submergences = dict.fromkeys(row["submergence"] for row in results.dependence)
