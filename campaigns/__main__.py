@@ -30,7 +30,7 @@ def tether(argv: list[str] | None = None) -> int:
     return _run("tether", COMMANDS, argv)
 
 
-def _run(called: str, commands: dict[str, tuple[str, str]], argv: list[str] | None) -> int:
+def _run(called: str, commands: dict[str, tuple], argv: list[str] | None) -> int:
     argv = sys.argv[1:] if argv is None else argv
     campaigns = _campaigns()
     if not argv or argv[0] in ("-h", "--help"):
@@ -67,7 +67,7 @@ def _parser_of(name: str) -> argparse.ArgumentParser:
 def installed() -> int:
     """The entry point of `tether` (pyproject.toml)."""
     if "_ARGCOMPLETE" in os.environ:  # the Tab key of a shell
-        from campaigns.machinery.completion import complete
+        from campaigns.completion import complete
 
         complete([*COMMANDS, *_campaigns()], _parser_of)
     open_streams()

@@ -4,20 +4,14 @@ The file opens in xarray and in any netCDF tool; arrays carry `units` and `long_
 results they are from. The same content gives the same bytes: there is no date and no host in the file.
 """
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from campaigns.machinery.folder import SEAL, read_sealed, write_sealed
-
-if TYPE_CHECKING:
-    import xarray
+from campaigns.machinery import SEAL, read_sealed, write_sealed
 
 Array = tuple[tuple[str, ...], object, str, str]  # dimensions, values, unit, long name
 Source = dict[str, object]  # one result behind a figure, as `source` makes it
@@ -33,8 +27,8 @@ def source(label: str, folder: Path, path: Path, key: str, settings: str, run_s:
     return {"label": label, "file": file, "sha256": digest, "key": key, "settings": settings, "run_s": float(run_s)}
 
 
-def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], made_by: str) -> xarray.Dataset:
-    """The labelled content of a data file.
+def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], made_by: str):
+    """The labelled content of a data file, an xarray.Dataset.
 
     arrays: name -> (dimensions, values, unit, long name); no dimensions for a single number. made_by: the key of what
     the file was made from and with, by which `attribute_of` recognises it.
@@ -54,7 +48,7 @@ def dataset(title: str, arrays: dict[str, Array], sources: tuple[Source, ...], m
     return xarray.Dataset(variables, attrs=attributes)
 
 
-def store(path: Path, content: xarray.Dataset) -> None:
+def store(path: Path, content) -> None:
     """Write the file, sealed (`folder.write_sealed`), whole or not at all. Raises OSError."""
     content = content.assign_attrs(seal=SEAL.decode())
     write_sealed(path, bytes(content.to_netcdf(format="NETCDF3_64BIT", engine="scipy")))

@@ -2,8 +2,7 @@
 
 from functools import partial
 
-from campaigns.machinery.long_runs import TANGENTS, once, until_judged
-from campaigns.machinery.plan import Job
+from campaigns.machinery import TANGENTS, Job, once, until_judged
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carried, carries_tangents, exponent, state_of, verdict
 
 LEAST_JUDGED = 40  # wave periods after the transient; a shorter record is not judged, and has no exponents
@@ -14,6 +13,11 @@ UNFOLLOWED = {TANGENTS: 0, LATERAL: False}  # changes of a scene: without pertur
 def periods_of(scene, columns) -> float:
     """Wave periods of a record."""
     return (len(columns["time_s"]) - 1) * scene.sample_step_s() / scene.waves.period_s
+
+
+def samples_of(scene, periods: float) -> int:
+    """Samples in so many wave periods."""
+    return round(periods * scene.waves.period_s / scene.sample_step_s())
 
 
 def tangent_of(trajectory, transient_periods: int):

@@ -11,9 +11,10 @@ import re
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.folder import write_new
+from campaigns.machinery import write_new
 from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS, STATEMENTS, csv_of, listed
 
 NOT_SHOWN = "No run shows it."
@@ -64,7 +65,7 @@ class Statement:
         """Of "holds if": where it holds, and where not; else nothing."""
         if self.verdict != HOLDS_IF:
             return ""
-        places: dict[bool, list[str]] = {True: [], False: []}
+        places = {True: [], False: []}
         for where, holds in self.checks:
             places[holds].append(where)
         return f"{grouped(places[True])}; not {grouped(places[False])}"
@@ -99,7 +100,7 @@ def as_csv(statements: Sequence[Statement]) -> bytes:
 def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim]:
     """The claims of a .toml file by name, in its order; a claim without a name has its text for one.
 
-    measures: what `by` may be: a measure, or a function that makes one of the entries that are not fields of a Claim.
+    measures: what `by` may be: a function of the results, and of the entries that are not fields of a Claim.
     """
     with open(path, "rb") as file:
         table = tomllib.load(file)
@@ -109,12 +110,12 @@ def read_claims(path: Path, measures: Mapping[str, Callable]) -> dict[str, Claim
         fields = {field: entry.pop(field) for field in ("place", "text", "quantity", "threshold")}
         holds, evidence = _test(entry.pop("rule")), entry.pop("evidence").format(**table["words"])
         if entry:
-            measure = measure(**entry)
+            measure = partial(measure, **entry)
         claims[name] = Claim(**fields, measure=measure, holds=holds, evidence=evidence)
     return claims
 
 
-def _test(rule: str) -> Callable[[float], bool]:
+def _test(rule: str) -> Callable:
     """A rule in words, "within 0.1", as a test of a number; "met": the measure has decided itself, 1 or 0."""
     if rule == "met":
         rule = "at least 1"
@@ -131,10 +132,10 @@ def _test(rule: str) -> Callable[[float], bool]:
     return tests[kind]
 
 
-def formula(text: str) -> Callable[[Mapping[str, object]], float]:
+def formula(text: str) -> Callable:
     """A formula over the numbers of a row, "a / b - 1"; nan where the row lacks one."""
 
-    def of(row: Mapping[str, object]) -> float:
+    def of(row):
         import pandas
 
         try:
@@ -170,7 +171,7 @@ def grouped(places: list[str]) -> str:
     >>> grouped(["H = 21 m", "H = 22 m", "H = 22 m with a cap"]), grouped(["r", "theta"])
     ('H = 21 and 22 m, and H = 22 m with a cap', 'r and theta')
     """
-    groups: dict[tuple[str, str], list[str]] = {}
+    groups = {}  # numbers by the words before and after them
     for place in places:
         before, number, after = place, "", ""
         part = re.fullmatch(r"(\D*)(\d\S*)(.*)", place)

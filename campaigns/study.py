@@ -12,12 +12,8 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import engine
-from campaigns.machinery import cli, session
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, made_by, run, session, stage, write_scene
 from campaigns.machinery.finished import finished, order_key
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.progress import stage
-from campaigns.machinery.runner import run, write_scene
 from tables import Columns, Rows
 
 
@@ -70,15 +66,15 @@ class Lengths:
         order.given_transient = transient
         if self.budget and periods is None:
             if transient is not None:
-                order.tell([f"--transient: given {transient} without --periods; allowed: with --periods"])
-            order.looks, order.periods, order.transient = True, values.budget, None
+                order.tell(f"--transient: given {transient} without --periods; allowed: with --periods")
+            order.look_by_look(values.budget)
             return
         if self.budget and values.budget != self.budget:
-            order.tell([f"--budget: given {values.budget} with --periods; allowed: without --periods"])
+            order.tell(f"--budget: given {values.budget} with --periods; allowed: without --periods")
         if transient is None:
             transient = min(self.transient, periods // self.share)
         if transient >= periods:
-            order.tell([f"--transient: given {transient} of {periods} periods; allowed: less than --periods"])
+            order.tell(f"--transient: given {transient} of {periods} periods; allowed: less than --periods")
         order.periods, order.transient = periods, transient
 
 
@@ -89,7 +85,7 @@ class Order:
     how: cli.Running
     options: object = None  # the study's own (`Study.options`)
     name: str = ""  # of the scene
-    changes: dict[str, object] = field(default_factory=dict)  # of the scene, by --set
+    changes: dict = field(default_factory=dict)  # of the scene, by --set
     periods: int | None = None  # of a run, None without `Study.lengths`; at most, where `looks`
     transient: int | None = 0  # wave periods left out of the analysis; None: found by each run
     given_transient: int | None = None  # as the command line says, None: not at all
@@ -104,7 +100,11 @@ class Order:
         """The scenes of the cases."""
         return [case.scene for case in self.cases]
 
-    def tell(self, faults: Iterable[str]) -> None:
+    def look_by_look(self, budget: int) -> None:
+        """Let runs take as long as their regime needs, but no more wave periods than the budget."""
+        self.periods, self.looks, self.transient = budget, True, None
+
+    def tell(self, *faults: str) -> None:
         """Add faults, each once."""
         self.faults.extend(fault for fault in dict.fromkeys(faults) if fault not in self.faults)
 
@@ -113,7 +113,8 @@ class Order:
         try:
             return engine.load_scene(self.name, {**self.changes, **(changes or {})})
         except engine.SceneError as error:
-            self.tell(error.faults if tell else ())
+            if tell:
+                self.tell(*error.faults)
             return None
 
     def scene(self, changes: Mapping[str, object], duration_s: float | None = None) -> "engine.Scene | None":
@@ -130,7 +131,7 @@ class Order:
             return None
         if duration_s is None and scene.waves is not None:
             duration_s = self.periods * scene.waves.period_s
-        self.tell(doubts(scene, duration_s))
+        self.tell(*doubts(scene, duration_s))
         if scene.waves is None:
             return scene
         from engine.physics.sea import enough_waves
@@ -146,21 +147,6 @@ class Order:
         return Job(labels, scene, self.periods)
 
 
-def no_parameters(order: Order) -> Mapping[str, object]:
-    """Nothing beside the scene, its changes and the lengths."""
-    return {}
-
-
-def nothing_after(order: Order) -> Iterable[Callable[[Plan, Summary], float]]:
-    """Nothing is done after the runs."""
-    return ()
-
-
-def usual_runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
-    """`runner.run`: every run of the order, as its scene begins."""
-    return run(plan, jobs)
-
-
 @dataclass(frozen=True)
 class Study:
     """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
@@ -171,7 +157,7 @@ class Study:
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
-    parameters: Callable[[Order], Mapping[str, object]] = no_parameters  # in its provenance, beside those of scenes
+    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
     answer: Callable[[Order, Rows], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
@@ -184,10 +170,11 @@ class Study:
     lengths: Lengths | None = None  # None: its cases have lengths of their own
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    runs: Callable = usual_runs  # what does the runs, as of `usual_runs`
+    # what does the runs; without it each of them is done as its scene begins
+    runs: Callable[[Order, Plan, Jobs], Summary] = lambda order, plan, jobs: run(plan, jobs)
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = nothing_after
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
@@ -224,7 +211,7 @@ class Study:
         as_shipped = not self.scene or (not values.set and values.scene == self.scene)
         if values.mistyped and as_shipped:
             return order  # answered before anything heavy is loaded
-        order.options.read(how.out, faults)
+        order.options.read(faults)
         if self.cases is None or (faults and as_shipped):
             return order
         order.name = values.scene
@@ -244,12 +231,12 @@ class Study:
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
 
-    def order(self, how: cli.Running, scene: str, changes: dict[str, object], /, **options: object) -> Order:
+    def order(self, how: cli.Running, scene: str, changes: dict, /, **options: object) -> Order:
         """The order of a program, in values instead of words; `Order.faults` has what is wrong with it.
 
         options: of this study by name, as `read` leaves them; the others have their usual values.
         """
-        faults: list[str] = []
+        faults = []
         values = cli.split(self.parser(), [], faults)
         vars(values).update(options)
         order = Order(how, cli.options_of(self.options, values), scene, changes, faults=faults)
@@ -267,7 +254,7 @@ class Study:
         refused = []
         if base is not None:
             refused = list(without_waves(order.name, base))
-        order.tell(refused)
+        order.tell(*refused)
         if not refused:
             order.cases = [case for case in self.cases(order) if case is not None]
 
@@ -301,7 +288,7 @@ class Study:
         measures = self.measures(order)
         maker = ""
         if measures.sources:
-            maker = made_by(dict(measures.settings), *measures.sources)
+            maker = made_by(*measures.sources, **measures.settings)
         return Plan(order.how, order.simulate, measures.row, measures.columns, maker, measures.judge, together)
 
     def conduct(self, order: Order, argv: list[str], simulate: Callable | None = None) -> int:

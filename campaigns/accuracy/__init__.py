@@ -13,14 +13,13 @@ against their own refined runs and against ours; what is not installed is a row 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import isfinite
-from pathlib import Path
 from statistics import median
 
 import engine
 from campaigns.accuracy.plan import BEST, BY_NAME, FACTORS, FULL, QUICK, UNITS, Effort
-from campaigns.machinery import cli
-from campaigns.machinery.progress import stage
+from campaigns.machinery import Plan, Summary, cli, machine, made_by, run, stage, write_scene
 from campaigns.study import Order, Study
+from tables import Rows, number_of, write_table
 
 TOLD = ("title", "measure", "period_s", "duration_s", "rough")  # of every work, in the provenance
 SHIPPED = {"nodes": 41, "control": "rtol", "setting": 0.03}  # of the scene tethered_buoy
@@ -40,7 +39,7 @@ class Options(cli.Options):
     no_peers: bool = cli.flag("leave out scipy and other codes")
     effort: Effort = FULL
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The effort."""
         effort = QUICK if self.quick else FULL
         chosen = self.works or effort.works
@@ -52,14 +51,10 @@ def perform(order: Order):
     """References, what is not timed, and what is: the last one run at a time. Then the tables that follow from them."""
     from campaigns.accuracy import jobs
     from campaigns.accuracy.rows import COLUMNS, ORDER_COLUMNS, orders, point_row
-    from campaigns.machinery.folder import made_by
-    from campaigns.machinery.plan import Plan, Summary
-    from campaigns.machinery.runner import run, write_scene
-    from tables import write_table
 
     options, out, of_engine = order.options, order.how.out, order.simulate is None
     sources = (f"campaigns/accuracy/{name}" for name in ("rows.py", "plan.py", "works.toml"))
-    maker = made_by({}, "campaigns/breaking_line/theory", "engine", *sources)
+    maker = made_by("campaigns/breaking_line/theory", "engine", *sources)
     plan = Plan(order.how, order.simulate or engine.simulate, point_row, COLUMNS, maker)
     one_at_a_time = replace(plan, how=replace(order.how, backend="threading", jobs=1))
     plans = plan, plan, plan, one_at_a_time
@@ -75,9 +70,8 @@ def perform(order: Order):
     return summary
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import taking_part, version
-    from campaigns.machinery.session import machine
 
     options = order.options
     works, notes = {}, {}
@@ -97,9 +91,8 @@ def parameters(order: Order) -> dict[str, object]:
     }
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
-    from tables import number_of
 
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
     sentences = []

@@ -20,8 +20,7 @@ from campaigns.accuracy import plan
 from campaigns.accuracy.peers.record import nothing
 from campaigns.accuracy.plan import BEST, BY_NAME, PEERS, Effort, Peer, Point
 from campaigns.accuracy.rows import kept_samples, point_row
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, made_by
 from engine.trajectory import Trajectory
 
 REFERENCE, CHECK, TIMED, OURS = "peer-reference", "peer-check", "peer", "ours-for-peer"
@@ -29,14 +28,14 @@ OURS_REFINED = (321, 1e-5)
 Samples = dict[tuple[str, str], np.ndarray | None]  # by work and what they are; None of a run that failed
 
 
-def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator[list[Job]]:
+def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator[list]:
     """The jobs of four phases: our references, those of other codes, what is not timed, what is timed.
 
     The runs of each phase have to be in `out` before the next is asked for. with_peers: whether there are other codes.
     """
     references, untimed, timed = plan.phases(effort)
     wanted = taking_part(effort.works, quick) if with_peers else []
-    known: Samples = {}
+    known = {}
     ours = {(point.work, point.kind): engine_job(point, known) for point in references}
     for peer, work, _ in wanted:
         if version(peer) and peer.ours:  # our refined run with the changes that another code is to be compared with
@@ -66,7 +65,7 @@ def phases(out: Path, effort: Effort, quick: bool, with_peers: bool) -> Iterator
     yield side_by_side([engine_job(point, known) for point in timed], timed_peers, effort.rounds)
 
 
-def keep_samples(known: Samples, out: Path, jobs: dict[tuple[str, str], Job]) -> None:
+def keep_samples(known: Samples, out: Path, jobs: dict[tuple, Job]) -> None:
     """Add the samples of finished runs, by work and what they are."""
     for (work, role), job in jobs.items():
         known[work, role] = kept_samples(BY_NAME[work], out, job.key)
@@ -112,7 +111,12 @@ def version(peer: Peer) -> str:
     return metadata.version(peer.package) if importlib.util.find_spec(peer.module) is not None else ""
 
 
-def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple[Peer, str, list]]:
+def sources_of(peer: Peer) -> str:
+    """Hash of the code that runs it."""
+    return made_by(f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
+
+
+def taking_part(works: tuple[str, ...], quick: bool) -> list[tuple]:
     """(code, work, its settings) of all that is asked of other codes."""
     parts = []
     for peer in PEERS:
@@ -132,8 +136,7 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
     reference_of_peer = None
     if kind != REFERENCE:
         reference_of_peer = known.get((work, peer.name), reference)
-    sources = made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
-    recipe = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources}"
+    recipe = f"{peer.name} {installed} {kind} {nodes} {value!r} {sources_of(peer)}"
     scene, point = scene_of(peer, work, nodes), Point(work, kind, peer.name, nodes, peer.control, value)
     simulate, ours = partial(other_code, peer=peer, settings=setting), known.get((work, OURS + peer.name), reference)
     return job_of(point, scene, recipe, reference_of_peer, ours, simulate, peer_version=installed)
@@ -141,7 +144,7 @@ def peer_job(peer: Peer, work: str, kind: str, setting: tuple[int, float], known
 
 def scene_of(peer: Peer, work: str, nodes: int):
     """The scene of a work for another code: no shock viscosity, nodes where they matter to it."""
-    changes: dict[str, object] = {}
+    changes = {}
     if peer.package == "scipy":
         changes["tether.nodes"] = nodes
     if work.startswith("break"):

@@ -85,7 +85,7 @@ class Peer:
     settings: dict[str, list]
     quick: dict[str, list] = field(default_factory=dict)
     refined: dict[str, list] = field(default_factory=dict)
-    ours: dict[str, object] = field(default_factory=dict)
+    ours: dict = field(default_factory=dict)
 
 
 FILE = tomllib.loads(Path(__file__).with_name("works.toml").read_text(encoding="utf-8"))
@@ -138,7 +138,7 @@ class Point:
     setting: float
     round: int = 0
 
-    def changes(self) -> dict[str, object]:
+    def changes(self) -> dict:
         """The keys of the scene that make it this point."""
         method = plain(self.method)
         keys = {"tether.nodes": self.nodes}
@@ -179,7 +179,7 @@ FULL = Effort(works=tuple(BY_NAME), **FILE["effort"]["full"])
 QUICK = Effort(**FILE["effort"]["quick"])
 
 
-def phases(effort: Effort) -> tuple[list[Point], list[Point], list[Point]]:
+def phases(effort: Effort) -> tuple[list, list, list]:
     """References alone, from which everything else is described by its distance; what is not timed; what is timed, all
     works' settings in turns, round by round, and the paper's scheme once."""
     works = [BY_NAME[name] for name in BY_NAME if name in effort.works]

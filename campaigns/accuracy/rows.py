@@ -17,8 +17,8 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.accuracy.plan import BY_NAME, ORDERS, RADIUS, STRAIN, UNITS, Work, plain
-from campaigns.machinery.folder import run_of
-from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, columns, counted, number_of, of_words
+from campaigns.machinery import run_of
+from tables import MESSAGE, RUN_KEY, STATUS, WALL_S, Column, Row, Rows, columns, counted, number_of, of_words
 
 STEPPING = (columns.STEPS, columns.REJECTED, columns.NEWTON, columns.NEWTON_FAILURES)
 COUNTED = (columns.END_S, *STEPPING, columns.LOOPS, columns.TURN)
@@ -44,9 +44,7 @@ COLUMNS = (
 EARLY = 0.5  # share of the run over which error_early is taken
 
 
-def point_row(
-    trajectory, work_name: str, reference: np.ndarray | None = None, ours: np.ndarray | None = None
-) -> dict[str, object]:
+def point_row(trajectory, work_name: str, reference: np.ndarray | None = None, ours: np.ndarray | None = None) -> Row:
     """The columns of `COLUMNS` that a run fills; those left out are unknown.
 
     reference, ours: the samples that error and error_against_ours are taken against, None for none; the error of a
@@ -125,9 +123,9 @@ ORDER_COLUMNS = (
 TOLERANCE_SLOPE = {"esdirk43": 1.0, "trbdf2": 2.0 / 3.0}
 
 
-def orders(out: Path, rows: list[dict]) -> list[dict]:
+def orders(out: Path, rows: Rows) -> list[Row]:
     """The rows of orders.csv from those of table.csv, which name the runs in `out`; in the order of the table."""
-    series: dict[tuple[str, str, str], list[dict]] = {}
+    series = {}
     for row in rows:
         if row["kind"] in KINDS and plain(row["method"]) in ORDERS:
             series.setdefault((row["work"], row["kind"], row["method"]), []).append(row)
@@ -147,7 +145,7 @@ def orders(out: Path, rows: list[dict]) -> list[dict]:
     return order_rows
 
 
-def _over_tolerances(method: str, series: list[dict]) -> Iterator[dict]:
+def _over_tolerances(method: str, series: Rows) -> Iterator[Row]:
     """The slope of the errors over the tolerance; none of fewer than three."""
     series = [row for row in series if row.get("error") is not None]
     if len(series) > 2:
@@ -157,7 +155,7 @@ def _over_tolerances(method: str, series: list[dict]) -> Iterator[dict]:
         yield row | {"order": float(np.polyfit(*logs, 1)[0]), "slopes": "", "within": ""}
 
 
-def _of_differences(out: Path, work: Work, kind: str, method: str, series: list[dict], early: int) -> Iterator[dict]:
+def _of_differences(out: Path, work: Work, kind: str, method: str, series: Rows, early: int) -> Iterator[Row]:
     """The order of a series in time or in space; where the rope goes slack also that of the `early` samples before."""
     samples = [kept_samples(work, out, row["run_key"]) for row in series]
     theory = 2
@@ -169,7 +167,7 @@ def _of_differences(out: Path, work: Work, kind: str, method: str, series: list[
         yield row | {"kind": f"{kind}-early", "rough": ""}
 
 
-def first_slack(out: Path, work: Work, rows: list[dict]) -> int:
+def first_slack(out: Path, work: Work, rows: Rows) -> int:
     """Number of samples of a rough work's reference before its rope first goes slack; 0 where it does not."""
     wanted = {"work": work.name, "kind": "reference", "status": "ok"}
     for row in rows:
@@ -189,7 +187,7 @@ def _differences(samples: list, count: int | None = None) -> list[float]:
     return differences
 
 
-def _judged(kind: str, theory: float, series: list[dict], errors: list[float]) -> dict:
+def _judged(kind: str, theory: float, series: Rows, errors: list[float]) -> Row:
     work = BY_NAME[series[0]["work"]]
     with np.errstate(all="ignore"):
         slopes = np.log2(np.divide(errors[:-1], errors[1:]))

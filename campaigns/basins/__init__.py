@@ -15,13 +15,11 @@ from rest is found by bisection of states. The order of the starts is drawn by -
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.explore.sweep import BUDGET, ONLY, columns_of, kick_speed, measures_of, tables_of
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import Rows
@@ -43,7 +41,7 @@ class Options(cli.Options):
     displacement: float = cli.option("M", "places go so far from that of rest both ways, m", cli.POSITIVE, MOVED_M)
     seed: int = cli.seed("of the order of the starts, that of a scrambled Halton sequence")
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The grid in place of the words of --across and --grid."""
         across = " ".join(self.across)
         if across not in PAIRS:
@@ -65,14 +63,14 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The scene from rest, judged as long as it needs; the starts follow from it (`exploration`)."""
-    order.periods, order.looks, order.transient = BUDGET, True, None
+    order.look_by_look(BUDGET)
     if order.name == STUDY.scene:
         order.changes.setdefault("water.depth_m", DEPTH_M)
     scene = order.base(REST, tell=True)
     if scene is None:
         return
     if not carries_tangents(scene):
-        order.tell([f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY}"])
+        order.tell(f"campaigns.basins: given {order.name!r} as it is; allowed: {ONLY}")
         return
     scene = judged_scene(order, REST)
     if scene is not None:

@@ -15,9 +15,9 @@ from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES
 from campaigns.explore.starts import Start, run_within, section_of
 from campaigns.judge import job_from
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import filled, run_of
 from engine.views import LONGEST_PERIOD
-from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, names, write_table
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, of_words, write_table
 
 SHARES = 16  # states between two, bisected side by side
 NEAR, APART = 2e-5, 2e-3  # distances, in the size of the motion, to which two states are brought and at which they part
@@ -29,8 +29,8 @@ LONGEST = 480  # wave periods after which a state has fallen to neither side
 FOLDER, TOP = "edge", "tension_top_high_N"
 _EXTREMES = EXTREMES[0], EXTREMES[1], EXTREMES[5]  # of the radius, and of the largest tension
 COLUMNS = (
-    Column("motion", "", "on one side", "motion to which a run falls on one side"),
-    Column("other", "", "on the other", "motion to which it falls on the other side"),
+    of_words("motion", "motion to which a run falls on one side", "on one side"),
+    of_words("other", "motion to which it falls on the other side", "on the other"),
     Column("periods", "", "periods", "wave periods over which it was followed; extremes are of the later half", 0),
     Column("strobed_period", "", "N", "wave periods after which it repeats; empty where none is found", 0),
     Column("growth_bits_per_period", "bits/period", "growth", "rate at which runs leave it", 2),
@@ -56,7 +56,7 @@ class Edge:
         self.exploration, self.sides = exploration, (first, second)
         self.scale = np.maximum(first.settled.scale, second.settled.scale)
         self.states = [first.state.at_zero(), second.state.at_zero()]
-        self.runs: list = [None, None]
+        self.runs = [None, None]
         self.known = True  # that they are on either side: each begins anew, by small steps, where it has gone on to
         self.rounds = 0
 
@@ -164,7 +164,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     else:
         row["status"] = "ok"
     row["periods"] = len(distances_so_far)
-    strobed: list[np.ndarray] = []
+    strobed = []
     if runs:
         row["growth_bits_per_period"] = doublings / len(distances_so_far)
         for trajectory in runs:
@@ -173,7 +173,7 @@ def edge_state(exploration: Exploration, first: Motion, second: Motion) -> Row:
     folder = write_part(exploration.plan, FOLDER, COLUMNS, [row])
     orbit = []
     for period, state in enumerate(strobed):
-        orbit.append(dict(zip(names(ORBIT), (period, *state, distances_so_far[period]), strict=True)))
+        orbit.append(filled(ORBIT, (period, *state, distances_so_far[period])))
     write_table(folder / "orbit.csv", ORBIT, orbit)
     return row
 
@@ -184,7 +184,7 @@ def _later_extremes(runs: list) -> dict[str, float]:
     tension = np.concatenate([run.columns[TOP] for run in runs])
     half = len(radius) // 2
     extremes = radius[half:].min(), radius[half:].max(), tension[half:].max()
-    return dict(zip(names(_EXTREMES), map(float, extremes), strict=True))
+    return filled(_EXTREMES, map(float, extremes))
 
 
 def _repeats(states: np.ndarray) -> int | None:

@@ -7,7 +7,7 @@ from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTION, Motion, Motions, Search
 from campaigns.explore.stages import judge, name, propose, run_from_rest
 from campaigns.explore.starts import KICKS, OUTCOME, Ending, Start
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery import Job, Plan, Summary
 from tables import MESSAGE, PERIODS_RUN, RUN_KEY, STATUS, Column, write_table
 
 SAMPLE = 24  # starts of the grid that are run at a time until they find no new motion
@@ -21,7 +21,7 @@ class Exploration(Motions):
     def __init__(self, plan: Plan, grid: StartGrid):
         super().__init__(plan, (STEEPNESS,), lambda place: {}, folder="motions")
         self.grid = grid
-        self.endings: dict[int, Ending] = {}  # of the starts of the grid, by number
+        self.endings = {}  # of the starts of the grid, by number
 
     @property
     def motions(self) -> list[Motion]:
@@ -65,11 +65,11 @@ class Exploration(Motions):
         latest = self.starts.endings[len(self.starts.endings) - len(numbers) :]
         self.endings |= dict(zip(numbers, latest, strict=True))
 
-    def _beside(self, numbers: Sequence[int]) -> Callable[[int], list[int]]:
+    def _beside(self, numbers: Sequence[int]) -> Callable:
         """For each of these starts of the grid, by its place in the list, the places of those beside it."""
         places = {number: place for place, number in enumerate(numbers)}
 
-        def beside(place: int) -> list[int]:
+        def beside(place):
             return [places[number] for number in self.grid.beside(numbers[place]) if number in places]
 
         return beside

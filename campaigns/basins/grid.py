@@ -4,10 +4,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from campaigns.explore.starts import Start
 
 PHASE = "phase"
 PAIRS = ("vx vz", "vx phase", "vz phase", "x z")
@@ -46,8 +42,8 @@ class StartGrid:
             return [2.0 * math.pi * k / count for k in range(count)]
         return [float(f"{self.size * (2 * k / (count - 1) - 1):.12g}") for k in range(count)]
 
-    def start(self, first: float, second: float, found_by: str = GRID) -> "Start":
-        """The start with these two coordinates."""
+    def start(self, first: float, second: float, found_by: str = GRID):
+        """The `Start` with these two coordinates."""
         from campaigns.explore.starts import Start  # slow to import
 
         coordinates = dict.fromkeys(("vx", "vz", "x", "z"), 0.0)
@@ -56,8 +52,8 @@ class StartGrid:
         displacement = coordinates["x"], coordinates["z"]
         return Start(found_by, kick, displacement, coordinates.get(PHASE))
 
-    def at(self, turn: float, size: float, found_by: str) -> "Start":
-        """The start of a turn and a size."""
+    def at(self, turn: float, size: float, found_by: str):
+        """The `Start` of a turn and a size."""
         if self.across[1] != PHASE:
             return self.start(round(size * math.cos(turn), 12), round(size * math.sin(turn), 12), found_by)
         part = round(turn / (2.0 * math.pi) * PHASES)
@@ -71,7 +67,7 @@ class StartGrid:
             return math.atan2(second, first), math.hypot(first, second)
         return second + 2.0 * math.pi * (first < 0.0), abs(first)
 
-    def points(self) -> list[tuple[float, float]]:
+    def points(self) -> list[tuple]:
         """All of them, in the order of the table."""
         points = product(self.values(1), self.values(0))
         return [(first, second) for second, first in points]

@@ -78,7 +78,7 @@ class Shock(NamedTuple):
     below: float
 
 
-def smallest(leads: Callable[[Sequence[Polar]], list[bool]], first: Shock, round_: float) -> Shock:
+def smallest(leads: Callable, first: Shock, round_: float) -> Shock:
     """The smallest start that leads there, to SHARP of its size along its ray.
 
     leads(starts) -> whether each start (turn, size) leads there. first: one that does. round_: turns that there are.

@@ -14,14 +14,10 @@ shock, and a series of grids for case 4 and for case 3', which stays smooth. Not
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import isfinite
-from typing import TYPE_CHECKING
 
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, cli
 from campaigns.study import Measures, Order, Study
-
-if TYPE_CHECKING:
-    from engine import Scene
+from tables import Rows, listed, number_of
 
 CAMPAIGN = "breaking_line"
 SCENE = "breaking_line"
@@ -92,7 +88,7 @@ def _run(order: Order, case: str, kind: str, changes: dict, duration_s: float = 
     return Job({"case": case, "kind": kind}, scene, duration_s=duration_s or LENGTHS_S[case[0]])
 
 
-def _changes(order: Order, case: str, further: dict) -> dict[str, object]:
+def _changes(order: Order, case: str, further: dict) -> dict:
     """The changes of a case: its break, with both ends at one level."""
     force_N = [FORCES_N[case[0]], 0.0, 0.0]
     changes = {**further, "end.force_decay_s": SLOW_S if case.endswith("p") else FAST_S, "end.force_N": force_N}
@@ -103,7 +99,7 @@ def _changes(order: Order, case: str, further: dict) -> dict[str, object]:
     return changes
 
 
-def _straight(order: Order, case: str, plain: "Scene") -> Iterator[Job]:
+def _straight(order: Order, case: str, plain) -> Iterator[Job]:
     """The breaks without gravity."""
     from campaigns.breaking_line.theory import theory_of
 
@@ -143,10 +139,9 @@ def beside(order: Order) -> Iterator[Callable]:
     yield write_results
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """Speeds of the broken ends, how far they are off theory, and the paper's statements that do not hold."""
     from campaigns.answers import verdicts
-    from tables import listed, number_of
 
     speeds, errors = [], []
     for row in rows:

@@ -1,7 +1,7 @@
 """Measures of the breaking line's statements: from the rows of `lines.read_lines` to numbers that a rule can judge.
 
-A measure takes results with `lines`. `by_case`, `case_to_case`, `by_pair` and `all_cases` make measures; "pairs" are
-the fast and the slow break of one tension, "case to case" is in rising tension.
+A measure takes results with `lines`. Those of a claim that gives `by_case`, `case_to_case`, `by_pair` or `all_cases` a
+formula take that too; "pairs" are the fast and the slow break of one tension, "case to case" is in rising tension.
 """
 
 import math
@@ -24,7 +24,6 @@ class Results(NamedTuple):
     lines: Sequence[Line]
 
 
-Measure = Callable[[Results], Measured]
 GROUPS = {"all": CASES, "fast": FAST, "slow": SLOW}
 PRINTED_CROSSING_S = (0.55, 0.91)
 DELAYED = 0.5  # of the difference of the fracture times: by so much a slow break delays the way of the end
@@ -40,60 +39,46 @@ def values(lines: Sequence[Line], cases: Iterable[str], of: str) -> list[Check]:
     return checks
 
 
-def by_case(of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = "") -> Measure:
+def by_case(
+    results: Results, of: str, form: str, cases: str = "all", only: tuple[str, ...] = (), judge: str = ""
+) -> Measured:
     """A check for every case, or those in `only`; judge: what the rule judges, where it is not the number told."""
-
-    def measure(results: Results) -> Measured:
-        deciding = values(results.lines, only or GROUPS[cases], judge or of)
-        checks = [(f"case {name}", value) for name, value in deciding]
-        return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
-
-    return measure
+    deciding = values(results.lines, only or GROUPS[cases], judge or of)
+    checks = [(f"case {name}", value) for name, value in deciding]
+    return Measured(checks, told(values(results.lines, GROUPS[cases], of), form))
 
 
-def case_to_case(of: str, form: str, cases: str = "all") -> Measure:
+def case_to_case(results: Results, of: str, form: str, cases: str = "all") -> Measured:
     """A check for every step from one case to the next: by how much the number rises."""
-
-    def measure(results: Results) -> Measured:
-        groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
-        checks, every_number = [], []
-        for group in groups:
-            numbers = values(results.lines, group, of)
-            every_number += numbers
-            for (first, earlier), (second, later) in pairwise(numbers):
-                checks.append((f"{first} to {second}", later - earlier))
-        return Measured(checks, told(every_number, form))
-
-    return measure
+    groups = (FAST, SLOW) if cases == "all" else (GROUPS[cases],)
+    checks, every_number = [], []
+    for group in groups:
+        numbers = values(results.lines, group, of)
+        every_number += numbers
+        for (first, earlier), (second, later) in pairwise(numbers):
+            checks.append((f"{first} to {second}", later - earlier))
+    return Measured(checks, told(every_number, form))
 
 
-def by_pair(compare: Callable[[float, float], float], of: str, form: str) -> Measure:
+def by_pair(results: Results, of: str, form: str, compare: Callable) -> Measured:
     """A check for every tension: compare(number of the fast break, number of the slow one)."""
-
-    def measure(results: Results) -> Measured:
-        checks, words = [], []
-        for pair in pairs(results.lines):
-            numbers = [formula(of)(line) for line in pair]
-            if all(map(math.isfinite, numbers)):
-                names = [named(line["case"]) for line in pair]
-                checks.append((" and ".join(names), compare(*numbers)))
-                words.append(told(zip(names, numbers, strict=True), form))
-        return Measured(checks, "; ".join(words))
-
-    return measure
+    checks, words = [], []
+    for pair in pairs(results.lines):
+        numbers = [formula(of)(line) for line in pair]
+        if all(map(math.isfinite, numbers)):
+            names = [named(line["case"]) for line in pair]
+            checks.append((" and ".join(names), compare(*numbers)))
+            words.append(told(zip(names, numbers, strict=True), form))
+    return Measured(checks, "; ".join(words))
 
 
-def all_cases(judge: Callable[[list[float]], float], of: str, form: str) -> Measure:
+def all_cases(results: Results, of: str, form: str, judge: Callable) -> Measured:
     """One check of all fast cases together; judge(their numbers, in rising order)."""
-
-    def measure(results: Results) -> Measured:
-        numbers = values(results.lines, FAST, of)
-        if len(numbers) < 2:
-            return Measured([])
-        in_order = sorted(map(itemgetter(1), numbers))
-        return Measured([("all cases", judge(in_order))], told(numbers, form))
-
-    return measure
+    numbers = values(results.lines, FAST, of)
+    if len(numbers) < 2:
+        return Measured([])
+    in_order = sorted(map(itemgetter(1), numbers))
+    return Measured([("all cases", judge(in_order))], told(numbers, form))
 
 
 def crossing(results: Results) -> Measured:
@@ -104,7 +89,7 @@ def crossing(results: Results) -> Measured:
     seconds = [time_s for _, time_s in times]
     earliest, latest = PRINTED_CROSSING_S
 
-    def off(scale: float) -> float:
+    def off(scale):
         return max(abs(scale * min(seconds) / earliest - 1.0), abs(scale * max(seconds) / latest - 1.0))
 
     checks = [("as printed", off(1.0)), ("a tenth of it is meant (0.055 to 0.091 s)", off(10.0))]
@@ -116,7 +101,7 @@ def vertical(results: Results) -> Measured:
     checks, words = [], []
     places = {"the folds at the fixed end are left out": "vertical_beyond_m", "they count": "vertical_m"}
     for place, name in places.items():
-        rises = case_to_case(name, ".3f")(results)
+        rises = case_to_case(results, name, ".3f")
         if rises.checks:
             checks.append((place, -max(map(itemgetter(1), rises.checks))))
         words.append(rises.told)
@@ -187,7 +172,7 @@ def shock_incomplete(results: Results) -> Measured:
 
 def dissipates(results: Results) -> Measured:
     """Whether more of the line takes up the kinetic energy of a slow break: by its spread, and by the part at rest."""
-    spread, resting = SPREAD(results), RESTING(results)
+    spread, resting = LARGER(results, "kinetic_spread", ".2f"), SMALLER(results, "resting_share", ".2f")
     ways = {"judged by the spread of the energy": spread, "judged by the part at rest": resting}
     checks = []
     for name, measured in ways.items():
@@ -209,18 +194,16 @@ def _least_gap(speeds: list[float]) -> float:
     return min(faster / slower - 1.0 for slower, faster in pairwise(speeds))
 
 
-SMALLER = partial(by_pair, lambda fast, slow: fast - slow)
-LARGER = partial(by_pair, lambda fast, slow: slow - fast)
-CHANGED = partial(by_pair, lambda fast, slow: slow / fast - 1.0)
-SPREAD, RESTING = LARGER("kinetic_spread", ".2f"), SMALLER("resting_share", ".2f")
+SMALLER = partial(by_pair, compare=lambda fast, slow: fast - slow)
+LARGER = partial(by_pair, compare=lambda fast, slow: slow - fast)
 MEASURES = {
     "cases": by_case,
     "case to case": case_to_case,
     "smaller in slow": SMALLER,
     "larger in slow": LARGER,
-    "changed in slow": CHANGED,
-    "one ratio": partial(all_cases, _spread_of_ratios),
-    "least gap": partial(all_cases, _least_gap),
+    "changed in slow": partial(by_pair, compare=lambda fast, slow: slow / fast - 1.0),
+    "one ratio": partial(all_cases, judge=_spread_of_ratios),
+    "least gap": partial(all_cases, judge=_least_gap),
     "crossing": crossing,
     "vertical": vertical,
     "same motion": same_motion,

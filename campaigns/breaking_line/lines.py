@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from campaigns.breaking_line.theory import theory_of
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from tables import Row as Line
 from tables import read_table
 
@@ -63,7 +63,7 @@ def from_motion(line: Line, profiles: object) -> Line:
                      over the length of the line
     reached_s        when the broken end first has MOST_OF of its settled speed
     """
-    measures: Line = {}
+    measures = {}
     fast = profiles.speed_mps[:, -1] >= MOST_OF * line["end_speed_mps"]
     if fast.any():
         measures["reached_s"] = float(profiles.time_s[int(np.argmax(fast))])
@@ -85,7 +85,7 @@ def over_case_4(lines: Sequence[Line]) -> tuple[Line, ...]:
     strongest = ended(lines).get("4")
     wider_lines = []
     for line in lines:
-        further: Line = {}
+        further = {}
         for name, column in OVER_CASE_4.items():
             further[name] = line[column] / strongest[column] if strongest else math.nan
         for name, printed in PRINTED.items():
@@ -104,7 +104,7 @@ def ended(lines: Sequence[Line], kind: str = "case") -> dict[str, Line]:
     return {line["case"]: line for line in lines if line["kind"] == kind and line["status"] == "ok"}
 
 
-def pairs(lines: Sequence[Line]) -> list[tuple[Line, Line]]:
+def pairs(lines: Sequence[Line]) -> list[tuple]:
     """Fast and slow break of the same tension, where both ended as asked."""
     cases, matches = ended(lines), []
     for fast, slow in zip(FAST, SLOW, strict=True):

@@ -4,17 +4,13 @@ Places are distances s from the fixed end in unstretched metres. Every function 
 returns numbers in SI units, nan where the run does not show what is asked for.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from campaigns.breaking_line.theory import Theory
-    from engine.trajectory import Profiles, Trajectory
+from campaigns.breaking_line.theory import Theory
+from engine.trajectory import Profiles, Trajectory
 
 SETTLED_S = 0.005  # after the break, until the corner of the force at its end has left the broken end
 MARGIN_M = 5.0  # from both ends: fronts are followed between
@@ -222,7 +218,7 @@ def spread(trajectory: Trajectory) -> dict[str, float]:
     T, v, s = profiles.tension_N[row], profiles.speed_mps[row], profiles.s_m
     length, top = float(s[-1]), settled_end_speed(trajectory)[0]
 
-    def over_line(values: np.ndarray) -> float:
+    def over_line(values):
         return float(np.trapezoid(values, s)) / length
 
     mean = over_line(T)

@@ -9,11 +9,8 @@ exact.nc (netCDF, opens in xarray) holds, padded with nan along `point`:
     wave_strain, wave_mps (strain)      √(T′/m)
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import zip_longest
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,13 +19,8 @@ from campaigns.breaking_line.lines import ended, motion_of, read_lines
 from campaigns.breaking_line.motion_measures import contour_speed
 from campaigns.breaking_line.theory import Theory, theory_of
 from campaigns.figure_data import attribute_of, store
-from campaigns.machinery.folder import made_by
+from campaigns.machinery import Plan, Summary, made_by
 from campaigns.statements import write_statements
-
-if TYPE_CHECKING:
-    import xarray
-
-    from campaigns.machinery.plan import Plan, Summary
 
 EXACT = "exact.nc"
 SHARES = (0.99, 0.9, 0.7, 0.5, 0.3, 0.1, 0.01)  # of the static tension: contours and characteristics that are shown
@@ -41,9 +33,8 @@ def write_results(plan: Plan, summary: Summary) -> float:
     results = Results(read_lines(folder))
     write_statements(folder, claims().values(), results)
     cases, path = ended(results.lines), folder / EXACT
-    key = made_by(
-        {"runs": [line["run_key"] for line in cases.values()]}, "analysis", "engine", "campaigns/breaking_line"
-    )
+    runs_of_cases = [line["run_key"] for line in cases.values()]
+    key = made_by("analysis", "engine", "campaigns/breaking_line", runs=runs_of_cases)
     if attribute_of(path) == key:
         return 0.0
     runs = {}
@@ -59,8 +50,8 @@ def write_results(plan: Plan, summary: Summary) -> float:
     return 0.0
 
 
-def exact(runs: dict[str, object]) -> xarray.Dataset | None:
-    """The content of exact.nc, of trajectories with profiles by case; None where no case has a theory."""
+def exact(runs: dict):
+    """The content of exact.nc, an xarray.Dataset, of trajectories with profiles by case; None where none has theory."""
     import xarray
 
     curves, contours, wave_speed = [], [], None
@@ -95,7 +86,7 @@ def padded(curves: Sequence[np.ndarray]) -> np.ndarray:
     return np.array(points).T
 
 
-def measured_contours(profiles: object, theory: Theory) -> list[tuple[float, float, float]]:
+def measured_contours(profiles: object, theory: Theory) -> list[tuple]:
     """(strain, speed, wave speed) of each contour of SHARES that can be followed; none that a shock eats."""
     contours = []
     for share in SHARES:

@@ -10,7 +10,7 @@ import numpy as np
 
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
-from tables import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, counted, of_words
+from tables import LOOPS, MESSAGE, REJECTED, RUN_KEY, STATISTICS, STATUS, Column, Row, counted, of_words
 
 _COUNTED = tuple(column for column in STATISTICS if column not in (LOOPS, REJECTED))
 COLUMNS = (
@@ -91,7 +91,7 @@ END_SPEEDS = ("end_speed_mps", "end_speed_least_mps", "end_speed_most_mps")
 COMMON_S = 0.12  # the shortest of the paper's run lengths, to compare recoil at one time
 
 
-def breaking_row(trajectory) -> dict[str, object]:
+def breaking_row(trajectory) -> Row:
     """The columns of `COLUMNS` that a trajectory of the breaking line fills; those left out are unknown."""
     scene = trajectory.scene
     row = counted(trajectory, _COUNTED) | {
@@ -123,7 +123,7 @@ def breaking_row(trajectory) -> dict[str, object]:
     return row
 
 
-def _theory_columns(theory) -> dict[str, object]:
+def _theory_columns(theory) -> Row:
     speeds, shocked = theory.speeds, theory.shocked
     return {
         "end_speed_theory_mps": speeds.end_speed_mps,
@@ -137,7 +137,7 @@ def _theory_columns(theory) -> dict[str, object]:
     }
 
 
-def _front_columns(profiles, theory, gravity_mps2: float) -> dict[str, object]:
+def _front_columns(profiles, theory, gravity_mps2: float) -> Row:
     ripple = measures.strain_overshoot(profiles, BEFORE_ARRIVAL * theory.arrival_s)
     row = dict(zip(("strain_overshoot", "strain_rise"), ripple, strict=True)) | {
         "front_speed_mps": measures.front_speed(profiles, theory),
@@ -162,7 +162,7 @@ def _front_columns(profiles, theory, gravity_mps2: float) -> dict[str, object]:
     return row
 
 
-def _energy_columns(energy, theory) -> dict[str, object]:
+def _energy_columns(energy, theory) -> Row:
     row = {
         "stored_J": energy.stored_J,
         "kinetic_J": energy.kinetic_J[-1],

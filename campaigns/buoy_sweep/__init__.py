@@ -15,7 +15,6 @@ every value in three dimensions, `--dimensions auto` those whose planar run rele
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 
 import engine
 from campaigns.explore import sweep as motions
@@ -23,8 +22,7 @@ from campaigns.explore.grid import STEEPNESS as COLUMN
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.space import SEED_MPS, in_space, run_where_needed
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE
 from tables import Rows
@@ -36,7 +34,7 @@ DIMENSIONS = ("2", "3", "auto")
 
 
 @dataclass
-class Options(motions.Starts):
+class Options(motions.SweepOptions):
     """The options of this campaign."""
 
     steepness: list[float] | None = cli.option(
@@ -54,7 +52,7 @@ class Options(motions.Starts):
 
     grid: Grid | None = None  # the steepnesses
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The steepnesses of --steepness or --steepness-range, or STEEPNESS without either."""
         if self.steepness is not None and self.steepness_range is not None:
             faults.append("--steepness and --steepness-range: given both; allowed: one of them")
@@ -78,7 +76,7 @@ def cases(order: Order) -> Iterator[Job]:
             try:
                 spatial, _ = in_space(scene)
             except engine.SceneError as error:
-                order.tell(error.faults)
+                order.tell(*error.faults)
                 continue
             if dimensions == "3":
                 scene = spatial

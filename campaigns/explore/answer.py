@@ -78,17 +78,17 @@ def sentences(rows: Rows, key: str, symbol: str, scene, companions: Rows = (), e
     return lines(texts)
 
 
-def by_motion(rows: Rows) -> dict[str, list[Row]]:
+def by_motion(rows: Rows) -> dict[str, list]:
     """The rows of each motion by its letter, in the order of letters; "" where motions have none."""
-    motions: dict[str, list[Row]] = {}
+    motions = {}
     for row in sorted(rows, key=_letter):
         motions.setdefault(_letter(row), []).append(row)
     return motions
 
 
-def by_value(rows: Rows, key: str) -> dict[float, list[Row]]:
+def by_value(rows: Rows, key: str) -> dict[float, list]:
     """The rows at each value."""
-    values: dict[float, list[Row]] = {}
+    values = {}
     for row in rows:
         values.setdefault(row[key], []).append(row)
     return values

@@ -18,9 +18,7 @@ from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, SLACK, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.explore.starts import run_within
 from campaigns.judge import UNFOLLOWED, job_from
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import shares_worker, spare_groups
+from campaigns.machinery import Job, Jobs, Plan, Summary, run_of, shares_worker, spare_groups
 from engine.scene import scene_from_toml
 from tables import (
     CAPPED,
@@ -32,16 +30,16 @@ from tables import (
     RUN_KEY,
     STATUS,
     WALL_S,
-    Column,
     Columns,
     Row,
     Rows,
     counted,
     names,
     number_of,
+    of_words,
 )
 
-ROLE = Column("role", "", "role", "what was changed in the run of table.csv")
+ROLE = of_words("role", "what was changed in the run of table.csv")
 OF_A_RUN = (STATUS, PERIODS_RUN, TRANSIENT, *EXTREMES, LOOPS, HEIGHT, WALL_S, RUN_KEY, MESSAGE)
 BETWEEN = (STEEPNESS, REGIME, STROBED, *OF_A_RUN)
 COMPANIONS = (ROLE, STEEPNESS, MOTION, NODES, *OF_A_RUN)

@@ -8,19 +8,12 @@ all starts of the place run there. The border of two basins may lie a little els
 one that ends otherwise run on the line itself (`Motions.run_starts`).
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
-from campaigns.explore.starts import Request, Start
+from analysis import distance
+from campaigns.explore.starts import Ending, Request, Start
 from engine.scene import scene_from_toml
-
-if TYPE_CHECKING:
-    from analysis import Settled
-    from campaigns.explore.motions import Motion, Motions
-    from campaigns.explore.starts import Ending
 
 COARSER, LEAST_NODES = 4, 33  # times fewer elements; nodes of a line that has a coarse one
 CHECKED, MISSED = 8, 0.15
@@ -36,8 +29,11 @@ def coarse(scene):
     return scene_from_toml(scene.to_toml(), {"tether.nodes": (nodes - 1) // COARSER + 1})
 
 
-def coarse_endings(motions: Motions, title: str, starts: Sequence[tuple[int, Start]]) -> dict[int, Ending]:
-    """How those of the starts end for which a coarse line can say it, by their number. Raises as `runner.run`."""
+def coarse_endings(motions, title: str, starts: Sequence[tuple]) -> dict[int, Ending]:
+    """How those of the starts end for which a coarse line can say it, by their number. Raises as `runner.run`.
+
+    motions: `campaigns.explore.motions.Motions`.
+    """
     scenes = {}
     for place in sorted({place for place, _ in starts}):
         scene = coarse(motions.jobs[place].scene)
@@ -60,15 +56,12 @@ def coarse_endings(motions: Motions, title: str, starts: Sequence[tuple[int, Sta
     return {number: ending for number, ending in joined.items() if starts[number][0] not in wrong}
 
 
-def coarse_forms(motions: Motions, scenes: Mapping[int, object]) -> dict[int, list[Settled]]:
+def coarse_forms(motions, scenes: Mapping[int, object]) -> dict[int, list]:
     """What the motions of places are on the coarse line, by place; without places where one of them is not there.
 
     scenes: with the coarse line, by place.
     """
-    from analysis import distance
-
-    carried: list[Motion] = []
-    requests = []
+    carried, requests = [], []
     for place, scene in scenes.items():
         for motion in motions.at[place]:
             if motion.state is not None:
@@ -88,9 +81,7 @@ def coarse_forms(motions: Motions, scenes: Mapping[int, object]) -> dict[int, li
     return forms
 
 
-def wrong_places(
-    motions: Motions, title: str, starts: Sequence[tuple[int, Start]], joined: Mapping[int, Ending]
-) -> set[int]:
+def wrong_places(motions, title: str, starts: Sequence[tuple], joined: Mapping[int, Ending]) -> set[int]:
     """The places where more than MISSED of the starts that are checked end otherwise on the line itself."""
     checked = list(joined)[::CHECKED]
     requests = [motions.request(*starts[number]) for number in checked]

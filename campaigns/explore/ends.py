@@ -4,21 +4,21 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from analysis import distance
-from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, subfolder
+from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, write_part
 from campaigns.explore.starts import Ending, Request, Start
 from campaigns.finer import finer
-from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Row, write_table
+from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
-LEADS_TO = Column("leads_to", "", "leads to", "letter of the motion that it becomes there; empty where none settled")
+LEADS_TO = of_words("leads_to", "letter of the motion that it becomes there; empty where none settled", "leads to")
 _EXACT = "where the motion ends, by its orbit, which stops being stable there; empty where no orbit tells it"
 SHIFTED = 0.01  # of a value: by what the tolerance of a sweep may move an end
 FOLDER = "ends"
-KIND = Column("kind", "", "by", "what ends it: fold, flip or torus point of its orbit; empty: not known")
+KIND = of_words("kind", "what ends it: fold, flip or torus point of its orbit; empty: not known", "by")
 NO_ORBIT = Column("no_orbit", "", "no orbit", "why no orbit tells where the motion ends", None, SHEET)
 BEYOND = 2.0  # widths of the bisected range, beyond it, in which an orbit is followed
-END = Column("end", "", "end", "lower or upper end of the range of the motion")
+END = of_words("end", "lower or upper end of the range of the motion")
 TIGHTER, FINER = "a tenth of the tolerance", "{} nodes"
 
 
@@ -55,7 +55,7 @@ class _End:
         }
 
 
-def columns(key: Column) -> tuple[Column, ...]:
+def columns(key: Column) -> Columns:
     """Of the table of ends of a sweep over this key."""
     digits = key.digits and 5
     with_name, without_name = f"{key.name}_with", f"{key.name}_without"
@@ -103,7 +103,7 @@ def find_ends(motions: Motions, scene_at: Callable, exact: bool = True) -> list[
             _narrow(motions, end, ending)
     of_orbits = by_orbits(motions, values, ends, scene_at) if exact else {}
     rows = [{**end.columns(key), **of_orbits.get(end, {})} for end in ends]
-    write_table(subfolder(motions.plan, FOLDER) / "table.csv", columns(key), rows)
+    write_part(motions.plan, FOLDER, columns(key), rows)
     return rows
 
 
@@ -196,7 +196,7 @@ def confirm(motions: Motions) -> None:
             start = motions.fine(motion.place, Start(change, state=motion.state.at_zero()))
             requests.append(motions.request(motion.place, start, changed_scene))
             chosen.append((motion, change))
-    words: dict[Motion, list[str]] = {}
+    words = {}  # by motion
     for (motion, change), ending in zip(chosen, motions.starts.run("motions confirmed", requests), strict=True):
         if ending.joins is not None:
             ending.motion = motions.at[motion.place][ending.joins]

@@ -40,10 +40,8 @@ from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
-from campaigns.judge import UNFOLLOWED, job_from, periods_of
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Plan, Summary
-from campaigns.machinery.store import orbits_in
+from campaigns.judge import UNFOLLOWED, job_from, periods_of, samples_of
+from campaigns.machinery import Job, Plan, Summary, orbits_in, run_of
 from engine import simulate
 from engine.run.rest import static_tension_N
 from tables import (
@@ -64,13 +62,14 @@ from tables import (
     counted,
     finite,
     number_of,
+    of_words,
     read_table,
     write_table,
 )
 
 FOLDER = "errors"
 BLOCK, LAST = 15, 5  # wave periods: two blocks in a companion, because shorter ones miss the beats of a torus
-FOR = Column("of_run", "", "of", "content key of the run of table.csv whose companion this is")
+FOR = of_words("of_run", "content key of the run of table.csv whose companion this is", "of")
 USUAL = Column(
     "tension_usual_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods at the end", 0
 )
@@ -167,11 +166,9 @@ def usual_max_N(trajectory, transient_periods: float, period: int | None) -> flo
     """T_b of the head of this file; nan of a record that has no whole block after its transient."""
     scene, columns = trajectory.scene, trajectory.columns
     if period:
-        samples = round(_whole(period) * scene.waves.period_s / scene.sample_step_s())
-        return float(columns["tension_top_high_N"][-samples:].max())
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    first = round(transient_periods * period_s / step_s) + 1
-    largest = block_maxima(columns["tension_top_high_N"][first:], round(BLOCK * period_s / step_s))
+        return float(columns["tension_top_high_N"][-samples_of(scene, _whole(period)) :].max())
+    first = samples_of(scene, transient_periods) + 1
+    largest = block_maxima(columns["tension_top_high_N"][first:], samples_of(scene, BLOCK))
     if not len(largest):
         return math.nan
     return float(largest.mean())
@@ -191,7 +188,7 @@ def slack_shares(trajectory, transient_periods: float, period: int | None) -> np
     return slack.reshape(count, samples).mean(axis=1)
 
 
-def slack_error(shares: np.ndarray, companion: dict, resolved: float) -> tuple[float, list[str]]:
+def slack_error(shares: np.ndarray, companion: dict, resolved: float) -> tuple[float, list]:
     """E_slack of the head of this file, nan where it is not known, and what a reader has to be told of it."""
     if not len(shares):
         return math.nan, []
@@ -205,7 +202,7 @@ def slack_error(shares: np.ndarray, companion: dict, resolved: float) -> tuple[f
     return error, words
 
 
-def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list[str]]:
+def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
     """E of the head of this file, nan where it is not known, and what a reader has to be told of it.
 
     row: of the run, whose T_b is usual_N; companion: the row of its companion.

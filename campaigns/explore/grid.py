@@ -11,8 +11,7 @@ from functools import reduce
 from itertools import product
 
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, cli, filled
 from campaigns.study import Order
 from tables import Column, Columns, Row, names
 
@@ -133,16 +132,17 @@ class Grid:
     def places(self) -> Iterator[Row]:
         """The columns of every place."""
         for values in product(*(key.values for key in self.keys)):
-            yield dict(zip(names(self.columns), values, strict=True))
+            yield filled(self.columns, values)
 
     def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
         """A key that is varied cannot be set too."""
-        order.tell(f"--set {key.key}: this campaign sets it{instead}" for key in self.keys if key.key in order.changes)
+        for key in self.keys:
+            if key.key in order.changes:
+                order.tell(f"--set {key.key}: this campaign sets it{instead}")
 
-    def changes(self, place: Row, base) -> tuple[dict, list[str]]:
+    def changes(self, place: Row, base) -> tuple[dict, list]:
         """What the scene `base` is changed by at a place, and the faults of lists without such an element."""
-        changes = {}
-        faults: list[str] = []
+        changes, faults = {}, []
         for key in self.keys:
             faults += key.put(place[key.column.name], base, changes)
         return changes, faults
@@ -153,13 +153,18 @@ class Grid:
         most: as of `campaigns.judge.judged_job`.
         """
         changes, faults = self.changes(place, order.base())
-        order.tell(faults)
+        order.tell(*faults)
         if faults:
             return None
         scene = judged_scene(order, changes)
         if scene is None:
             return None
         return judged_job(order, {**place, **labels, "dimensions": scene.motion.dimensions}, scene, most=most)
+
+
+def place_in(row: Row, keys: Columns) -> tuple:
+    """The values of the keys in a row."""
+    return tuple(row[name] for name in names(keys))
 
 
 def grid_of(words: list[str], faults: list[str], least: int = 0, example: str = "") -> Grid:

@@ -12,7 +12,7 @@ from analysis.looks import NO_GROWTH, SHEAR
 from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_under
 from campaigns.explore.rows import sound_part
 from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, tangent_of
-from campaigns.machinery.store import Store
+from campaigns.machinery import Store
 from engine.trajectory import Trajectory
 from engine.views import carried, carries_tangents, in_regular_waves
 from tables import OPEN

@@ -14,13 +14,12 @@ from typing import NamedTuple
 from analysis import grouped, share_of
 from campaigns.explore.coarse import coarse_endings
 from campaigns.explore.starts import FOUND_BY, Ending, Request, Start, Starts, run_within
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.store import orbits_in
+from campaigns.judge import samples_of
+from campaigns.machinery import Jobs, Plan, Summary, orbits_in, run_of
 from campaigns.study import Order
-from tables import REGIMES, SHEET, Column, Columns, Row, write_table
+from tables import REGIMES, SHEET, Column, Columns, Row, of_words, write_table
 
-MOTION = Column("motion", "", "motion", "letter of the motion, the same along a branch over the values")
+MOTION = of_words("motion", "letter of the motion, the same along a branch over the values")
 MOTIONS = (
     MOTION,
     Column("share", "", "share", "share of the kicks at this value that end in the motion", 2),
@@ -103,10 +102,10 @@ def settled_in(motions: Sequence[Motion]) -> tuple:
     return tuple(motion.settled for motion in motions)
 
 
-def in_a_row(count: int) -> Callable[[int], dict[int, str]]:
+def in_a_row(count: int) -> Callable:
     """The neighbours of a place of a sweep over one key: the next value up, and the next one down."""
 
-    def neighbours(place: int) -> dict[int, str]:
+    def neighbours(place):
         return {place + step: found_by for step, found_by in CARRIED.items() if 0 <= place + step < count}
 
     return neighbours
@@ -127,7 +126,7 @@ class Motions:
         self,
         plan: Plan,
         keys: Columns,
-        neighbours: Callable[[int], dict[int, str]],
+        neighbours: Callable,
         match_distance: float = 0.0,
         folder: str = "",
     ):
@@ -136,12 +135,12 @@ class Motions:
         self.orbits = orbits_in(self.folder)
         self.starts = Starts(plan, (*self.keys, MOTION))
         self.kicks = 0  # at each place
-        self.jobs: list[Job] = []  # the runs from rest, by place
-        self.at: list[list[Motion]] = []
-        self.job_keys: dict[Motion, str] = {}  # of the judged runs of motions
-        self.rows: dict[str, dict] = {}  # of judged runs, by key
-        self.times: Counter = Counter()
-        self.computed: set[str] = set()  # keys of the judged runs that were computed, or went on
+        self.jobs = []  # the runs from rest, by place
+        self.at = []  # the motions, by place
+        self.job_keys = {}  # of the judged runs, by motion
+        self.rows = {}  # of judged runs, by key
+        self.times = Counter()
+        self.computed = set()  # keys of the judged runs that were computed, or went on
 
     def add(self, jobs: Jobs) -> range:
         """Add the places of these runs from rest; returns their numbers."""
@@ -176,20 +175,20 @@ class Motions:
     def fine(self, place: int, start: Start) -> Start:
         """The start with as many samples as a run of its place, which then takes up its last state to the moment."""
         scene = self.jobs[place].scene
-        return replace(start, often=round(scene.waves.period_s / scene.sample_step_s()))
+        return replace(start, often=samples_of(scene, 1))
 
     def run_starts(
         self,
         title: str,
-        starts: Sequence[tuple[int, Start]],
-        beside: Callable[[int], Iterable[int]] | None = None,
+        starts: Sequence[tuple],
+        beside: Callable | None = None,
     ) -> list[Motion | None]:
         """Run starts at places; returns the motion in which each ended, None where it did not settle.
 
         beside: the numbers of the starts beside a start. Where it is given, a coarse line is asked first
         (`campaigns.explore.coarse`). Starts beside one that ends in another motion then run on the line itself.
         """
-        coarse: dict[int, Ending] = {}
+        coarse = {}
         if beside is not None:
             coarse = coarse_endings(self, title, starts)
         endings = dict(coarse)
@@ -230,9 +229,9 @@ class Motions:
         *labels, label = grouped([*settled_in(motions), ending.settled]).tolist()
         return motions[labels.index(label)] if label in labels else None
 
-    def branches(self) -> list[list[Motion]]:
+    def branches(self) -> list[list]:
         """The motions of each branch, by place."""
-        members: dict[Motion, list[Motion]] = {}
+        members = {}  # by the first motion of a branch
         for motion in self.all_motions():
             members.setdefault(motion.branch, []).append(motion)
         return [*members.values()]
@@ -249,7 +248,7 @@ class Motions:
         """The row of the judged run of a motion; {} where there is none yet."""
         return self.rows.get(self.job_keys.get(motion), {})
 
-    def table(self) -> list[dict]:
+    def table(self) -> list[Row]:
         """A row for each motion, by place and letter; of a place whose run from rest has no motion, also that run's."""
         rows = []
         for job, motions in zip(self.jobs, self.at, strict=True):

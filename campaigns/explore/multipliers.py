@@ -16,11 +16,9 @@ from typing import TYPE_CHECKING
 
 import engine
 from campaigns.judge import periods_of
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.long_runs import EARLY
-from campaigns.machinery.store import Store, key_of
+from campaigns.machinery import EARLY, Store, filled, key_of, made_by
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, carries_tangents, strobed_states
-from tables import REGIMES, SHEET, Column, finite, names
+from tables import REGIMES, SHEET, Column, finite
 
 if TYPE_CHECKING:
     import numpy as np
@@ -79,7 +77,7 @@ class OrbitUnder:
 
     def row(self) -> dict[str, float | None]:
         """The columns MULTIPLIERS."""
-        return dict(zip(names(MULTIPLIERS), map(finite, self._leading()), strict=True))
+        return filled(MULTIPLIERS, map(finite, self._leading()))
 
     def words(self) -> str:
         """The leading multiplier, and whether the orbit is stable."""
@@ -126,7 +124,7 @@ def orbit_under(trajectory: Trajectory, period: int, orbits: Store, iterations: 
 
 @cache
 def _maker() -> str:
-    return made_by({}, *SOURCES)
+    return made_by(*SOURCES)
 
 
 def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:

@@ -9,10 +9,7 @@ import engine
 from analysis import approach_evidence, approached_period, joins, settled
 from analysis.orbits import NoImage, OrbitMap, find_orbit
 from campaigns.explore.starts import Start
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Plan
-from campaigns.machinery.store import Store, key_of
-from campaigns.machinery.tasks import Task, results
+from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.physics.strains import tension_at
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
@@ -21,7 +18,7 @@ LONGER = 320  # wave periods of the start from rest and of kicks that come neare
 DIFFERENCE = 1e-5  # of a state, for the derivative of the map over a wave period
 
 
-def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple[float, float]]:
+def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple]:
     """Velocities (m/s) drawn independently and uniformly from the square of half width speed_mps, for a place.
 
     The interval of a share (`analysis.share_of`) needs independent draws. Eight points of a Halton sequence are a
@@ -31,7 +28,7 @@ def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple[flo
     return [tuple(kick) for kick in drawn.tolist()]
 
 
-def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[dict]]:
+def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     """For each scene the motions of its massless tether; none where that model does not cover a scene.
 
     A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
@@ -51,7 +48,7 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     return [result["motions"] for result in results(plan.how, store, "massless tethers", tasks, size=SCENES).results]
 
 
-def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list[Start]]:
+def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
     """For each scene a start on each motion of its massless tether that kicks have found (`screened`)."""
     starts = []
     for motions in screened(plan, scenes, speed_mps, seed):
@@ -62,7 +59,7 @@ def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list
 
 @cache
 def _maker() -> str:
-    return made_by({}, "analysis", "campaigns/explore/proposals.py")
+    return made_by("analysis", "campaigns/explore/proposals.py")
 
 
 def _motions(kicked: np.ndarray, scene) -> dict:
@@ -137,7 +134,7 @@ def _settled(scene, strobed: np.ndarray, measures: np.ndarray, ahead: bool):
 def _orbit_ahead(scene, strobed: np.ndarray, scale: np.ndarray) -> np.ndarray | None:
     """A state (4,) on the periodic orbit that a massless run comes nearer to (`analysis.approaches`); None: on none."""
 
-    def step(z: np.ndarray, _: float) -> tuple:
+    def step(z, _):
         starts = np.vstack([z, z + DIFFERENCE * np.eye(4), z - DIFFERENCE * np.eye(4)])
         image, *beside = engine.massless_runs(scene, starts * scale, 1).strobed[:, -1] / scale
         if not np.isfinite(beside).all():

@@ -4,10 +4,7 @@ A column whose analysis does not apply to a run stays empty (None), never 0: a r
 its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +14,8 @@ from analysis.snaps import NEAR_ZERO
 from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.motions import MOTIONS
 from campaigns.explore.multipliers import MULTIPLIERS
-from campaigns.judge import periods_of
+from campaigns.judge import periods_of, samples_of
+from campaigns.machinery import filled
 from engine.run.rest import static_tension_N
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
@@ -34,11 +32,7 @@ from tables import (
     Row,
     counted,
     finite,
-    names,
 )
-
-if TYPE_CHECKING:
-    from campaigns.explore.judgement import Judgement
 
 DIMENSIONS = Column("dimensions", "", "D", "dimensions of the motion: 2, in the plane of the waves, or 3", 0, PLANE)
 TRANSIENT = Column(
@@ -161,20 +155,16 @@ COLUMNS = (
 )
 
 
-def buoy_row(trajectory, judgement: Judgement) -> Row:
+def buoy_row(trajectory, judgement) -> Row:
     """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
 
-    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. A record that does not
-    outlast the transient of its judgement by a wave period has statistics only. A loop release after the transient
-    leaves offplane_growth unknown, because across the plane a loop has no rate of its own. `campaigns.explore.space`
-    fills the columns planar_.
+    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. judgement: of it
+    (`campaigns.explore.judgement.Judgement`). A record that does not outlast the transient of its judgement by a wave
+    period has statistics only. A loop release after the transient leaves offplane_growth unknown, because across the
+    plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
     """
-    columns, scene = sound_part(trajectory.columns), trajectory.scene
-    step_s, period_s = scene.sample_step_s(), scene.waves.period_s
-    row = counted(trajectory)
-    row[HEIGHT.name] = height_m(scene, columns)
-    if len(columns["time_s"]):
-        row["periods"] = periods_of(scene, columns)
+    scene = trajectory.scene
+    row, columns = begun_row(trajectory)
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
     transient_periods = judgement.transient
@@ -186,7 +176,7 @@ def buoy_row(trajectory, judgement: Judgement) -> Row:
             measured[STROBED.name] = judgement.verdict.period
         row |= {"transient_periods": transient_periods, **measured}
         if scene.motion.dimensions == 3:
-            first = round(transient_periods * period_s / step_s)  # sample after the transient
+            first = samples_of(scene, transient_periods)  # sample after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:
@@ -195,7 +185,16 @@ def buoy_row(trajectory, judgement: Judgement) -> Row:
     return row
 
 
-def regime_of(judgement: Judgement) -> Row:
+def begun_row(trajectory) -> tuple[Row, dict]:
+    """The statistics of a run in waves, the height of its buoy and its length in a row; and the `sound_part` of it."""
+    row, columns = counted(trajectory), sound_part(trajectory.columns)
+    row[HEIGHT.name] = height_m(trajectory.scene, columns)
+    if len(columns["time_s"]):
+        row[PERIODS_RUN.name] = periods_of(trajectory.scene, columns)
+    return row, columns
+
+
+def regime_of(judgement) -> Row:
     """The columns of the verdict and of the exponents."""
     verdict, record = judgement.verdict, judgement.record
     evidence = evidence_text(verdict)
@@ -263,7 +262,7 @@ def utilisation(scene, row: Row) -> float | None:
 
 def exponents(columns: tuple[Column, Column], exponent) -> Row:
     """An Exponent in the two columns of its value and its standard error."""
-    return dict(zip(names(columns), (finite(exponent.value), finite(exponent.error)), strict=True))
+    return filled(columns, (finite(exponent.value), finite(exponent.error)))
 
 
 def settled(scene, columns, transient_s: float) -> Row:
@@ -281,7 +280,7 @@ def settled(scene, columns, transient_s: float) -> Row:
         for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
     )
     ends = radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum
-    row = dict(zip(names(EXTREMES), (*ends, *shares), strict=True))
+    row = filled(EXTREMES, (*ends, *shares))
     return row | along_line(scene, columns, transient_s)
 
 
@@ -320,7 +319,7 @@ def along_line(scene, columns, transient_s: float) -> Row:
     largest, place = float(most.max()), float(columns["tension_max_s_m"][first + int(most.argmax())])
     if top.max() > largest:
         largest, place = float(top.max()), scene.tether.length_m
-    return dict(zip(names(ALONG_LINE), (float(anchor.max()), largest, place), strict=True))
+    return filled(ALONG_LINE, (float(anchor.max()), largest, place))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:

@@ -13,8 +13,7 @@ from dataclasses import replace
 
 import engine.scene
 from campaigns.judge import UNFOLLOWED
-from campaigns.machinery.plan import Jobs, Plan, Summary
-from campaigns.machinery.runner import run
+from campaigns.machinery import Jobs, Plan, Summary, run
 
 SEED_MPS = 1e-5  # size of the push
 # components of a push along and across the waves; a mirrored push has to give the mirrored motion, and a push along the

@@ -11,7 +11,7 @@ The order is that of the continuation of attractors in Attractors.jl (Datseris, 
 (2023)): find at each value from the motions of the one before, then match.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from string import ascii_uppercase
@@ -22,13 +22,12 @@ from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search
 from campaigns.explore.proposals import kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
-from campaigns.machinery.plan import Job, Jobs
-from campaigns.machinery.progress import in_parts
+from campaigns.machinery import Job, Jobs, in_parts
 
 TIMES = 4  # one transient of chaos in 55 lasts so many mean times
 
 
-def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable[[], None]) -> None:
+def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable) -> None:
     """Find the motions of the places of these runs from rest; later: further parts of the same work.
 
     Raises as `runner.run`.
@@ -41,7 +40,7 @@ def explore(motions: Motions, jobs: Jobs, search: Search, *later: Callable[[], N
     in_parts([*parts, partial(judge, motions, search), partial(name, motions), *later])
 
 
-def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable[[], object]]:
+def parts_beside_rest(motions: Motions, places: Sequence[int], search: Search) -> list[Callable]:
     """What finds the motions of places beside those from rest, to be called in this order."""
     return [
         partial(propose, motions, places, search),
@@ -128,7 +127,7 @@ def kick(motions: Motions, places: Sequence[int], search: Search) -> None:
     for place in places:
         for velocity in kicks(search.kicks, search.speed_mps, search.seed, place):
             starts.append((place, Start(KICKED, velocity)))
-    kicked: dict[Motion, tuple[int, Start]] = {}  # the motions that kicks have found, each with its last kick
+    kicked = {}  # the motions that kicks have found, each with its last kick
     for start, motion in zip(starts, motions.run_starts("kicks", starts, nothing_beside), strict=True):
         if motion is not None:
             motion.kicks += 1
@@ -168,11 +167,11 @@ def merge(motions: Motions, settled: Mapping[Motion, object]) -> None:
 
     settled: what these runs settled to.
     """
-    merged: dict[Motion, Motion] = {}
+    merged = {}  # by motion the one into which it is merged
     for place, motions_here in enumerate(motions.at):
         for motion in motions_here:
             motion.settled = settled.get(motion, motion.settled)
-        first: dict[int, Motion] = {}
+        first = {}  # motion of each label
         for label, motion in zip(grouped(settled_in(motions_here)), motions_here, strict=True):
             merged[motion] = first.setdefault(int(label), motion)
             if merged[motion] is not motion:
@@ -199,7 +198,7 @@ def name(motions: Motions) -> None:
             if neighbour > place:
                 _continue_unsettled(motions, place, neighbour)
                 _join_branches(motions, place, neighbour, branches)
-    first: dict[int, Motion] = {}
+    first = {}  # motion of each branch
     for motion in ordered:
         motion.branch = first.setdefault(id(branches[motion]), motion)
         if motion.branch is motion:
@@ -231,7 +230,7 @@ def _follow_back(motions: Sequence[Motion], candidates: Sequence[Motion], place:
             motion.becomes[neighbour] = back[0]
 
 
-def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[Motion, dict[int, Motion]]) -> None:
+def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[Motion, dict]) -> None:
     """Join the branches of motions that become each other, unless both have a motion at one place, as round a cusp."""
     for motion in motions.at[place]:
         successor = motion.becomes.get(neighbour)
@@ -244,7 +243,7 @@ def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[
                 branches[member] = branch
 
 
-def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable[[int], Iterable[int]]) -> list[Job]:
+def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[Job]:
     """The jobs whose chaos has not lasted long enough; they go on until it has.
 
     It may be a transient, because periodic motions beside it began as chaos, or because only a kick led to it.
@@ -256,8 +255,8 @@ def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable[[in
     rows: of their runs, by key.
     neighbours: the places beside a place.
     """
-    transients: dict[int, float] = {}  # of the places whose motion is periodic
-    chaotic: dict[int, Mapping] = {}  # rows of the places whose motion is chaotic
+    transients = {}  # by place, of those whose motion is periodic
+    chaotic = {}  # rows by place, of those whose motion is chaotic
     for place, job in enumerate(jobs):
         row = rows.get(job.key, {})
         regime = str(row.get("regime"))

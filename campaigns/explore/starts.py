@@ -23,11 +23,20 @@ import numpy as np
 from analysis import Settled, joins, settled
 from campaigns.explore.multipliers import orbit_ahead
 from campaigns.judge import UNFOLLOWED, periods_of
-from campaigns.machinery.folder import claimed, made_by, run_of
-from campaigns.machinery.long_runs import until_settled
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import run
-from campaigns.machinery.store import Store, orbits_in
+from campaigns.machinery import (
+    Job,
+    Jobs,
+    Plan,
+    Store,
+    Summary,
+    claimed,
+    filled,
+    made_by,
+    orbits_in,
+    run,
+    run_of,
+    until_settled,
+)
 from engine.scene import scene_from_toml
 from engine.views import strobed_states
 from tables import (
@@ -44,7 +53,7 @@ from tables import (
     Columns,
     Row,
     counted,
-    names,
+    of_words,
     write_table,
 )
 
@@ -52,7 +61,7 @@ LOOKS = (16, 20, 24, 30, 36, 44, 54, 66, 80, 96, 112, 128, 144, 160)
 OFTEN, MOST_OFTEN = 10, 720  # samples a wave period; at most, where it is strobed between these
 KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_m", "waves.phase_rad"
 SOURCES = "analysis", "engine", "campaigns/explore"
-FOUND_BY = Column("found_by", "", "found by", "rest, massless (model), kick, or carried from a neighbour")
+FOUND_BY = of_words("found_by", "rest, massless (model), kick, or carried from a neighbour", "found by")
 KICKS = (
     Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),
@@ -62,7 +71,7 @@ KICKS = (
     Column("displacement_z_m", "m", "moved z", "place of the buoy at the start, from that of its rest, upwards", 2),
     Column("phase_rad", "rad", "phase", "phase of the wave at the start", 3),
 )
-OUTCOME = Column("outcome", "", "outcome", f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
+OUTCOME = of_words("outcome", f"{SETTLED} by itself, {JOINED} a known motion, or {UNSETTLED}")
 JOINS = Column("joins", "", "joins", "number of the known motion that it has joined, from 0 on", 0)
 OF_A_START = (*KICKS, OUTCOME, JOINS, STATUS, PERIODS_RUN, LOOPS, WALL_S, RUN_KEY, MESSAGE)
 
@@ -96,7 +105,7 @@ class Start:
         """The columns of KICKS; those of a state are empty."""
         labels = {"found_by": self.found_by}
         if self.state is None:
-            labels |= zip(names(KICKS[:4]), (*self.kick, *self.displacement), strict=True)
+            labels |= filled(KICKS[:4], (*self.kick, *self.displacement))
             if self.phase is not None:
                 labels["phase_rad"] = self.phase
         return labels
@@ -173,7 +182,7 @@ def start_row(trajectory, known: Sequence = (), settles: bool = True) -> Row:
     return row | {"outcome": UNSETTLED}
 
 
-def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list[float]]:
+def section_of(trajectory) -> tuple[np.ndarray, np.ndarray, list]:
     """Strobed states (n + 1, 4) of a run, (n, 3) least and largest r (m) and largest tension (N) of each period, and
     what counts as 1 in the states. r is taken OFTEN times a period, so that runs of more samples compare. States are
     those at phase 0 of the wave, so that runs that begin at other phases compare too.
@@ -246,12 +255,12 @@ class Starts:
     """All starts of a campaign: runs in its folder starts/, with a table. keys: columns that name a start."""
 
     def __init__(self, plan: Plan, keys: Columns):
-        self.folder, maker = plan.out / "starts", made_by({}, *SOURCES)
+        self.folder, maker = plan.out / "starts", made_by(*SOURCES)
         columns = (*keys, FOUND_BY, *OF_A_START)
         self.plan = replace(plan, columns=columns, describe=start_row, judge=None, row_maker=maker, spare=[])
-        self.endings: list[Ending] = []
-        self.times: Counter = Counter()
-        self.computed: set[str] = set()  # keys of the runs that were not there before
+        self.endings = []  # `Ending` of every start
+        self.times = Counter()
+        self.computed = set()  # keys of the runs that were not there before
 
     def run(self, title: str, requests: Sequence[Request], listed: bool = True) -> list[Ending]:
         """Run starts that are not there yet, side by side. title: of the progress. listed: whether in the table.

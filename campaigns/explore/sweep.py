@@ -1,22 +1,17 @@
 """A sweep over one key with every motion of each value: its options, its runs, and the tables that an answer reads."""
 
 import contextlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import engine
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import run
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
 from tables import Columns, Rows, names, read_table
-
-if TYPE_CHECKING:
-    from campaigns.explore.motions import Motions, Search
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -41,7 +36,7 @@ FULL = "full"
 
 
 @dataclass
-class Starts(cli.Options):
+class SweepOptions(cli.Options):
     """The options of a sweep with every motion of each value."""
 
     starts: str | int | None = cli.option(
@@ -80,7 +75,7 @@ def start_of(order: Order, scene):
             raise ValueError("given for a scene without waves; allowed: with waves")
         return checked_start(scene, run_in(order.options.start_from)).at_zero()
     except ValueError as error:
-        order.tell([f"--start-from: {error}"])
+        order.tell(f"--start-from: {error}")
     return None
 
 
@@ -90,7 +85,7 @@ def run_in(path: str):
     return engine.Trajectory.load(path)
 
 
-def with_kicks(cases: Callable[[Order], Iterable[Job]], order: Order) -> list[Job]:
+def with_kicks(cases: Callable, order: Order) -> list[Job]:
     """The cases of an order. It is a fault if they do not allow its starts."""
     order.cases = list(cases(order))
     kicks_of(order)
@@ -111,7 +106,7 @@ def kicks_of(order: Order) -> int | None:
     elif options.starts != REST:
         return options.starts
     if options.starts not in (None, REST):
-        order.tell([f"--starts: given {options.starts}{allowed}"])
+        order.tell(f"--starts: given {options.starts}{allowed}")
     return None
 
 
@@ -137,7 +132,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     (key,), options = order.options.grid.keys, order.options
     exact = not options.no_accuracy
 
-    def ends(motions: "Motions") -> None:
+    def ends(motions):
         if len(jobs) > 1:
             find_ends(motions, Scenes(motions.jobs[0].scene, key), exact)
 
@@ -147,10 +142,11 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     return every_motion(plan, jobs, Search(order, kicks, options.kick_speed, options.seed), *later)
 
 
-def every_motion(plan: Plan, jobs: Jobs, search: "Search", *later: Callable[["Motions"], object]) -> Summary:
+def every_motion(plan: Plan, jobs: Jobs, search, *later: Callable) -> Summary:
     """In place of `runner.run`: the motions of each value of the only key of the order of a search.
 
-    later: further parts of the work, called when the motions have their letters in table.csv.
+    search: `campaigns.explore.motions.Search`; later: further parts of the work, called with the `Motions` when these
+    have their letters in table.csv.
     """
     from campaigns.explore.motions import Motions, in_a_row
     from campaigns.explore.stages import explore

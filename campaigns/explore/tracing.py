@@ -15,10 +15,7 @@ from analysis.orbits import doubled_orbit, find_orbit, follow_branch, middle_of
 from campaigns.explore.grid import Varied
 from campaigns.explore.multipliers import COUNT, TOLERANCE, cable_map
 from campaigns.explore.multipliers import SOURCES as OF_ORBITS
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.plan import Plan
-from campaigns.machinery.store import Store, key_of
-from campaigns.machinery.tasks import Task, results
+from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.scene import SceneError, scene_from_toml
 from tables import finite
 
@@ -49,6 +46,13 @@ class Scenes:
         except SceneError:
             return None
 
+    def at(self, value: float, changes: dict | None = None):
+        """The same. Raises ArithmeticError where there is none."""
+        scene = self(value, changes)
+        if scene is None:
+            raise ArithmeticError(f"no scene can have {self.key.key} = {value:.4g}")
+        return scene
+
 
 @dataclass(frozen=True, eq=False)
 class Line:
@@ -71,10 +75,7 @@ class Line:
         """The scene at a value, as its orbits are computed. Raises ArithmeticError where there is none."""
         base = self.scenes.base
         changes = {"solver.rtol": min(self.rtol, base.solver.rtol), "tether.nodes": self.nodes or base.tether.nodes}
-        scene = self.scenes(value, changes)
-        if scene is None:
-            raise ArithmeticError(f"no scene can have {self.scenes.key.key} = {value:.4g}")
-        return scene
+        return self.scenes.at(value, changes)
 
     @cached_property
     def maps(self):
@@ -84,7 +85,7 @@ class Line:
     def digest(self) -> str:
         """Of all that results depend on beside their own task."""
         numbers = self.low, self.high, self.size, self.value, self.nodes, self.rtol
-        sources = made_by({}, *SOURCES), engine.source_hash()
+        sources = made_by(*SOURCES), engine.source_hash()
         return key_of(self.scenes.base.to_toml(), self.scenes.key.key, self.state, *numbers, *sources)
 
 
@@ -102,7 +103,7 @@ def _computed(do: Callable, line: Line, arguments: tuple) -> dict:
     return {"result": result, "points": points}
 
 
-def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list[Solved], int]:
+def work(plan: Plan, folder: Path, title: str, tasks: Sequence[Task]) -> tuple[list, int]:
     """Results of tasks with their points, in their order, and how many of them were there before.
 
     Raises CampaignStopped as `campaigns.machinery.tasks.results`.

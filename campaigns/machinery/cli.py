@@ -43,7 +43,7 @@ class Kind:
     allowed: str
 
 
-def number(allowed: str, is_sound: Callable[[float], bool]) -> Kind:
+def number(allowed: str, is_sound: Callable) -> Kind:
     """Numbers for which `is_sound` holds."""
     return Kind(lambda text: _checked(is_sound, float(text)), allowed)
 
@@ -162,8 +162,8 @@ def seed(use: str) -> Any:
 class Options:
     """The options of one command, beside those that all share; `read` fills fields that are no `option` or `flag`."""
 
-    def read(self, out: Path, faults: list[str]) -> None:
-        """Judge and amend the values; out: folder of the results."""
+    def read(self, faults: list[str]) -> None:
+        """Judge and amend the values."""
 
     @classmethod
     def offered(cls) -> Iterator[Field]:

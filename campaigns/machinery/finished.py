@@ -30,7 +30,7 @@ def order_key(called: str, asked: Mapping[str, object], versions: Mapping[str, s
     content = {
         "order": [called, words],
         "files": [hashlib.sha256(path.read_bytes()).hexdigest() for path in _files_in(asked.values())],
-        "code": made_by({}, *PACKAGES, *of_the_page(), *data),
+        "code": made_by(*PACKAGES, *of_the_page(), *data),
         "versions": dict(versions),
     }
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

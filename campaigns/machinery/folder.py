@@ -194,9 +194,9 @@ def kept_json(path: Path) -> dict:
     return {} if found is None else {name: entry for name, entry in json.loads(found).items() if name != "seal"}
 
 
-def made_by(settings: dict, *sources: str) -> str:
-    """Hash of settings (plain values) and of the code of every .py file in the given folders of the project, or given
-    files; docstrings and comments do not count.
+def made_by(*sources: str, **settings: object) -> str:
+    """Hash of the code of every .py file in the given folders of the project, or given files, and of settings (plain
+    values); docstrings and comments do not count.
 
     A row that is kept beside its run belongs to such a hash of what made it; to any other it is as good as nothing.
     Raises FileNotFoundError for a source that is not there, or a folder with no .py file: rows would outlive what made
@@ -205,7 +205,7 @@ def made_by(settings: dict, *sources: str) -> str:
     from machine_code.store import kept_hash
 
     root = Path(__file__).resolve().parents[2]
-    files: dict[str, Path] = {}
+    files = {}  # by name in the project
     for source in sources:
         path = root / source
         members = [path]

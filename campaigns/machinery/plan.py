@@ -7,14 +7,14 @@ lost at no cost: its rows come from these files, or from the copies of rows besi
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
 import engine
 from campaigns.machinery.cli import Running
-from tables import Columns, Row
+from tables import Columns, Row, names
 
 TIMES = "compile_s", "run_s", "analysis_s"
 
@@ -84,7 +84,7 @@ class Summary:
     rows: list[Row]
     found: int
     computed: int
-    times: Counter[str] = field(default_factory=Counter)
+    times: Counter = field(default_factory=Counter)
     whole: bool = False
     made: frozenset[str] = frozenset()
 
@@ -140,6 +140,11 @@ class Plan:
     def within(self, folder: Path | None, **changes: object) -> "Plan":
         """The plan for another folder, with further changes."""
         return replace(self, how=replace(self.how, out=folder), **changes)
+
+
+def filled(columns: Columns, values: Iterable) -> Row:
+    """The row that has these values in these columns."""
+    return dict(zip(names(columns), values, strict=True))
 
 
 def name_of(task: Jobs) -> str:

@@ -78,7 +78,7 @@ def stage(title: str, *counted: object, **options: object) -> Iterator[None]:
                 _close_bar()
 
 
-def in_parts(parts: Sequence[Callable[[], object]]) -> None:
+def in_parts(parts: Sequence[Callable]) -> None:
     """Do the parts of a piece of work one after the other, each shown as "part 2 of 8"."""
     for number, part in enumerate(parts, 1):
         with stage(f"part {number} of {len(parts)}"):
@@ -161,11 +161,11 @@ def _clock(began: float) -> str:
     return tqdm.format_interval(time.monotonic() - began).removeprefix("0")
 
 
-def reporter(folder: Path | None, task: str) -> Callable[..., None]:
+def reporter(folder: Path | None, task: str) -> Callable:
     """A function report(*numbers) by which a worker tells the progress of a task; without a folder it does nothing."""
     last_s = -REPORT_S
 
-    def report(*numbers: float) -> None:
+    def report(*numbers):
         nonlocal last_s
         now = time.monotonic()
         if folder is not None and now - last_s >= REPORT_S:
@@ -178,7 +178,7 @@ def reporter(folder: Path | None, task: str) -> Callable[..., None]:
     return report
 
 
-def reports(folder: Path) -> dict[str, list[float]]:
+def reports(folder: Path) -> dict[str, list]:
     """The last numbers that each `reporter` of a folder has written, by task."""
     numbers = {}
     for path in folder.iterdir():
@@ -188,7 +188,7 @@ def reports(folder: Path) -> dict[str, list[float]]:
     return numbers
 
 
-def with_progress(simulate: Callable, report: Callable[[float], None]) -> dict[str, Callable]:
+def with_progress(simulate: Callable, report: Callable) -> dict[str, Callable]:
     """{"progress": report} if the function `simulate` has an argument progress, as engine.simulate has; else {}."""
     if "progress" in inspect.signature(simulate).parameters:
         return {"progress": report}

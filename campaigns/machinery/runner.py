@@ -28,9 +28,10 @@ from tables import Row
 
 ENGINE = "machine code, compiled once and then loaded"
 MOST = 96  # jobs of a group: results reach the table group by group
-MOST_SENT = 8  # where a group's runs are sent together: one for each lane, so a lost worker costs what was running
+MOST_SENT = 8  # where a group's runs are sent together: few, so that a lost worker costs only what was running
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # its multiples, less whole numbers, fill any range evenly
-FEWEST = 3  # jobs for each worker below which they go alone: eight lanes cost as much as two to four runs alone
+# jobs for each worker below which they go alone: eight lanes cost as much as two to four runs alone, four as two
+FEWEST = 3
 _ready: set[tuple] = set()  # pieces of machine code that are on disk since a campaign of this process compiled them
 
 
@@ -57,12 +58,12 @@ def write_scene(directory: Path, campaign: str, jobs: Jobs) -> None:
     write_atomic(directory / "scene.toml", (head + jobs[0].scene.to_toml()).encode())
 
 
-def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
+def groups_of(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
     Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
     """
-    alike: dict[tuple, list[Job]] = {}
+    alike = {}  # jobs by their length
     for job in jobs:
         if shares_worker(plan, job):
             alike.setdefault((job.periods, job.duration_s, job.going is None), []).append(job)
@@ -78,7 +79,7 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple[Job, ...]]:
     return groups
 
 
-def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
+def _dealt(jobs: Jobs, count: int) -> list[list]:
     """The jobs in so many groups, none of them empty, dealt like cards: neighbours cost alike, and so the groups do.
 
     Jobs whose lines have unlike numbers of nodes, or carry unlike numbers of perturbations, share no lanes. If there
@@ -87,7 +88,7 @@ def _dealt(jobs: Jobs, count: int) -> list[list[Job]]:
     """
     from engine.simd.vector import COUNT
 
-    alike: dict[float, list[Job]] = {}
+    alike = {}  # jobs by their cost
     for job in jobs:
         alike.setdefault(_cost(job), []).append(job)
     together = 1
@@ -130,7 +131,7 @@ def _missing(folder: Path, jobs: Jobs) -> list[Job]:
     return [job for job in jobs if not trajectory_path(folder, job.key).exists()]
 
 
-def _keys(groups: Sequence[Sequence[Job]]) -> set[str]:
+def _keys(groups: Sequence[Sequence]) -> set[str]:
     return {job.key for job in chain.from_iterable(groups)}
 
 
@@ -165,7 +166,7 @@ def _compile(plan: Plan, missing: Jobs) -> None:
     pool = "loky", min(plan.how.jobs, max(2, len(missing)))
     if plan.how.backend == "threading":  # Numba compiles in one of them at a time
         pool = "threading", 1
-    ended: list[dict] = []
+    ended = []
     with (
         opened(*pool) as execute,
         stage(ENGINE, len(tasks), "pieces", lambda: len(ended)),
@@ -189,12 +190,12 @@ def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     """
     by_key = {job.key: job for job in jobs}
     table = Table(plan.out / "table.csv", plan.columns, list(by_key))
-    finished: set[str] = set()
-    times: Counter[str] = Counter()
+    finished = set()
+    times = Counter()
     with stage("looking for finished runs"):
         for key, job in by_key.items():
             outcome = reuse(plan, job, print_line)
-            if outcome is not None and _ended(job, outcome):
+            if outcome is not None and LongRun(job, row=outcome.row).next_part() is None:
                 finished.add(key)
                 times["analysis_s"] += outcome.analysis_s
                 table.rows[key] = _row(job, outcome)
@@ -219,15 +220,11 @@ def run_campaign(plan: Plan, jobs: Jobs) -> Summary:
     return Summary(table.in_order(), len(finished), len(missing), times, made=frozenset(_keys([missing])))
 
 
-def _ended(job: Job, outcome: Outcome) -> bool:
-    return LongRun(job, row=outcome.row).next_part() is None
-
-
 def _row(job: Job, outcome: Outcome) -> Row:
     return {**job.labels, **outcome.row, "run_key": job.key}
 
 
-def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple[str, Outcome]]:
+def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
     """Key and outcome of the jobs, as they come: those that can share a worker first, then what these leave undone.
 
     A run that kills its worker twice, the second time alone, is given up. reused: runs that were there before.
@@ -245,7 +242,7 @@ def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple[str, Outcom
         if job.key not in together:
             groups.append((job,))
 
-    def count() -> float:
+    def count():
         """Runs that have ended; of groups under way those that their workers report."""
         ended = total - len(unfinished)
         for name, (runs, *_) in reports(Path(place)).items():
@@ -256,7 +253,7 @@ def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple[str, Outcom
     lengths_s = [job.duration_s or job.periods * job.scene.waves.period_s for job in jobs if job.going is None]
     of_all = f" of {sum(lengths_s):,.0f}" if len(lengths_s) == len(jobs) else ""
 
-    def simulated() -> str:
+    def simulated():
         seconds = [length_s for _, length_s in reports(Path(place)).values()]
         return f"{sum(seconds):,.0f}{of_all} s simulated"
 

@@ -51,7 +51,7 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
     if argv is None:
         argv = sys.argv[1:]
     argv = list(argv)
-    faults: list[str] = []
+    faults = []
     open_streams()
     try:
         with stage(module.rpartition(".")[2]):
@@ -78,7 +78,7 @@ def command(module: str, argv: list[str] | None, read_order: Callable, work: Cal
 
 def condensed(faults: list[str]) -> list[str]:
     """The faults; of those of one key that differ by their numbers only, the first, and how many more there are."""
-    alike: dict[tuple[str, str], list[str]] = {}
+    alike = {}  # faults by key, and reason without its numbers
     for fault in dict.fromkeys(faults):
         key, _, reason = fault.partition(": ")
         alike.setdefault((key, re.sub(r"\d[\d.e+-]*", "#", reason)), []).append(fault)
@@ -116,7 +116,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     """
     start, how = time.perf_counter(), order.how
     fault = key = ""
-    answer: list[str] = []
+    answer = []
     if order.simulate is None:
         key = order.key
     with claimed(how.out), stage(study.name):
@@ -145,7 +145,7 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     return code
 
 
-def _outcome(summary: Summary) -> dict[str, object]:
+def _outcome(summary: Summary) -> dict:
     """What the provenance says of a campaign that has ended."""
     counts = {"total": summary.found + summary.computed, "found": summary.found, "computed": summary.computed}
     counts["failed"] = _failures(summary).total()
@@ -167,7 +167,7 @@ def _fault_of_report(out: Path) -> str:
     return ""
 
 
-def _failures(summary: Summary) -> collections.Counter[str]:
+def _failures(summary: Summary) -> collections.Counter:
     """How many rows have each status that is not ok."""
     counts = collections.Counter(str(row["status"]) for row in summary.rows)
     del counts["ok"]
@@ -181,7 +181,7 @@ def write_answer(out: Path, sentences: Iterable[str]) -> list[str]:
     return lines
 
 
-def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict[str, object]:
+def begun(out: Path, name: str, command: list[str], parameters: dict) -> dict:
     """The provenance of a campaign that begins: what is known before the first run.
 
     Written, unless the folder holds that of a finished campaign which differs only in when and where it ran. seed is
@@ -231,7 +231,7 @@ def versions() -> dict[str, str | None]:
     return versions
 
 
-def git_state(directory: Path) -> dict[str, object]:
+def git_state(directory: Path) -> dict:
     """{"commit", "dirty"} of the checkout that holds `directory`; both null outside one, or without git."""
     git = ["git", "-C", str(directory), "status", "--porcelain=v2", "--branch"]
     # An installed copy is no checkout, even when it lies inside somebody's: only our own repository counts.
@@ -244,7 +244,7 @@ def git_state(directory: Path) -> dict[str, object]:
     return {"commit": None, "dirty": None}
 
 
-def machine() -> dict[str, object]:
+def machine() -> dict:
     """The machine as a table of times has to name it: {"processor", "cores"}, cores that this process may use."""
     cores = os.cpu_count()
     if hasattr(os, "sched_getaffinity"):

@@ -60,7 +60,7 @@ class Store:
         for key, result in results.items():
             self.put(key, result)
 
-    def finished(self, key: str, compute: Callable[[], Result]) -> Result:
+    def finished(self, key: str, compute: Callable) -> Result:
         """The result with this key, computed now where it is not there."""
         result = self.get(key)
         if result is None:

@@ -39,8 +39,7 @@ def results(
     size: how many a worker is given at once, where each takes a moment only. spare: as of `pools.opened`.
     Raises CampaignStopped where a task kills its worker twice; what is finished is kept.
     """
-    finished: dict[str, Result] = {}
-    missing: dict[str, Task] = {}
+    finished, missing = {}, {}
     reused = 0
     for task in tasks:
         result = store.get(task.key)
@@ -61,7 +60,7 @@ def results(
     return Results([finished[task.key] for task in tasks], reused)
 
 
-def _computed(store: Store, group: Sequence[Task]) -> list[tuple[str, Result]]:
+def _computed(store: Store, group: Sequence[Task]) -> list[tuple]:
     return [(task.key, store.finished(task.key, task.compute)) for task in group]
 
 
@@ -71,7 +70,7 @@ def _stopped(task: Task, reason: str) -> Result:
 
 def as_completed(
     how: Running, groups: Sequence[Sequence], call: Callable, lost: Callable, spare: Sequence[Callable] = ()
-) -> Iterator[tuple[str, object]]:
+) -> Iterator[tuple]:
     """Key and result of each task of the groups, as they come.
 
     call(group) -> key and result of those of its tasks that came to an end; the others are done one by one, when all

@@ -25,7 +25,7 @@ from engine.atomic import write_atomic
 SAVED_S = 10.0  # of work that a killed campaign may lose of a long run, beside the part that is under way
 
 
-def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple[str, Outcome]]:
+def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Key and outcome of one job, whatever goes wrong in its run; of several jobs, of those that came to an end.
 
     Raises CampaignStopped where no other run would fare better: a full disk, other sources of the engine.
@@ -33,7 +33,7 @@ def run_jobs(plan: Plan, jobs: Jobs) -> list[tuple[str, Outcome]]:
     if engine.source_hash() != jobs[0].engine:
         raise CampaignStopped("the engine's sources here are not those the campaign began with; start it again")
     report = reporter(plan.reports, name_of(jobs))
-    outcomes: dict[str, Outcome] = {}
+    outcomes = {}  # by key
     try:
         _run_side_by_side(plan, jobs, outcomes, report)
     except CampaignStopped:
@@ -57,26 +57,26 @@ class Spare(NamedTuple):
             run_jobs(self.plan, self.jobs)
 
 
-def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], report: Callable[..., None]) -> None:
+def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], report: Callable) -> None:
     """Runs of one part, or of as many as they need (`campaigns.machinery.long_runs`).
 
     A run is on disk when it has ended, and after a part of it where SAVED_S have passed: a campaign that was killed
     goes on from there.
     """
-    under_way: list[LongRun | None] = []
+    under_way = []
     for job in jobs:
         run, outcome = _resumed(plan, job)
         if run.next_part() is None:
             outcomes[job.key] = outcome
         else:
             under_way.append(run)
-    saved_s: dict[int, float] = {}
+    saved_s = {}
     length_s = sum(_length_s(run.part) for run in under_way)  # of all parts that are known by now
 
-    def progress(share: float) -> None:
+    def progress(share):
         report(len(outcomes), share * length_s)
 
-    def go_on(number: int, trajectory) -> tuple | None:
+    def go_on(number, trajectory):
         """Take a part that has ended; what the run does next, as `engine.simulate_each` asks for it."""
         nonlocal length_s
         run = under_way[number]
@@ -145,7 +145,7 @@ def _saved(plan: Plan, job: Job, trajectory, outcome: Outcome) -> Outcome:
     return outcome
 
 
-def reuse(plan: Plan, job: Job, report: Callable[[str], None] = lambda _: None) -> Outcome | None:
+def reuse(plan: Plan, job: Job, report: Callable = lambda _: None) -> Outcome | None:
     """The outcome of a run that is there already; None where it has to be computed.
 
     A file that is damaged, or not of the run that its name and the order say, is as good as none; report(why).

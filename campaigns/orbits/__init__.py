@@ -26,12 +26,10 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
-from campaigns.machinery import cli
-from campaigns.machinery.folder import BadInput, claimed, run_of
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
-from tables import number_of, read_table
+from tables import Rows, number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
@@ -64,7 +62,7 @@ class Options(cli.Options):
     second: object = None  # the key of --curves
     grid: Grid = field(default_factory=Grid)  # the key with its values, read from --vary and --values
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The key with its values in the words of --vary."""
         if self.motion is not None and self.start_from is not None:
             faults.append(f"--motion: given {self.motion} with --start-from; allowed: one of them")
@@ -92,7 +90,7 @@ class Options(cli.Options):
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
-    order.periods, order.looks, order.transient = BUDGET, True, None
+    order.look_by_look(BUDGET)
     if not order.options.grid.keys:
         return
     jobs_of = _jobs
@@ -106,11 +104,13 @@ def cases(order: Order) -> Iterator[Job]:
     grids = {job.scene.tether.nodes for job in jobs}
     reasons = dict.fromkeys(why_no_map(job.scene) for job in jobs)
     for reason in filter(None, reasons):
-        order.tell([f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a "
-                    "plane with bending stiffness, an integrator with error control"])  # fmt: skip
+        order.tell(
+            f"campaigns.orbits: given a scene with {reason}; allowed: a buoy in regular waves, a line in a plane with "
+            "bending stiffness, an integrator with error control"
+        )
     if len(grids) > 1:
         key = order.options.grid.keys[0].key
-        order.tell([f"--vary {key}: changes the grid of the line; allowed: a key that does not"])
+        order.tell(f"--vary {key}: changes the grid of the line; allowed: a key that does not")
     if order.options.second is not None:
         _check_second(order, jobs[0].scene)
     yield from jobs
@@ -118,23 +118,23 @@ def cases(order: Order) -> Iterator[Job]:
 
 def _check_second(order: Order, scene) -> None:
     """Tell what is wrong with the key of --curves in a scene."""
-    from campaigns.orbits.curves import scene_at
+    from campaigns.explore.tracing import Scenes
 
     key = order.options.second
     value, (low, high) = key.of(scene), (key.values[0], key.values[-1])
     if value is None or not low <= value <= high:
-        order.tell([f"--curves {key.key}: given {low:g} to {high:g}; allowed: a range with the value of the scene, "
-                    f"{value}"])  # fmt: skip
+        allowed = f"a range with the value of the scene, {value}"
+        order.tell(f"--curves {key.key}: given {low:g} to {high:g}; allowed: {allowed}")
         return
     try:
-        grids = {scene_at(scene, key, end).tether.nodes for end in (low, high)}
+        grids = {Scenes(scene, key).at(end).tether.nodes for end in (low, high)}
     except ArithmeticError as why:
-        order.tell([f"--curves {key.key}: given {low:g} to {high:g}; {why}"])
+        order.tell(f"--curves {key.key}: given {low:g} to {high:g}; {why}")
         return
     if all(isinstance(end, int) for end in (low, high)):
-        order.tell([f"--curves {key.key}: holds a whole number; allowed: a key that holds any number"])
+        order.tell(f"--curves {key.key}: holds a whole number; allowed: a key that holds any number")
     elif grids != {scene.tether.nodes}:
-        order.tell([f"--curves {key.key}: changes the grid of the line; allowed: a key that does not"])
+        order.tell(f"--curves {key.key}: changes the grid of the line; allowed: a key that does not")
 
 
 def _jobs(order: Order) -> Iterator[Job]:
@@ -157,9 +157,9 @@ def _job_of_file(order: Order) -> Iterator[Job]:
             raise ValueError(f"given a run with {key.key} = {value}; allowed: {key.values[0]:g} to {key.values[-1]:g}")
         yield job_from({key.key: value, "dimensions": 2}, scene, 1, run.final_state.at_zero())
     except SceneError as error:
-        order.tell(error.faults)
+        order.tell(*error.faults)
     except ValueError as error:
-        order.tell([f"--start-from: {error}"])
+        order.tell(f"--start-from: {error}")
 
 
 def measures(order: Order) -> Measures:
@@ -175,7 +175,7 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
 
     options = order.options
     (key,) = options.grid.keys
-    times: Counter[str] = Counter()
+    times = Counter()
     if options.start_from is not None:
         starts = [*_under_file(order, jobs[0])]
     else:
@@ -221,7 +221,7 @@ def _check_letter(letter: str | None, folder: Path) -> None:
 def _under_motions(order: Order, folder) -> Iterator[tuple]:
     """For every period of every motion its letter, a value in the middle of where it is found, and a state there."""
     (key,) = order.options.grid.keys
-    rows_of: dict[tuple[str, int], list[dict]] = {}
+    rows_of = {}  # by letter and period
     for row in read_table(folder / "table.csv"):
         period = number_of(row, "strobed_period")
         if row["status"] == "ok" and 1 <= period <= LONGEST_PERIOD and order.options.motion in (None, row["motion"]):
@@ -257,7 +257,7 @@ def parameters(order: Order) -> dict:
     } | ({} if options.second is None else {"curves": options.curves})
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The findings (`answer.sentences`)."""
     from campaigns.orbits.answer import sentences
 
@@ -277,4 +277,4 @@ STUDY = Study(
     runs=runs,
     answer=answer,
 )
-main, parser, read_order = STUDY.main, STUDY.parser, STUDY.read_order
+main, read_order = STUDY.main, STUDY.read_order

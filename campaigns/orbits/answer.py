@@ -13,7 +13,7 @@ ACCURATE = 2e-4  # of an event, and of its value where that is above 1, as in th
 MOST = 8
 
 
-def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence[Row]]) -> Iterator[str]:
+def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence]) -> Iterator[str]:
     """At most eight, of the rows of table.csv and of those in the folders branches, events and orbits (parts)."""
     branches, failed = [], []
     for row in parts["branches"]:
@@ -69,13 +69,13 @@ def _branch(branch: Row, orbits: Sequence[Row], key: Column, events: Sequence[Ro
     return f"{sentence}."
 
 
-def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) -> list[tuple[float, float]]:
+def _stable_spans(orbits: Sequence[Row], key: Column, turns: Sequence[float]) -> list[tuple]:
     """Ranges of the key in which the orbits of a branch are stable; turns: the values of its events.
 
     Where stability changes, the event nearest to the last stable orbit is the end.
     """
     values, stable = numbers_of(orbits, key.name), list(map(_is_stable, orbits))
-    spans: list[tuple[float, float]] = []
+    spans = []
     for number, value in enumerate(values):
         if not stable[number]:
             continue

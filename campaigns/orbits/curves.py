@@ -14,11 +14,10 @@ from campaigns.explore.grid import Varied
 from campaigns.explore.motions import subfolder
 from campaigns.explore.multipliers import COUNT, cable_map
 from campaigns.explore.tracing import SOURCES, Line, Scenes, Solved, line_task
-from campaigns.machinery.folder import made_by
-from campaigns.machinery.store import Store, key_of
+from campaigns.machinery import Store, key_of, made_by
 from campaigns.orbits.tables import ANGLE, KIND, PERIOD
 from campaigns.orbits.tree import Tree
-from tables import MESSAGE, STATUS, Column, Row, finite, write_table
+from tables import MESSAGE, STATUS, Column, Row, finite, of_words, write_table
 
 FOLDER = "curves"
 # m of what is seen, and shares of the ranges; below `least` steps of time scatter an orbit by more than the curve moves
@@ -26,13 +25,13 @@ STEPS = {"step": 0.3, "least": 0.03, "longest": 0.5}
 KNOWN = 0.02  # of the range of the first key: an event this near to a curve of its kind and period lies on it
 CURVE = Column("curve", "", "curve", "number of the curve, from 1 on", 0)
 PLACE = Column("place", "", "place", "number of the point along the curve, from 0 on; empty for a special point", 0)
-SPECIAL = Column(
-    "special", "", "point",
-    "cusp, extremum (of the second key: birth or death of an island there), fold-flip, or strong resonance 1:1 to 1:4",
-)  # fmt: skip
-BEGINS = Column("begins", "", "begins", "why the curve begins where it does")
-ENDS = Column("ends", "", "ends", "why the curve ends where it does")
-OF = Column("branch", "", "branch", "branch on which its first event was found")
+_SPECIAL = (
+    "cusp, extremum (of the second key: birth or death of an island there), fold-flip, or strong resonance 1:1 to 1:4"
+)
+SPECIAL = of_words("special", _SPECIAL, "point")
+BEGINS = of_words("begins", "why the curve begins where it does")
+ENDS = of_words("ends", "why the curve ends where it does")
+OF = of_words("branch", "branch on which its first event was found")
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +59,7 @@ class Plane:
 
     def scene(self, values: tuple[float, float]):
         """The scene at values of both keys. Raises ArithmeticError where there is none."""
-        return scene_at(self.line.scene(values[0]), self.key, values[1])
+        return Scenes(self.line.scene(values[0]), self.key).at(values[1])
 
     @property
     def maps(self) -> OrbitMap:
@@ -81,16 +80,8 @@ class Plane:
 
     def digest(self) -> str:
         """Of all that a curve depends on beside its first event."""
-        own = made_by({}, *SOURCES, "campaigns/orbits/curves.py"), engine.source_hash()
+        own = made_by(*SOURCES, "campaigns/orbits/curves.py"), engine.source_hash()
         return key_of(self.line, self.key.key, *self.key.values, *own)
-
-
-def scene_at(scene, key: Varied, value: float):
-    """A scene with another value of a key. Raises ArithmeticError where there is none."""
-    changed = Scenes(scene, key)(value)
-    if changed is None:
-        raise ArithmeticError(f"no scene can have {key.key} = {value:.4g}")
-    return changed
 
 
 def _of_array(image):
@@ -126,7 +117,7 @@ def _point(point) -> dict:
 
 def curves_of(tree: Tree, plane: Plane) -> Iterator[Row]:
     """Rows of all curves of the events of a tree; an event on a curve that is known is not followed again."""
-    known: list[tuple[dict, dict]] = []
+    known = []  # first event and result of each curve
     number = 0
     for branch in tree.branches:
         for event in branch.events:

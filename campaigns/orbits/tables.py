@@ -6,14 +6,15 @@ from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
-from campaigns.explore.motions import MOTION, subfolder
+from campaigns.explore.motions import MOTION, subfolder, write_part
 from campaigns.explore.multipliers import COUNT, MULTIPLIERS
 from campaigns.explore.rows import STROBED
+from campaigns.machinery import filled
 from campaigns.orbits.tree import Tree
 from engine.atomic import write_atomic
-from tables import MESSAGE, STATUS, Column, Row, csv_of, names, write_table
+from tables import MESSAGE, STATUS, Column, Columns, Row, csv_of, names, of_words, write_table
 
-BRANCH = Column("branch", "", "branch", "the period of its orbits, and a letter where there are several")
+BRANCH = of_words("branch", "the period of its orbits, and a letter where there are several")
 PLACE = Column("place", "", "place", "number of the orbit, from 0 on", 0)
 PERIOD = replace(STROBED, name="period", meaning="wave periods after which the orbit repeats")
 UNSTABLE = Column("unstable", "", "unstable", "multipliers outside the unit circle; 0: the orbit is stable", 0)
@@ -32,9 +33,9 @@ MOTION_OF = (
     Column("tension_top_max_N", "N", "T_max", "largest tension at the top of the line on the orbit", 0),
 )
 GAP = Column("gap", "", "gap", "what is left of the equation of the orbit, the largest coordinate of its state", 12)
-KIND = Column("kind", "", "event", "fold, flip (period doubling) or torus (Neimark-Sacker) point")
+KIND = of_words("kind", "fold, flip (period doubling) or torus (Neimark-Sacker) point", "event")
 ANGLE = Column("angle_rad", "rad", "angle", "angle of the multiplier that crosses the unit circle", 3)
-LEADS = Column("leads_to", "", "begins", "branch of the orbits of twice the period that begin there")
+LEADS = of_words("leads_to", "branch of the orbits of twice the period that begin there", "begins")
 STROBE = Column("strobe", "", "strobe", "number of the strobe, from 0 on", 0)
 RADIUS = Column("radius_m", "m", "r", "distance of the buoy from the anchor at the strobe", 4)
 OF_A_BRANCH = (
@@ -43,14 +44,14 @@ OF_A_BRANCH = (
     MOTION,
     Column("orbits", "", "orbits", "orbits of the branch", 0),
     Column("closed", "", "island", "1: an island, whose branch comes back to its beginning; else 0", 0),
-    Column("begins", "", "begins", "why the branch begins where it does"),
-    Column("ends", "", "ends", "why the branch ends where it does"),
+    of_words("begins", "why the branch begins where it does"),
+    of_words("ends", "why the branch ends where it does"),
     STATUS,
     MESSAGE,
 )
 
 
-def tables(tree: Tree, key: Column) -> list[dict]:
+def tables(tree: Tree, key: Column) -> list[Row]:
     """Write all tables; returns the rows of table.csv. Raises OSError."""
     out, rows, strobes = tree.plan.out, [], []
     for branch in tree.branches:
@@ -62,14 +63,14 @@ def tables(tree: Tree, key: Column) -> list[dict]:
     numbers = PERIOD, UNSTABLE, *PARTS, *ERRORS, MODULUS, *MOTION_OF, GAP, STATUS, MESSAGE
     write_table(out / "table.csv", (BRANCH, PLACE, key, *numbers), rows)
     write_table(out / "strobes.csv", (BRANCH, PLACE, key, STROBE, RADIUS), strobes)
-    write_table(subfolder(tree.plan, "events") / "table.csv", _event_columns(key), [*_events(tree, key)])
-    write_table(out / "branches" / "table.csv", OF_A_BRANCH, [*_branches(tree)])
+    write_part(tree.plan, "events", _event_columns(key), _events(tree, key))
+    write_part(tree.plan, "branches", OF_A_BRANCH, _branches(tree))
     folder = subfolder(tree.plan, "orbits")
     write_table(folder / "table.csv", (BRANCH, PLACE, key, MOTION, *numbers), [*_chosen(tree, key, folder)])
     return rows
 
 
-def _event_columns(key: Column) -> tuple[Column, ...]:
+def _event_columns(key: Column) -> Columns:
     meaning = "largest change over three sequences of steps, and on the finer grid where one is told"
     error = Column("error", key.unit, f"± {key.symbol}", meaning, 5)
     finer = Column("finer", key.unit, f"{key.symbol} finer", "where it is on a grid of 2n - 1 nodes", 5)
@@ -89,7 +90,7 @@ def _numbers(orbit: dict) -> Row:
     }
     row |= zip(names(PARTS), chain.from_iterable(orbit["multipliers"]), strict=False)
     row |= zip(names(ERRORS), orbit["errors"], strict=False)
-    row |= zip(names(MOTION_OF), (*orbit["radius_m"], *orbit["tension_N"]), strict=True)
+    row |= filled(MOTION_OF, (*orbit["radius_m"], *orbit["tension_N"]))
     if not orbit["settled"]:
         return row | {"status": "unsure", "message": "its multipliers have not settled"}
     for modulus, error in zip(moduli, orbit["errors"], strict=True):
@@ -132,7 +133,7 @@ def _branches(tree: Tree) -> Iterator[Row]:
 
 def _chosen(tree: Tree, key: Column, folder: Path) -> Iterator[Row]:
     """Rows of the orbits with errors; writes the history of each into the folder."""
-    counts: Counter = Counter()
+    counts = Counter()
     for orbit in sorted(tree.chosen, key=lambda orbit: (orbit["branch"], orbit["value"])):
         branch, place = orbit["branch"], counts[orbit["branch"]]
         counts[branch] += 1

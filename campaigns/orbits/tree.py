@@ -8,8 +8,7 @@ from string import ascii_lowercase
 import numpy as np
 
 from campaigns.explore.tracing import Line, Solved, finer, followed, line_task, sharper, under, work
-from campaigns.machinery.plan import Plan
-from campaigns.machinery.tasks import Task
+from campaigns.machinery import Plan, Task
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
@@ -73,9 +72,9 @@ class Tree:
     def __init__(self, plan: Plan, line: Line, most: int, room: int):
         self.plan, self.line, self.most, self.room = plan, line, most, room
         (plan.out / FOLDER).mkdir(exist_ok=True)
-        self.branches: list[Branch] = []
-        self.chosen: list[dict] = []  # orbits with errors and history
-        self.failed: list[tuple[Seed, str]] = []  # orbits without a branch, and why
+        self.branches = []
+        self.chosen = []  # orbits with errors and history
+        self.failed = []  # seeds of orbits without a branch, and why
         self.computed = self.there = 0
 
     def work(self, title: str, tasks: Sequence[Task]) -> list[Solved]:
@@ -84,7 +83,7 @@ class Tree:
         self.there, self.computed = self.there + there, self.computed + len(tasks) - there
         return results
 
-    def grow(self, starts: Sequence[tuple[str, float, int, object]]) -> None:
+    def grow(self, starts: Sequence[tuple]) -> None:
         """Follow the orbits under runs (motion, value, period, FinalState), and the branches that begin at flips."""
         seeds = self._seeds(starts)
         while seeds and len(self.branches) < self.room:
@@ -102,7 +101,7 @@ class Tree:
             self.failed.append((seed, f"not followed: {self.room} branches are (--branches)"))
         self._meet()
 
-    def _seeds(self, starts: Sequence[tuple[str, float, int, object]]) -> list[Seed]:
+    def _seeds(self, starts: Sequence[tuple]) -> list[Seed]:
         """The orbits under runs."""
         tasks = [line_task(under, self.line, start[1:]) for start in starts]
         seeds, results = [], self.work("orbits under motions", tasks)

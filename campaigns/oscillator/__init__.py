@@ -11,6 +11,7 @@ starts come from a fixed seed.
 
 from campaigns.oscillator.options import Options
 from campaigns.study import Order, Study
+from tables import Rows, number_of
 
 
 def _work():
@@ -20,10 +21,9 @@ def _work():
     return study
 
 
-def answer(order: Order, rows: list[dict]) -> list[str]:
+def answer(order: Order, rows: Rows) -> list[str]:
     """The exponent in words, where that part has a result; the force up to which the line stays taut."""
     from analysis.oscillator import SnapOscillator, grazing_force
-    from tables import number_of
 
     sentences = []
     exponents = next((row for row in rows if row["part"] == "exponents" and row["status"] == "ok"), None)

@@ -1,7 +1,6 @@
 """The options of `campaigns.oscillator`."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from campaigns.machinery import cli
 
@@ -39,7 +38,7 @@ class Options(cli.Options):
     forces: tuple = ()
     frequencies: tuple = ()
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The parameters that are changed, and the ranges of the diagrams."""
         self.changes = dict(self.set)
         if self.changes:

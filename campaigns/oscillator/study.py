@@ -30,16 +30,14 @@ from analysis.oscillator import (
 )
 from analysis.oscillator.growth import random_starts
 from campaigns.figure_data import attribute_of, store
-from campaigns.machinery.folder import Table, made_by, trajectory_path
-from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import stage
+from campaigns.machinery import Summary, Table, made_by, stage, trajectory_path
 from campaigns.oscillator.options import Options
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column, of_words
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, of_words
 
 SEED = 0
-Result = tuple[dict[str, np.ndarray], dict[str, object]]  # arrays by name, numbers of the row
+Result = tuple[dict[str, np.ndarray], Row]  # arrays by name, numbers of the row
 COLUMNS = (
     of_words("part", "what is computed"),
     STATUS,
@@ -203,7 +201,7 @@ def perform(order: Order) -> Summary:
         else:
             table.rows[key] = json.loads(row) | {"run_key": key}
     table.write()
-    times: Counter[str] = Counter()
+    times = Counter()
     if missing:
         times["compile_s"] = _compile(oscillator)
     begun = time.perf_counter()
@@ -229,7 +227,7 @@ def _key(part: str, options: Options) -> str:
         del settings["force_range"]
     if part != "diagram-frequency":
         del settings["frequency_range"]
-    return made_by(settings)
+    return made_by(**settings)
 
 
 def _compile(oscillator: SnapOscillator) -> float:
@@ -239,7 +237,7 @@ def _compile(oscillator: SnapOscillator) -> float:
     return time.perf_counter() - begun
 
 
-def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -> dict:
+def _done(part: str, oscillator: SnapOscillator, options: Options, path: Path) -> Row:
     begun = time.perf_counter()
     try:
         arrays, row = PARTS[part](oscillator, options)

@@ -19,10 +19,9 @@ from itertools import product
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.explore.sweep import ROW_SOURCES
 from campaigns.judge import LEAST_JUDGED, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Job, Plan, Summary
+from campaigns.machinery import Job, Plan, Summary, cli
 from campaigns.study import Lengths, Measures, Order, Study
-from tables import LARGE, SMALL, read_table, write_table
+from tables import LARGE, SMALL, Rows, number_of, read_table, write_table
 
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
 LOOPING_DEPTHS_M = (21.0, 21.6, 22.0)  # where planar runs of the large wave have to release loops
@@ -190,10 +189,9 @@ def judge(plan: Plan, summary: Summary, base: Variant, transient: int, quick: bo
     return 0.0
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How far buoy and rope leave the plane, and the paper's statements on figure 20 that do not hold."""
     from campaigns.answers import greatest, verdicts
-    from tables import number_of
 
     for steepness in (SMALL, LARGE):
         good = [row for row in rows if row["steepness"] == steepness and row["status"] == "ok"]

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from engine.views import strobed_radius
-from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column, Row
+from tables import DEPTH, WOLF_ERROR, WOLF_EXPONENT, Column, Row, of_words
 
 APART_M = 0.01  # difference of the two radii from which the runs count as parted
 MOST_OFF = 0.01  # of the range of r: what the ends of the ranges may differ by
@@ -28,8 +28,8 @@ COLUMNS = (
     Column("same_section", "", "section", _SAME.format(f"section, across within {MOST_ACROSS:g} times the halves"), 0),
     Column("same_exponent", "", "exponent", _SAME.format("Wolf's exponent of r, within two errors"), 0),
     Column("same_regime", "", "regime", _SAME.format("regime"), 0),
-    Column("planar_key", "", "planar run", "key of the planar run"),
-    Column("spatial_key", "", "run in space", "key of the run in three dimensions"),
+    of_words("planar_key", "key of the planar run", "planar run"),
+    of_words("spatial_key", "key of the run in three dimensions", "run in space"),
 )
 
 

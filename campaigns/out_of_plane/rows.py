@@ -24,7 +24,7 @@ from campaigns.explore.rows import (
     exponents,
     sound_part,
 )
-from campaigns.judge import record_regime, tangent_of
+from campaigns.judge import record_regime, samples_of, tangent_of
 from tables import (
     BODIES,
     DEPTH,
@@ -39,8 +39,10 @@ from tables import (
     STATUS,
     STIFFNESS,
     Column,
+    Columns,
     Row,
     counted,
+    of_words,
     on,
 )
 
@@ -48,7 +50,7 @@ EARLY_PERIODS = 8  # before the first loop at every depth of the campaign: still
 RISE_PERIODS = 4  # after its least value, within which lateral distance has risen to the first burst
 
 
-def _lateral_columns(body: str) -> tuple[Column, ...]:
+def _lateral_columns(body: str) -> Columns:
     """What is measured of the distance from the plane of the waves of the buoy or of the rope."""
     rate = "growth rate of the {body}'s lateral distance where it grows or decays exponentially{}".format
     measures = (
@@ -134,7 +136,7 @@ COLUMNS = (
     Column("nodes", "", "nodes", "nodes of the line", 0),
     DIMENSIONS,
     Column("seed_mps", "m/s", "push", "speed of the buoy at t = 0 that lets the motion leave the plane", 3),
-    Column("seed_direction", "", "direction", "direction of the push; empty for a planar run"),
+    of_words("seed_direction", "direction of the push; empty for a planar run", "direction"),
     Column("profiles", "", "profiles", "1 where the shape of the line was kept, else 0", 0, SHEET),
     *on(RUNS, PERIODS_RUN),
     STATUS,
@@ -171,7 +173,7 @@ def offplane_row(trajectory, transient_periods: int, judged: frozenset = frozens
     row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
     measured = after_transient(trajectory, columns, transient_periods)
     if measured:
-        first = round(transient_periods * scene.waves.period_s / scene.sample_step_s())
+        first = samples_of(scene, transient_periods)
         row |= measured
         row["inplane_m"] = 0.5 * max(float(np.ptp(columns["x_m"][first:])), float(np.ptp(columns["z_m"][first:])))
     if scene.motion.dimensions == 3 and len(columns["time_s"]) > 1:

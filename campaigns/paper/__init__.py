@@ -14,33 +14,33 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Summary
+from campaigns.machinery import Summary, cli, ended, stage
 from campaigns.paper.order import PARTS
 from campaigns.study import Order, Study
+from tables import Rows
 
 
 @dataclass
 class Options(cli.Options):
-    """The options of this campaign."""
+    """The options of this campaign. out: that of the command, the folder of the results."""
 
     parts: list[str] = cli.option(
         "A B ...", f"parts to run (default: {' '.join(PARTS)})", cli.one_of(PARTS), PARTS, many=True
     )
     quick: bool = cli.flag("shorter and fewer runs: shows the report, concludes nothing")
+    out: Path | None = None
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The parts in the order in which they run."""
         self.parts = [part for part in PARTS if part in self.parts]
         for part in PARTS:
-            if (out / part).exists() and not (out / part).is_dir():
-                faults.append(f"--out: given {str(out)!r}, where {part} is a file; allowed: a folder of this campaign")
+            if (self.out / part).exists() and not (self.out / part).is_dir():
+                given = f"--out: given {str(self.out)!r}, where {part} is a file"
+                faults.append(f"{given}; allowed: a folder of this campaign")
 
 
 def perform(order: Order) -> Summary:
     """Parts, figure data, statements; the latter two stay as they are where nothing is new."""
-    from campaigns.machinery.progress import stage
-    from campaigns.machinery.session import ended
     from campaigns.paper import parts, results
 
     out = order.how.out
@@ -52,7 +52,7 @@ def perform(order: Order) -> Summary:
     return replace(summary, whole=complete)
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     """What the provenance says of this campaign."""
     from campaigns.paper import dependence, results
 
@@ -60,7 +60,7 @@ def parameters(order: Order) -> dict[str, object]:
     return {"quick": quick, "made_by": results.maker(), "dependence": dependence.parameters(quick)}
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How many of the paper's statements hold; a quick look at few and short runs says that it decides nothing."""
     from campaigns.answers import verdicts
 

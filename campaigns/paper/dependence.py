@@ -12,11 +12,10 @@ from typing import get_args
 from campaigns.explore.grid import STEEPNESS
 from campaigns.explore.rows import COLUMNS as OF_A_RUN
 from campaigns.explore.sweep import measures_of
+from campaigns.machinery import Summary, claimed, filled
 from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import claimed
-from campaigns.machinery.plan import Summary
 from campaigns.study import Measures, Order, Study
-from tables import DEPTH, STIFFNESS, names, of_words
+from tables import DEPTH, STIFFNESS, of_words
 from tables import PAPER_STEEPNESS as STEEPNESSES
 
 SCENE = "tethered_buoy"
@@ -39,7 +38,7 @@ CARRIED = {"output.tangent_vectors": 1, "output.lateral_growth": True}
 COLUMNS = (*VARIED, *(column for column in OF_A_RUN if column not in VARIED))
 
 
-def treatments() -> tuple[tuple[str, ...], tuple[str, ...]]:
+def treatments() -> tuple[tuple, tuple]:
     """All that a scene allows: of waves above still water, and of a buoy that leaves the water."""
     from engine.scene.sections import Buoy, Waves
 
@@ -66,12 +65,12 @@ def variants(quick: bool) -> list[tuple]:
     return list(dict.fromkeys(places))
 
 
-def changes(values: tuple) -> dict[str, object]:
+def changes(values: tuple) -> dict:
     """The changes of the scene that make it a variant."""
     return dict(zip(VARIED.values(), values, strict=True)) | CARRIED
 
 
-def parameters(quick: bool) -> dict[str, object]:
+def parameters(quick: bool) -> dict:
     """What the provenance says of this part."""
     above, submergence = treatments()
     settings = {
@@ -101,7 +100,7 @@ def run(out: Path, jobs: int, quick: bool) -> Summary:
     running = Running(out, jobs, "loky", None, report=False)
     order = Order(running, name=SCENE, periods=settings["periods"], transient=settings["transient"])
     for values in variants(quick):
-        order.cases.append(order.case(dict(zip(names(VARIED), values, strict=True)), changes(values)))
+        order.cases.append(order.case(filled(VARIED, values), changes(values)))
     with claimed(out):
         study = Study("dependence", __doc__, scene=SCENE, cases=lambda order: order.cases, measures=measures)
         return study.work(order)

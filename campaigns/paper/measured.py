@@ -14,8 +14,10 @@ import numpy as np
 
 from campaigns.breaking_line.lines import read_lines
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import read_json, run_of, stored_run, trajectory_path
+from campaigns.judge import samples_of
+from campaigns.machinery import read_json, run_of, stored_run, trajectory_path
 from campaigns.paper.measures import buckling_waves, calm_measures, scales, snaps, violent_measures
+from engine.trajectory import TrajectoryError
 from tables import LARGE, SMALL, Row, read_table
 
 STRANGE = ("lambda_1_bits_per_period", "lambda_1_bits_error", "section_dimension", "section_dimension_error")
@@ -69,8 +71,6 @@ class Parts:
 
     def run(self, part: Part, label: str, **wanted) -> tuple[Row, object, Source]:
         """The one run of a part that is as wanted: its row, its trajectory, its Source. Raises LeftOut."""
-        from engine.trajectory import TrajectoryError
-
         rows = matching(part.rows, wanted)
         if not rows:
             raise LeftOut(f"the part `{part.folder.name}` holds no run of {label}")
@@ -139,8 +139,6 @@ def matching(rows: Iterable[Row], wanted: Row) -> list[Row]:
 
 def read_results(directory: str | Path) -> Results:
     """Read the folder of `campaigns.paper`; never raises for a part."""
-    from engine.trajectory import TrajectoryError
-
     parts, numbers, fields = Parts(Path(directory)), {}, {}
     for reader in (_lines, _sweep, _buoy, _doubled, _dependence, _plane, _oscillator):
         with contextlib.suppress(LeftOut, OSError, ValueError, KeyError, TrajectoryError):
@@ -192,7 +190,7 @@ def _doubled(parts: Parts, numbers: dict) -> dict:
         if row["tether.nodes"] != coarse_nodes or coarse is None or fine is None:
             continue
         off_m = fine.columns["radius_m"] - coarse.columns["radius_m"]
-        early = round(EARLY * coarse.scene.waves.period_s / coarse.scene.sample_step_s()) + 1
+        early = samples_of(coarse.scene, EARLY) + 1
         rows.append(row | {"error_early_m": _rms(off_m[:early]), "error_m": _rms(off_m)})
     return {"doubled": tuple(rows)}
 

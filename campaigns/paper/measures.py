@@ -5,24 +5,20 @@ a peak        from the end of one interval near zero to the start of the next, i
 turned        r' > 0 where the peak begins and r' < 0 where it ends: the line has stopped the buoy and sent it back
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analysis import Spectrum, correlation_dimension, peaks_near, spectral_lines, spectrum
+from analysis.correlation_sums import LEAST_POINTS
 from analysis.snaps import NEAR_ZERO
 from campaigns.explore.rows import lasts
+from engine import Scene
+from engine.natural_frequencies import Modes
 from engine.run.rest import static_tension_N
+from engine.trajectory import Profiles, Trajectory
 from engine.views import strobed_radius
-
-if TYPE_CHECKING:
-    from analysis import Spectrum
-    from engine import Scene
-    from engine.natural_frequencies import Modes
-    from engine.trajectory import Profiles, Trajectory
 
 WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
 SETTLED = 20  # last wave periods of a record
@@ -55,8 +51,6 @@ def calm_measures(trajectory: Trajectory, modes: Modes | None) -> dict[str, floa
     """
     if modes is None or not in_window(trajectory):
         return {}
-    from analysis import peaks_near, spectrum
-
     columns, step_s, period_s = trajectory.columns, trajectory.scene.sample_step_s(), trajectory.scene.waves.period_s
     r, wave = columns["radius_m"], 2.0 * np.pi / period_s
     seen = round(sum(WINDOW) * period_s / step_s)
@@ -94,9 +88,6 @@ def violent_measures(trajectory: Trajectory, transient_periods: int) -> dict[str
     unexplained       share of the variance of the strobed r, r' that no steady line explains (0 for a torus)
     correlation_dimension, correlation_dimension_error   correlation dimension of the section r, r'
     """
-    from analysis import correlation_dimension, spectral_lines
-    from analysis.correlation_sums import LEAST_POINTS
-
     if not in_window(trajectory):
         return {}
     section, measures = strobed_radius(trajectory, transient_periods), {}
@@ -165,13 +156,11 @@ def snaps(trajectory: Trajectory, transient_periods: int) -> dict[str, float]:
     radial_line ... angular_at    largest share of the variance of r and theta that lies on one bin of eq. (31), and
                                   that bin over the wave's; not of a record without its window
     """
-    from analysis import spectrum
-
     columns, scene = trajectory.columns, trajectory.scene
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     begin = round(transient_periods * period_s / step_s)
     tension, rate = columns["tension_top_N"][begin:], columns["radius_rate_mps"][begin:]
-    measures: dict[str, float] = {}
+    measures = {}
     if in_window(trajectory):
         for side, name in (("radial", "radius_m"), ("angular", "angle_rad")):
             power = spectrum(columns[name], step_s, period_s, *WINDOW).amplitude[1:] ** 2

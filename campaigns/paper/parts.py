@@ -19,16 +19,22 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from campaigns.machinery import cli
-from campaigns.machinery.folder import CampaignStopped, Table, made_by, of_the_page, trajectory_path
-from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import stage
-from campaigns.machinery.session import command_line
+from campaigns.machinery import (
+    CampaignStopped,
+    Summary,
+    Table,
+    cli,
+    command_line,
+    made_by,
+    of_the_page,
+    stage,
+    trajectory_path,
+)
 from campaigns.paper import dependence
 from campaigns.paper.order import PARTS
 from campaigns.study import Order
 from engine.atomic import write_atomic
-from tables import MESSAGE, RUN_KEY, STATUS, Column, any_rows, names, of_words
+from tables import MESSAGE, RUN_KEY, STATUS, Column, Row, any_rows, names, of_words
 
 COLUMNS = (
     of_words("part", "folder of the part"),
@@ -100,7 +106,7 @@ def run(order: Order) -> Summary:
     for row in any_rows(out / "table.csv"):
         if row.keys() == known and row["part"] in PARTS:
             table.rows[row["part"]] = row
-    times: Counter[str] = Counter()
+    times = Counter()
     todo = []
     for part in order.options.parts:
         if not _is_there(table.rows.get(part), keys[part], out / part, order):
@@ -121,7 +127,7 @@ def _key(part: str, order: Order) -> str:
         settings = dependence.parameters(order.options.quick)
     else:
         settings = CAMPAIGNS[part][1 + order.options.quick]
-    return made_by({"part": part, "told": settings}, *SOURCES, *of_the_page())
+    return made_by(*SOURCES, *of_the_page(), part=part, told=settings)
 
 
 def _ended(key: str, out: Path) -> str:
@@ -133,7 +139,7 @@ def _ended(key: str, out: Path) -> str:
     return digest.hexdigest()
 
 
-def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Order) -> bool:
+def _is_there(row: Row | None, key: str, out: Path, order: Order) -> bool:
     """Whether a part ended as it is asked for, and its folder still holds all that its table names, and its report."""
     if row is None or row["run_key"] != _ended(key, out):
         return False
@@ -145,7 +151,7 @@ def _is_there(row: dict[str, str] | None, key: str, out: Path, order: Order) -> 
     return bool(good) and reported
 
 
-def _run_part(part: str, order: Order) -> dict[str, object]:
+def _run_part(part: str, order: Order) -> Row:
     out, how = order.how.out / part, order.how
     begun = time.perf_counter()
     if part == "dependence":

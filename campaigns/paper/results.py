@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from campaigns.machinery.folder import made_by, of_the_page, read_json
+from campaigns.machinery import made_by, of_the_page, read_json
 from campaigns.paper.figures import FIGURES, LEFT_OUT, files_of, place_of, write_figure_data
 from campaigns.statements import write_statements
 from tables import STATEMENTS as STATEMENTS
@@ -14,7 +14,7 @@ SOURCES = ("analysis", "engine", "campaigns", "reports", "tables", *TABLES)
 
 def maker() -> str:
     """Hash of all that shapes what is written here and the report: files of the same are not made again."""
-    return made_by({}, *SOURCES, *of_the_page())
+    return made_by(*SOURCES, *of_the_page())
 
 
 def is_there(out: Path, report: bool) -> bool:

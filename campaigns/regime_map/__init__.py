@@ -14,13 +14,11 @@ that repeats at its first look is judged by that (verdict: cheap); any other goe
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from campaigns.explore import sweep as motions
-from campaigns.explore.grid import varied
+from campaigns.explore.grid import place_in, varied
 from campaigns.explore.sweep import BUDGET
-from campaigns.machinery import cli, session
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
+from campaigns.machinery import Job, Jobs, Plan, Summary, cli, session
 from campaigns.regime_map import curves, cuts
 from campaigns.regime_map.cells import CellGrid
 from campaigns.study import Measures, Order, Study
@@ -57,7 +55,7 @@ class Options(cli.Options):
     screen: bool = cli.flag("a massless tether only")
     grid: CellGrid | None = None
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The keys of the map, and the values of --cut."""
         words = self.vary
         if len(words) != 8:
@@ -89,7 +87,7 @@ class Options(cli.Options):
 def cases(order: Order) -> Iterator[Job]:
     """The run from rest of every cell of the coarse grid."""
     grid = order.options.grid
-    order.periods, order.looks, order.transient = BUDGET, True, None
+    order.look_by_look(BUDGET)
     if grid is None:
         return
     grid.refuse_set(order, "")
@@ -97,7 +95,7 @@ def cases(order: Order) -> Iterator[Job]:
     if base is None:
         return
     if not carries_tangents(base):
-        order.tell([f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}"])
+        order.tell(f"campaigns.regime_map: given {order.name!r} as it is; allowed: {motions.ONLY}")
         return
     from engine.massless import why_not_covered
 
@@ -105,14 +103,14 @@ def cases(order: Order) -> Iterator[Job]:
         fault_count, job = len(order.faults), grid.job_at(order, cell)
         if job is None or len(order.faults) > fault_count:  # hundreds of others may be at fault in the same way
             place = " and ".join(f"{key} = {value}" for key, value in grid.labels(cell).items())
-            order.tell([f"--vary: that is at {place}, the first cell of the map that cannot be"])
+            order.tell(f"--vary: that is at {place}, the first cell of the map that cannot be")
             return
         reason = order.options.screen and why_not_covered(job.scene)
         if reason:
-            order.tell([f"--screen: given; allowed: only what a massless tether covers, and this has {reason}"])
+            order.tell(f"--screen: given; allowed: only what a massless tether covers, and this has {reason}")
             return
         if cell == (0, 0, 0, 0) and order.options.curves is not None:
-            order.tell(curves.faults(order.options.curves, grid, grid.labels(cell), job.scene))
+            order.tell(*curves.faults(order.options.curves, grid, grid.labels(cell), job.scene))
         yield job
 
 
@@ -159,10 +157,10 @@ def answer(order: Order, rows: Rows) -> list[str]:
 
     grid = order.options.grid
     of_buoy = CellGrid(tuple(key for key in grid.keys if key.key.startswith("buoy.")))
-    scenes: dict[tuple, object] = {}
+    scenes = {}
 
-    def scene(row: dict) -> object:
-        values = tuple(row[column.name] for column in of_buoy.columns)
+    def scene(row):
+        values = place_in(row, of_buoy.columns)
         if values not in scenes:
             changes, _ = of_buoy.changes(row, order.base())
             scenes[values] = order.scene(changes)
@@ -189,7 +187,7 @@ read_order = STUDY.read_order
 def main(argv: list[str] | None = None, simulate: Callable | None = None) -> int:
     """The command: a map, or with --cut a sweep in its folder. simulate: in place of engine.simulate."""
 
-    def work(order: Order, words: list[str]) -> int:
+    def work(order, words):
         if order.options.cut:
             return cuts.cut(order, words, simulate)
         return STUDY.conduct(order, words, simulate)

@@ -7,6 +7,7 @@ from itertools import filterfalse
 from operator import itemgetter
 
 from campaigns.answers import greatest, kilonewton, line, numbers_of
+from campaigns.explore.grid import place_in
 from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO
 from tables import (
@@ -27,7 +28,7 @@ from tables import (
 )
 
 
-def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
+def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable) -> Iterator[str]:
     """At most eight, of the rows of cells/table.csv and table.csv.
 
     keys: of the map, that of its pages first. scene: that of a row, as far as its buoy goes.
@@ -80,7 +81,7 @@ def _regimes(computed: Rows, motions: Rows, keys: Columns) -> Iterator[str]:
     parts = {CHAOTIC: counts[CHAOTIC], QUASI: counts[QUASI], "periodic": periodic}
     shares = listed(f"{word} on {_share(count, computed)}" for word, count in parts.items())
     yield f"rest leads to a motion that is {shares} of the map; {_share(undecided, computed)} is not decided."
-    chaotic = {_place(row, keys) for row in filter(_is_coarse, motions) if row.get("regime") == CHAOTIC}
+    chaotic = {place_in(row, keys) for row in filter(_is_coarse, motions) if row.get("regime") == CHAOTIC}
     if len(chaotic) > counts[CHAOTIC]:
         yield f"Some motion is chaotic on {_share(len(chaotic), computed)} of the map."
 
@@ -89,14 +90,14 @@ def _peak(peak: Row, motions: Rows, keys: Columns) -> str:
     """The largest tension of the map, and how many kicks of its cell lead to it."""
     pull = f"{kilonewton(peak[PEAK])}, {peak[RATIO.name]:.3g} times that at rest"
     sentence = f"largest tension {pull}, at {_at(peak, keys)}"
-    motions_of_cell = [row for row in motions if _place(row, keys) == _place(peak, keys)]
+    motions_of_cell = [row for row in motions if place_in(row, keys) == place_in(peak, keys)]
     kicks = of_kicks(greatest(motions_of_cell, PEAK) or {})
     if kicks != EMPTY:
         sentence += f"; {kicks} kicks there end in it"
     return f"{sentence}."
 
 
-def _use(motions: Rows, keys: Columns, scene: Callable[[Row], object]) -> Iterator[str]:
+def _use(motions: Rows, keys: Columns, scene: Callable) -> Iterator[str]:
     """Whether the largest tension may be used, and the largest that may."""
     if not motions:
         return
@@ -114,13 +115,9 @@ def _share(count: int, cells: Sequence) -> str:
     return f"{100.0 * count / len(cells):.3g} %"
 
 
-def _place(row: Row, keys: Columns) -> tuple:
-    return tuple(row[key.name] for key in keys)
-
-
 def _at(row: Row, keys: Columns) -> str:
     words = []
-    for key, value in zip(keys, _place(row, keys), strict=True):
+    for key, value in zip(keys, place_in(row, keys), strict=True):
         text = value
         if not isinstance(value, str):
             text = f"{value:.4g}"

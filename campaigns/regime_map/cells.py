@@ -6,7 +6,7 @@ from itertools import filterfalse, product
 from typing import NamedTuple
 
 from campaigns.explore.grid import Grid, Varied
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job
 from campaigns.study import Order
 from tables import Row
 
@@ -95,9 +95,9 @@ class Quadtree:
     """The cells of a map by their number, and the cells beside each."""
 
     def __init__(self) -> None:
-        self.cells: list[Cell] = []
-        self.number: dict[Cell, int] = {}
-        self._neighbours: dict[int, dict[int, str]] = {}
+        self.cells = []
+        self.number = {}  # by cell
+        self._neighbours = {}  # by number
 
     def add(self, cells: list[Cell]) -> None:
         """Add cells; the four parts of a bisected one come together."""

@@ -3,13 +3,10 @@
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from campaigns.machinery.plan import Plan
+from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
-
-if TYPE_CHECKING:
-    from tables import Row
+from tables import Row, read_columns
 
 FOLDER = "curves"
 FILES = "columns.csv", "table.csv"
@@ -23,10 +20,9 @@ def folder_of_curves(text: str) -> str:
     return text
 
 
-def faults(folder: str, grid: CellGrid, place: "Row", scene) -> Iterator[str]:
+def faults(folder: str, grid: CellGrid, place: Row, scene) -> Iterator[str]:
     """Why the curves of a folder cannot be drawn on a map. scene: that of the map at a place."""
     from engine.scene import SceneError, scene_from_toml
-    from tables import read_columns
 
     given = f"--curves {folder}"
     try:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from campaigns.explore.grid import Grid, Varied
 from campaigns.explore.sweep import table_of
-from campaigns.machinery.folder import CampaignStopped, claimed, trajectory_path
+from campaigns.machinery import CampaignStopped, claimed, trajectory_path
 from campaigns.study import Order, Study
 
 
@@ -45,7 +45,7 @@ def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     changes = dict(order.changes)
     for key in order.options.grid.keys:
         if key.key in chosen:
-            order.tell(key.put(chosen[key.key], order.base(), changes))
+            order.tell(*key.put(chosen[key.key], order.base(), changes))
     study, options = _sweep_of(order)
     options |= {"seed": order.options.seed, "kick_speed": order.options.kick_speed}
     sweep = study.order(replace(order.how, out=out), order.name, changes, **options)

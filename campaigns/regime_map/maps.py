@@ -15,8 +15,7 @@ from campaigns.explore.motions import Motion, Motions, Search
 from campaigns.explore.proposals import screened
 from campaigns.explore.rows import buoy_row
 from campaigns.explore.stages import explore
-from campaigns.machinery.plan import Jobs, Plan, Summary
-from campaigns.machinery.progress import print_line
+from campaigns.machinery import Jobs, Plan, Summary, print_line
 from campaigns.regime_map import tables
 from campaigns.regime_map.cells import Cell, Quadtree
 from campaigns.regime_map.tables import STATIC
@@ -56,7 +55,7 @@ class Map(Motions):
         self.order, self.grid, self.tree = order, order.options.grid, Quadtree()
         plan = replace(plan, on_row=self._hear)
         super().__init__(plan, self.grid.columns, self.tree.neighbours, MATCH_DISTANCE)
-        self.screen: list[list[dict]] = []
+        self.screen = []  # motions of a massless tether, by coarse cell
         self.drawn_s = time.monotonic()
 
     def run_screen(self, coarse: Jobs) -> None:
@@ -97,7 +96,7 @@ class Map(Motions):
 
     def borders(self) -> list[Cell]:
         """The cells of the coarsest level that differ from one that touches them, the largest leap of tension first."""
-        leaps: dict[int, dict[Cell, float]] = {}  # by level
+        leaps = {}  # by level and cell
         for cell in self.tree.leaves():
             leap = self._leap(cell)
             if leap > 0.0:

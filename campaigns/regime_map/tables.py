@@ -1,15 +1,17 @@
-"""Tables of a map: its motions, its cells, the massless screen, and the strobes of every motion."""
+"""Tables of a map: its motions, its cells, the massless screen, and the strobes of every motion.
+
+map_: `campaigns.regime_map.maps.Map`.
+"""
 
 import io
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from campaigns.explore.motions import Motion, write_part
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
 from campaigns.explore.sweep import columns_of
-from campaigns.machinery.plan import Plan
+from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
 from engine.atomic import write_atomic
 from tables import (
@@ -27,10 +29,8 @@ from tables import (
     Columns,
     Row,
     number_of,
+    of_words,
 )
-
-if TYPE_CHECKING:
-    from campaigns.regime_map.maps import Map
 
 STROBES = 64  # wave periods of a motion at most
 LEVEL = Column("level", "", "level", "bisections that made the cell; 0: of the coarse grid", 0, SHEET)
@@ -47,8 +47,8 @@ COUNT = Column("motions", "", "motions", "number of motions of the cell", 0)
 TENSION = Column("tension_top_max_N", "N", "T_max", "largest tension of all motions of the cell", 0)
 RATIO = Column("tension_over_static", "", "T_max/T_0", "largest tension of all motions, in tensions at rest", 2)
 SHARE = Column("share_of_largest", "", "share", "share of the kicks that end in the motion of the largest tension", 2)
-SOURCE = Column("source", "", "source", "computed, failed, or only screened: with a massless tether")
-OF_REST = Column("regime_rest", "", "regime", "regime of the motion to which rest leads")
+SOURCE = of_words("source", "computed, failed, or only screened: with a massless tether")
+OF_REST = of_words("regime_rest", "regime of the motion to which rest leads", "regime")
 OF_A_CELL = (
     LEVEL,
     SOURCE,
@@ -62,7 +62,7 @@ OF_A_CELL = (
     Column("loops", "", "loops", "1 where a motion released loops, else 0", 0),
     Column("leaves_water", "", "out", "1 where the sphere of a motion rises above still water, else 0", 0),
     Column("wall_s", "s", "wall", "time of the judged runs of the cell", 2),
-    Column("run_key_rest", "", "key", "content key of the run from rest"),
+    of_words("run_key_rest", "content key of the run from rest", "key"),
     STATUS,
     MESSAGE,
 )
@@ -78,7 +78,7 @@ def motion_columns(keys: Columns) -> Columns:
     return tuple(columns)
 
 
-def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list[dict]]) -> None:
+def write_screen(plan: Plan, grid: CellGrid, jobs: Sequence, screen: Sequence[list]) -> None:
     """screen/table.csv: what a massless tether does in each cell of the coarse grid. Raises OSError."""
     rows = [{**job.labels, **screen_row(motions)} for job, motions in zip(jobs, screen, strict=True)]
     write_part(plan, "screen", (*grid.columns, *OF_THE_SCREEN), rows)
@@ -103,7 +103,7 @@ def screen_row(motions: list[dict]) -> Row:
     return row
 
 
-def write_cells(map_: "Map") -> None:
+def write_cells(map_) -> None:
     """cells/table.csv: a row for each cell of every level. Raises OSError."""
     widths = []
     for key in map_.grid.axes:
@@ -112,7 +112,7 @@ def write_cells(map_: "Map") -> None:
     write_part(map_.plan, "cells", (*map_.grid.columns, *widths, *OF_A_CELL), _cells(map_))
 
 
-def _cells(map_: "Map") -> Iterator[dict]:
+def _cells(map_) -> Iterator[dict]:
     grid, rows = map_.grid, {}
     for cell, screened in zip(grid.coarse(), map_.screen, strict=True):
         rows[cell] = {"source": SCREENED, **screen_row(screened)}
@@ -124,7 +124,7 @@ def _cells(map_: "Map") -> Iterator[dict]:
         yield {**grid.labels(cell), **grid.widths(cell), "level": cell.level, **row}
 
 
-def _cell(map_: "Map", motions: Sequence[Motion], rest: dict) -> Row:
+def _cell(map_, motions: Sequence[Motion], rest: dict) -> Row:
     """The columns OF_A_CELL of a cell, by its motions so far and the row of its run from rest."""
     rows = list(filter(None, map(map_.row_of, motions))) or [rest]
     exponents = [row[TANGENT[0].name] for row in rows if row.get(TANGENT[0].name) is not None]
@@ -161,7 +161,7 @@ def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
     return any(number_of(row, column.name) > 0.0 for row in rows)
 
 
-def write_strobes(map_: "Map") -> None:
+def write_strobes(map_) -> None:
     """strobes.npz: r (m) once a wave period, and the largest tension (N) of the period that begins there, of a motion.
 
     run_key (n,), motion (n,); radius_m, tension_N (n, STROBES): nan behind the last. Raises OSError.

@@ -19,15 +19,11 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
-from pathlib import Path
 
 from campaigns.explore.grid import Grid, grid_of
 from campaigns.explore.sweep import kick_speed, table_of
 from campaigns.finer import finer
-from campaigns.machinery import cli
-from campaigns.machinery.long_runs import TANGENTS
-from campaigns.machinery.plan import Job, Jobs, Plan, Summary
-from campaigns.machinery.runner import run
+from campaigns.machinery import TANGENTS, Job, Jobs, Plan, Summary, cli, run
 from campaigns.study import Measures, Order, Study
 from engine.views import carries_tangents
 from tables import LARGE, Row, Rows, names
@@ -77,7 +73,7 @@ class Options(cli.Options):
     )
     grid: Grid = field(default_factory=Grid)
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The keys with their values in the words of --vary; thresholds that contradict each other."""
         if self.screen:
             self.starts = 1
@@ -89,7 +85,7 @@ class Options(cli.Options):
             faults.append(f"--snap-share: given {self.snap_share:g}; allowed: {allowed}")
 
 
-def kicks(options: Options) -> list[tuple[float, float]]:
+def kicks(options: Options) -> list[tuple]:
     """Velocities (x, z) of the starts in m/s: rest, then even in a disc."""
     import numpy as np
 
@@ -120,10 +116,11 @@ def usual_sea(order: Order) -> dict:
 
 def cases(order: Order) -> Iterator[Job]:
     """Every start in every sea of every state; a few of a single state once more, on a finer grid."""
-    options: Options = order.options
+    options = order.options
     options.grid.refuse_set(order)
     taken = [key for key in options.grid.keys if key.name in STUDY.taken]
-    order.tell(f"--vary {key.key}: this campaign sets it; {STUDY.taken[key.name]}" for key in taken)
+    for key in taken:
+        order.tell(f"--vary {key.key}: this campaign sets it; {STUDY.taken[key.name]}")
     if taken:
         return
     order.changes = {**usual_sea(order), **order.changes}
@@ -131,17 +128,17 @@ def cases(order: Order) -> Iterator[Job]:
         order.changes["tether.nodes"] = SCREEN_NODES
     for place in options.grid.places():
         changes, faults = options.grid.changes(place, order.base())
-        order.tell(faults)
+        order.tell(*faults)
         scene = order.base(changes, tell=True)
         if scene is None:
             return
         if scene.end.kind != "buoy" or scene.waves is None or not scene.waves.irregular:
             allowed = f"a buoy in irregular waves, as with --set {HEIGHT}=2"
-            order.tell([f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}"])
+            order.tell(f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}")
             return
         listed = _seed_key(scene) is None and scene.waves.significant_steepness is None
         if listed and options.seeds > 1:
-            order.tell([f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum"])
+            order.tell(f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum")
             return
         yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 
@@ -167,7 +164,7 @@ def _seed_key(scene) -> str | None:
 
 def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
     """The runs of one sea state: its first starts in the seas of these seeds; waves that are not drawn are one sea."""
-    options: Options = order.options
+    options = order.options
     changes, _ = options.grid.changes(place, order.base())
     base = order.base(changes)
     seed_key = _seed_key(base)
@@ -201,7 +198,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     from campaigns.sea.regular import regular_ahead
     from campaigns.sea.rows import unclear_places
 
-    options: Options = order.options
+    options = order.options
     if not options.no_regular:
         regular_ahead(order, plan)
     summary = run(plan, jobs)
@@ -209,7 +206,7 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     while seeds < most:
         unclear = unclear_places(summary.rows, options.grid.columns)
         further = range(seeds + 1, min(2 * seeds, most) + 1)
-        more: list[Job] = []
+        more = []
         for place in options.grid.places():
             if tuple(place.values()) in unclear:
                 more += _runs(order, place, further, 1)
@@ -225,7 +222,7 @@ def measures(order: Order) -> Measures:
     """A row a run (`rows.run_row`)."""
     from campaigns.sea.rows import columns_of, run_row
 
-    options: Options = order.options
+    options = order.options
     settings = {name: getattr(options, name) for name in ("transient", "window", "slack_share", "snap_share", "slope")}
     sources = ("analysis", "engine", "campaigns/sea/rows.py")
     return Measures(columns_of(options.grid.columns), partial(run_row, **settings), sources, settings)
@@ -242,7 +239,7 @@ def beside(order: Order) -> Iterator[Callable]:
 
 
 def parameters(order: Order) -> dict:
-    options: Options = order.options
+    options = order.options
     values = {entry.name: getattr(options, entry.name) for entry in Options.offered() if entry.metadata}
     del values["vary"]
     return {"sea_keys": [key.key for key in options.grid.keys], **values}

@@ -25,19 +25,18 @@ from analysis import (
 from analysis.sampling import standard_error
 from analysis.seas import Responses
 from analysis.tangent_growth import turned
+from campaigns.explore.grid import place_in
 from campaigns.explore.motions import write_part
 from campaigns.explore.rows import TANGENT, exponents
 from campaigns.explore.sweep import table_of
-from campaigns.machinery.folder import run_of
-from campaigns.machinery.plan import Plan, Summary
-from campaigns.machinery.progress import stage
+from campaigns.machinery import Plan, Summary, filled, run_of, stage
 from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set, significant_height_m
 from campaigns.sea.regular import FOLDER as REGULAR
 from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
 from engine.physics.sea import envelope_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, names, number_of
+from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, number_of, of_words
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
@@ -52,7 +51,7 @@ COLUMNS = (
     Column("seas", "", "seas", "seas of this state, drawn independently", 0),
     Column("starts", "", "starts", "starts in each sea", 0),
     *TANGENT,
-    Column("sign", "", "sign", "of the exponent: +, − or open, by two standard errors", None),
+    of_words("sign", "of the exponent: +, − or open, by two standard errors"),
     Column("finer_bits_per_period", _BITS, "σ finer", "exponent of the runs marked finer", 3, SHEET),
     Column("finer_error", _BITS, "± σ finer", "standard error of the exponent of the finer runs", 3, SHEET),
     GROWING,
@@ -160,13 +159,13 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
         regular_rows = table_of(folder)
         folds = folds_of(regular_rows, table_of(folder / "ends"))
     keys = order.options.grid.columns
-    of_cell: dict[tuple, list[Row]] = {}
+    of_cell = {}  # rows by the values of the keys
     for row in summary.rows:
-        of_cell.setdefault(tuple(row[name] for name in names(keys)), []).append(row)
-    cells: list[Row] = []
+        of_cell.setdefault(place_in(row, keys), []).append(row)
+    cells = []
     with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
         for place, rows in of_cell.items():
-            cell = dict(zip(names(keys), place, strict=True))
+            cell = filled(keys, place)
             digests = []
             for row in rows:
                 run = run_of(plan.out, row)
@@ -191,7 +190,7 @@ def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None
     if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}
     lost = len(rows) - len(digests)
-    cell: Row = {
+    cell = {
         "status": "ok",
         "starts": options.starts,
         "message": f"{lost} of {len(rows)} runs failed" if lost else "",
@@ -210,7 +209,7 @@ def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None
     return finite_row(cell)
 
 
-def seas_of(digests: Sequence[Digest]) -> Iterator[list[Digest]]:
+def seas_of(digests: Sequence[Digest]) -> Iterator[list]:
     """The runs in each sea, without the finer one."""
     for seed in sorted({run.row["sea"] for run in digests}):
         yield [run for run in digests if run.row["sea"] == seed and not run.row["solver"]]
@@ -241,14 +240,14 @@ def responses_of(sea: Sequence[Digest], distance: float) -> Responses:
     return responses(states, np.max([run.scale for run in sea], axis=0), distance)
 
 
-def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
+def _together(seas: Sequence[Sequence], options) -> Row:
     """The columns on the responses of all starts."""
     answers = [responses_of(sea, options.distance) for sea in seas if len(sea) > 1]
     if not answers:
         return {}
     met = [answer for answer in answers if math.isfinite(answer.together_at)]
     mean_count = np.mean([answer.counts[options.transient :].mean() for answer in answers])
-    row: Row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
+    row = {"responses_mean": mean_count, "apart_seas": len(answers) - len(met), "distance": options.distance}
     if met:
         periods = sum(len(answer.counts) - answer.together_at for answer in met)
         duration_s = periods * seas[0][0].scene.waves.period_s
@@ -262,7 +261,7 @@ def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
     return row
 
 
-def _visits(name: str, flags: Sequence[Sequence[np.ndarray]]) -> Row:
+def _visits(name: str, flags: Sequence[Sequence]) -> Row:
     """The columns on the large motion, or on its forecast, from the flags of the runs in each sea."""
     answer = residence(list(chain.from_iterable(flags)))
     shares = [residence(of_sea).share for of_sea in flags]
@@ -277,7 +276,7 @@ def _scatter(digests: Sequence[Digest]) -> float:
 
     The runs in a sea are compared over the length of the shortest one, which is a finer run.
     """
-    tensions_N: dict[int, list[np.ndarray]] = {}
+    tensions_N = {}  # of the runs, by sea
     for run in digests:
         tensions_N.setdefault(run.row["sea"], []).append(run.high_N)
     ranges = []
@@ -294,7 +293,7 @@ def history(digests: Sequence[Digest], options) -> Iterator[Row]:
     for sea in seas_of(digests):
         answer = responses_of(sea, options.distance)
         for period, (count, apart) in enumerate(zip(answer.counts, answer.apart, strict=True)):
-            row: Row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
+            row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
             piece = period - options.transient
             if 0 <= piece < len(sea[0].large):
                 row |= {"large": int(sea[0].large[piece]), "forecast": int(sea[0].forecast[piece])}
@@ -307,7 +306,7 @@ def _loads(rest: Sequence[Digest], options) -> Row:
         np.array([number_of(run.row, column.name) for run in rest]) for column in (SNAPS, MEAN, EQUIVALENT)
     )
     mean_N = float(np.mean(means))
-    row: Row = {
+    row = {
         SNAPS.name: float(np.mean(rates)),
         MEAN.name: mean_N,
         EQUIVALENT.name: float(np.mean(ranges**options.slope) ** (1.0 / options.slope)),

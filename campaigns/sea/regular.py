@@ -13,12 +13,11 @@ import numpy as np
 
 import engine
 from analysis import slow_forecast
+from campaigns import sweep
 from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
-from campaigns.machinery.folder import CampaignStopped
-from campaigns.machinery.plan import Plan, Summary
-from campaigns.machinery.runner import spare_groups
+from campaigns.machinery import CampaignStopped, Plan, Summary, spare_groups
 from campaigns.study import Order
 from engine.views import carries_tangents
 from tables import PEAK, Rows, number_of
@@ -61,8 +60,6 @@ def one_set(order: Order) -> bool:
 
 def regular_order(order: Order) -> Order | None:
     """The order of a sweep over regular waves; None where the states of a map have none in common."""
-    from campaigns import sweep
-
     if not one_set(order):
         return None
     heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
@@ -95,8 +92,6 @@ def regular_order(order: Order) -> Order | None:
 
 def regular_ahead(order: Order, plan: Plan) -> None:
     """Let workers that would wait for the last runs in a sea do those of regular waves from rest."""
-    from campaigns import sweep
-
     waves = regular_order(order)
     if waves is not None and not waves.faults:
         plan.spare.extend(spare_groups(sweep.STUDY.plan(waves), waves.how.out, waves.cases))
@@ -104,8 +99,6 @@ def regular_ahead(order: Order, plan: Plan) -> None:
 
 def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     """Do the sweep of regular waves; nothing where the states of a map have none in common. Returns seconds."""
-    from campaigns import sweep
-
     waves = regular_order(order)
     if waves is None:
         return 0.0
@@ -156,8 +149,7 @@ class Folds:
 
 def folds_of(rows: Rows, ends: Rows) -> Folds | None:
     """The folds of a sweep of regular waves, from the rows of its tables; None where no wave has two unlike motions."""
-    waves: dict[float, list[float]] = {}
-    motions: dict[str, dict[float, float]] = {}
+    waves, motions = {}, {}  # largest tensions by amplitude; by letter and amplitude
     for row in lasting(rows):
         amplitude_m, tension_N = row[KEY], row[PEAK]
         if row.get("motion"):
@@ -193,14 +185,14 @@ def _end(letter: str, which: str, known: Mapping[float, float], ends: Rows, wave
     return 0.5 * (last + waves[place])
 
 
-def design_loads(rows: Rows, amplitude_m: float) -> list[tuple[str, float]]:
+def design_loads(rows: Rows, amplitude_m: float) -> list[tuple]:
     """Letter and largest tension (N) of each motion of the regular wave of an amplitude, the smallest first.
 
     A wave of the sweep within NEAR counts as this one. Else the tension of a motion lies between those of the next
     smaller and the next larger wave; a motion that only one of them has counts where that one is the nearer. Outside
     the sweep the list is empty.
     """
-    waves: dict[float, dict[str, float]] = {}
+    waves = {}  # largest tensions by amplitude and letter
     for row in lasting(rows):
         waves.setdefault(row[KEY], {})[str(row["motion"])] = row[PEAK]
     nearest = min(waves, key=lambda value: abs(value - amplitude_m), default=math.inf)

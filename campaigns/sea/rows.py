@@ -15,9 +15,9 @@ from analysis import (
 )
 from analysis.seas import mean_of_seas
 from analysis.tangent_growth import turned
-from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, exponents, height_m, sound_part
+from campaigns.explore.grid import place_in
+from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, begun_row, exponents
 from campaigns.explore.rows import SNAPS as SNAPS_OF_RUNS
-from campaigns.judge import periods_of
 from engine.run.rest import static_tension_N
 from engine.views import carried, snaps_of
 from tables import (
@@ -33,16 +33,16 @@ from tables import (
     Columns,
     Row,
     Rows,
-    counted,
     finite,
     names,
     number_of,
+    of_words,
 )
 
 CLEAR = 3.0  # errors between an exponent and 0: then its sign needs no more seas
 SEA = Column("sea", "", "sea", "seed of the waves", 0)
 START = Column("start", "", "start", "number of the start; 0: rest", 0)
-SOLVER = Column("solver", "", "solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
+SOLVER = of_words("solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
 SNAPS = Column("snaps_per_hour", "1/h", "snaps", "snaps an hour after the transient", 1)
 GROWING = Column(
     "growing_share", "", "growing", "share of windows of the record in which a small perturbation grows", 2, REGIMES
@@ -89,11 +89,8 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
 
     transient: peak periods left out. window, slack_share, snap_share, slope: options of the campaign.
     """
-    row, columns, scene = counted(trajectory), sound_part(trajectory.columns), trajectory.scene
-    row[HEIGHT.name] = height_m(scene, columns)
+    (row, columns), scene = begun_row(trajectory), trajectory.scene
     period_s, step_s = scene.waves.period_s, scene.sample_step_s()
-    if len(columns["time_s"]):
-        row[PERIODS_RUN.name] = periods_of(scene, columns)
     if carried(trajectory):
         growth = trajectory.tangent.growth_nats[:, 0]
         row |= exponents(TANGENT, sea_lyapunov([growth], transient))
@@ -131,13 +128,13 @@ def finite_row(row: Row) -> Row:
 
 def unclear_places(rows: Rows, keys: Columns) -> set[tuple]:
     """The places (values of the keys) where the mean exponent of the runs from rest is within CLEAR errors of 0."""
-    found: dict[tuple, list[tuple[float, float]]] = {}
+    exponents_at = {}  # of the seas with their errors, by place
     for row in rows:
         value, error = (number_of(row, column.name) for column in TANGENT)
         if row["start"] == 0 and not row["solver"] and math.isfinite(value):
-            found.setdefault(tuple(row[name] for name in names(keys)), []).append((value, error))
+            exponents_at.setdefault(place_in(row, keys), []).append((value, error))
     unclear = set()
-    for place, exponents_of_seas in found.items():
+    for place, exponents_of_seas in exponents_at.items():
         value, error = mean_of_seas(*zip(*exponents_of_seas, strict=True))
         if abs(value) < CLEAR * error:
             unclear.add(place)

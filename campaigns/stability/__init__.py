@@ -13,12 +13,10 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
-from campaigns.machinery import cli
-from campaigns.machinery.plan import Summary
+from campaigns.machinery import Summary, cli
 from campaigns.study import Order, Study
-from tables import number_of
+from tables import Rows, number_of
 
 DRIFT_PERIODS = 100_000
 
@@ -34,7 +32,7 @@ class Options(cli.Options):
         cli.whole(0),
     )
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """What is usual depends on --quick."""
         if self.drift_periods is None:
             self.drift_periods = 0 if self.quick else DRIFT_PERIODS
@@ -49,7 +47,7 @@ def perform(order: Order) -> Summary:
     return tasks.judge_cases(order)
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How the cases ended; what nobody can explain by name."""
     counts = Counter(str(row["verdict"]) for row in rows)
     verdicts = [f"{count} {word}" for word, count in counts.most_common()]

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from campaigns.machinery.folder import CampaignStopped, write_failure
+from campaigns.machinery import CampaignStopped, write_failure
 from campaigns.stability import checks
 from campaigns.stability.limits import DONE, limited, outcome_of
 from engine import SceneError, load_scene, simulate
-from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, finite, names, of_words
+from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, Row, finite, names, of_words
 
 REFUSED, ABOVE_BAR = "refused", "above bar"
 LIMIT_S, DRIFT_LIMIT_S = 300.0, 1800.0
@@ -121,7 +121,7 @@ def _cases(group: str, row: dict) -> Iterator[Case]:
         yield Case(group, name.format(*values), changes, seconds, **row, quick=is_quick)
 
 
-def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
+def case_row(case: Case, path: Path | None = None) -> Row:
     """The row of a case; its run is saved under `path` where one is given.
 
     Raises CampaignStopped where that cannot be written: it says nothing of the case.
@@ -140,7 +140,7 @@ def case_row(case: Case, path: Path | None = None) -> dict[str, object]:
     return row
 
 
-def _judged(case: Case, path: Path | None) -> dict[str, object]:
+def _judged(case: Case, path: Path | None) -> Row:
     changes = dict(case.changes)
     if case.check in NEEDS_PROFILES or (case.check == "stays" and changes.get("buoy", 1) is None):
         changes["output.profiles"] = True
@@ -168,8 +168,7 @@ def _judged(case: Case, path: Path | None) -> dict[str, object]:
         if run.status not in case.statuses:
             verdict = UNEXPLAINED
         return row | {"verdict": verdict, "how": "ended with its reason", "limit": case.why}
-    measured, way, *tensions = getattr(checks, case.check)(run, case)
-    tension, *_ = *tensions, None
+    measured, way, tension = getattr(checks, case.check)(run, case)
     row |= {"verdict": OK, "how": way}
     holds = run.own_message or tension is None or tension <= case.bar_tension
     right = measured <= case.bar and holds  # neither where a number is nan

@@ -9,17 +9,12 @@ from collections import Counter
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.folder import made_by, trajectory_path
-from campaigns.machinery.plan import Summary
-from campaigns.machinery.progress import stage
-from campaigns.machinery.runner import ENGINE
-from campaigns.machinery.store import Store, key_of
-from campaigns.machinery.tasks import Task, results
+from campaigns.machinery import ENGINE, Store, Summary, Task, key_of, made_by, results, stage, trajectory_path
 from campaigns.stability.cases import COLUMNS, Case, all_cases, case_row, drift_case
 from campaigns.stability.limits import DIED, load_kernels
 from engine import load_scene
 from engine.atomic import write_atomic
-from tables import write_table
+from tables import Row, write_table
 
 SOURCES = ("engine", "campaigns/stability")
 
@@ -39,7 +34,7 @@ def judge_cases(order) -> Summary:
 
     Raises CampaignStopped where a worker dies: cases have their own processes.
     """
-    out, maker = order.how.out.absolute(), made_by({}, *SOURCES)
+    out, maker = order.how.out.absolute(), made_by(*SOURCES)
     write_atomic(out / "scene.toml", load_scene("tethered_buoy").to_toml().encode())
     store = Store(out / "trajectories", ".row.json")
     tasks = []
@@ -62,7 +57,7 @@ def judge_cases(order) -> Summary:
     return Summary(rows, finished.reused, len(tasks) - finished.reused, times)
 
 
-def judged(case: Case, path: Path) -> dict[str, object]:
+def judged(case: Case, path: Path) -> Row:
     """The row of a case, in a worker."""
     load_kernels()
     return case_row(case, path)

@@ -27,12 +27,23 @@ from typing import TYPE_CHECKING
 from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, grid_of, varied
 from campaigns.judge import judged_job, judged_scene
-from campaigns.machinery import cli
-from campaigns.machinery.folder import write_new
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job, cli, write_new
 from campaigns.study import Lengths, Measures, Order, Study
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, in_regular_waves
-from tables import ANSWER, MESSAGE, RUN_KEY, STATISTICS, STATUS, Row, Rows, counted, names, read_columns, read_table
+from tables import (
+    ANSWER,
+    MESSAGE,
+    PEAK,
+    RUN_KEY,
+    STATISTICS,
+    STATUS,
+    Row,
+    Rows,
+    counted,
+    names,
+    read_columns,
+    read_table,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -41,21 +52,21 @@ if TYPE_CHECKING:
 
 
 @dataclass
-class Options(motions.Starts):
+class Options(motions.SweepOptions):
     """The options of this campaign. grid: the keys with their values, read from --vary."""
 
     vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
     duration: float | None = cli.option("S", "length of every run in seconds, for a scene without waves", cli.SECONDS)
     grid: Grid = field(default_factory=Grid)
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The keys with their values in the words of --vary."""
         self.grid = grid_of(self.vary or [], faults, least=1, example=", for instance buoy.drag 0.1 0.8 8")
 
 
 def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
-    grid: Grid = order.options.grid
+    grid = order.options.grid
     grid.refuse_set(order)
     first = {key.name: key.values[0] for key in grid.keys if key.index is None}
     base = order.base() or order.base(first, tell=True)  # keys may need each other
@@ -63,16 +74,16 @@ def cases(order: Order) -> Iterator[Job]:
         return
     duration_s, periods = order.options.duration, order.periods
     if base.waves is not None and duration_s is not None:
-        order.tell(["--duration: given for a scene with waves; allowed: --periods"])
+        order.tell("--duration: given for a scene with waves; allowed: --periods")
     if base.waves is None:
         periods = None
         if duration_s is None:
             absent = f"--duration: given nothing for {order.name!r}, a scene without waves"
-            order.tell([f"{absent}; allowed: seconds, above 0"])
+            order.tell(f"{absent}; allowed: seconds, above 0")
     for place in grid.places():
         changes, faults = grid.changes(place, base)
         if faults:
-            order.tell(faults)
+            order.tell(*faults)
             continue
         scene = order.scene(changes, duration_s)
         if scene is not None and in_regular_waves(scene):
@@ -174,7 +185,6 @@ def answer(order: Order, rows: Rows) -> list[str]:
     from campaigns.answers import known_rows, line
     from campaigns.explore.load import load
     from campaigns.sweep import seas
-    from tables import PEAK
 
     keys, scene = names(order.options.grid.columns), order.cases[0].scene
     symbols = dict(zip(keys, keys, strict=True))

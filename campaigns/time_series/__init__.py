@@ -16,15 +16,10 @@ import os
 import sys
 from collections import namedtuple
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-from campaigns.machinery import cli
+from campaigns.machinery import cli, stage
 from campaigns.machinery.cli import FOLDER, FRACTION, POSITIVE, Kind, fault_of, number
-from campaigns.machinery.progress import stage
 from campaigns.machinery.session import command
-
-if TYPE_CHECKING:
-    from campaigns.time_series.record import Record
 
 CAMPAIGN, MODULE = "time_series", "analysis"
 # What `answer` and the report write, the first one first, told here because importing either takes a second.
@@ -101,7 +96,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
     """The order in the words of the command line, its record read; every fault is appended to `faults`."""
     options = cli.split(parser(), argv, faults)
 
-    def value(option: str, kind: Kind) -> object:
+    def value(option, kind):
         words = getattr(options, option[2:])
         if words is not None:
             words = [words]
@@ -167,7 +162,7 @@ def _written_over(out: Path, file: str | None) -> str:
     return ""
 
 
-def _no_fit(period: float, record: "Record") -> str:
+def _no_fit(period: float, record) -> str:
     """Why a record cannot be seen once per period, as a fault line; "" where it can."""
     length = (len(record.values) - 1) * record.step
     fault = f"--period: given {period:.6g} {record.unit}"

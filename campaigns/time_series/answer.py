@@ -92,7 +92,7 @@ def _wrapped(text: str, indent: int) -> list[str]:
     return textwrap.wrap(text, WIDTH, subsequent_indent=" " * indent, break_long_words=False)
 
 
-def _rows(pairs: list[tuple[str, str]]) -> list[str]:
+def _rows(pairs: list[tuple]) -> list[str]:
     """Lines of names in front and texts beside them."""
     lines = []
     for name, text in pairs:
@@ -100,7 +100,7 @@ def _rows(pairs: list[tuple[str, str]]) -> list[str]:
     return lines
 
 
-def _measures(study: Study) -> list[tuple[str, str, str, str]]:
+def _measures(study: Study) -> list[tuple]:
     """(measure, value with its standard error, unit, where it comes from or why there is none) of each."""
     unit, short = study.record.unit, study.exponents["wolf"].reason
     # nats a second, but nats a sample

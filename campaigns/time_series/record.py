@@ -125,7 +125,7 @@ class Table:
         """The lines below the names."""
         return islice(_lines(self.path), int(self.named), None)
 
-    def rows(self) -> Iterator[list[str]]:
+    def rows(self) -> Iterator[list]:
         """The cells of each line. Raises ValueError at the first row with more or fewer cells than there are names."""
         for number, cells in enumerate(_cells(self.path, self.lines(), self.mark), 1):
             if len(cells) == len(self.names):
@@ -156,7 +156,7 @@ def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[st
         except (ValueError, UserWarning):  # cell by cell, to say what is wrong; other columns may hold words
             pass
     values = {name: array("d") for name in places}
-    wrong: dict[tuple[str, str], list] = {}  # column and what is wrong: its first cell, and its rows
+    wrong = {}  # by column and what is wrong: its first cell, and its rows
     for number, cells in enumerate(table.rows(), 1):
         for name, place in places.items():
             cell = cells[place]
@@ -256,7 +256,7 @@ def read_table(path: Path) -> Table:
     return table
 
 
-def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list[str]]:
+def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list]:
     """The cells of each line."""
     if mark is None:
         for line in lines:

@@ -11,12 +11,12 @@ source gives, is fitted, told in the row, and not judged. A code that is not ins
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 import engine
-from campaigns.machinery import cli
+from campaigns.machinery import Plan, cli, machine, run, write_scene
 from campaigns.study import Order, Study
 from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, Case, missing
+from tables import Rows, counted, read_table, write_table
 
 
 @dataclass
@@ -27,7 +27,7 @@ class Options(cli.Options):
     quick: bool = cli.flag(f"the cases without long runs: {' '.join(QUICK)}")
     cases: tuple[Case, ...] = ()
 
-    def read(self, out: Path, faults: list[str]) -> None:
+    def read(self, faults: list[str]) -> None:
         """The cases."""
         chosen = self.only or (QUICK if self.quick else CASES)
         self.cases = tuple(CASES[name] for name in CASES if name in chosen)
@@ -40,11 +40,8 @@ class Options(cli.Options):
 
 def perform(order: Order):
     """All runs, side by side; then each case beside its source."""
-    from campaigns.machinery.plan import Plan
-    from campaigns.machinery.runner import run, write_scene
     from campaigns.validation import cases, judging
     from engine.atomic import write_atomic
-    from tables import counted, write_table
 
     out = order.how.out
     plan = Plan(order.how, order.simulate or engine.simulate, counted, cases.COLUMNS)
@@ -58,22 +55,20 @@ def perform(order: Order):
     return summary
 
 
-def parameters(order: Order) -> dict[str, object]:
+def parameters(order: Order) -> dict:
     from campaigns.accuracy.jobs import version
     from campaigns.accuracy.plan import PEERS
-    from campaigns.machinery.session import machine
 
     asked = {case.options.get("peer") for case in order.options.cases}
     peers = {peer.name: version(peer) or "(not installed)" for peer in PEERS if peer.name in asked}
     return {"cases": [case.name for case in order.options.cases], "peers": peers, "machine": machine()}
 
 
-def answer(order: Order, rows: list[dict]) -> Iterator[str]:
+def answer(order: Order, rows: Rows) -> Iterator[str]:
     """How many cases hold, which miss and by how much, the one nearest to its bar, what was not run."""
-    from tables import read_table
 
     judged = read_table(order.how.out / "cases.csv")
-    rows_of_verdicts: dict[str, list[dict]] = {HOLDS: [], MISSES: [], NOT_RUN: []}
+    rows_of_verdicts = {HOLDS: [], MISSES: [], NOT_RUN: []}
     for row in judged:
         rows_of_verdicts.setdefault(row["verdict"], []).append(row)
     holding, missed = rows_of_verdicts[HOLDS], rows_of_verdicts[MISSES]
@@ -89,7 +84,7 @@ def answer(order: Order, rows: list[dict]) -> Iterator[str]:
         yield f"Not run: {', '.join(_cases(rows_of_verdicts[NOT_RUN]))}."
 
 
-def _cases(rows: list[dict]) -> dict[str, None]:
+def _cases(rows: Rows) -> dict[str, None]:
     """The cases of rows, each once, in their order."""
     return dict.fromkeys(row["case"] for row in rows)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from campaigns.machinery.plan import Job
+from campaigns.machinery import Job
 from tables import MESSAGE, RUN_KEY, STATISTICS, STATUS, Column, of_words
 
 HOLDS, MISSES, NOT_RUN, TOLD = "holds", "misses", "not run", "told"
@@ -100,15 +100,13 @@ def own_jobs(case: Case) -> Iterator[Job]:
 
 def peer_jobs(case: Case) -> Iterator[Job]:
     """A run of ours and one of another code, on a work of `campaigns.accuracy`."""
-    from campaigns.accuracy.jobs import other_code, scene_of, version
+    from campaigns.accuracy.jobs import other_code, scene_of, sources_of, version
     from campaigns.accuracy.plan import BY_NAME
-    from campaigns.machinery.folder import made_by
 
     peer, work, setting = peer_of(case), BY_NAME[case.options["work"]], tuple(case.options["setting"])
     yield Job({"run": f"{work.name}, ours"}, work.made({**peer.ours, **case.changes}), duration_s=case.duration_s)
-    sources = made_by({}, f"campaigns/accuracy/peers/{peer.module}.py", "campaigns/accuracy/peers/record.py")
     simulate = partial(other_code, peer=peer, settings=setting)
-    maker = f"{peer.name} {version(peer)} {setting} {sources}"
+    maker = f"{peer.name} {version(peer)} {setting} {sources_of(peer)}"
     scene = scene_of(peer, work.name, setting[0])
     yield Job({"run": f"{work.name}, {peer.name}"}, scene, duration_s=case.duration_s, simulate=simulate, made=maker)
 

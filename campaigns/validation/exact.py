@@ -51,7 +51,7 @@ def catenary(scene) -> Catenary:
     fixed = m * scene.gravity_mps2, tether.tension.stiffness_N, m, tether.length_m
     weight = fixed[0] * tether.length_m
 
-    def difference(force: np.ndarray) -> np.ndarray:
+    def difference(force):
         return Catenary(np.exp(force[0]), force[1], *fixed).place(np.array([tether.length_m]))[:, 0] - end
 
     solution, _, ok, message = fsolve(difference, [np.log(weight), -0.5 * weight], xtol=1e-13, full_output=True)

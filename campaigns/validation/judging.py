@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from campaigns.machinery.folder import run_of
+from campaigns.machinery import run_of
 from campaigns.validation import families
 from campaigns.validation.cases import HOLDS, MISSES, NOT_RUN, TOLD, Case, missing
 from engine import Trajectory
-from tables import Column, of_words
+from tables import Column, Row, Rows, of_words
 
 POINTS = (
     of_words("case", "name of the case"),
@@ -18,7 +18,7 @@ POINTS = (
 )
 
 
-def judged(out: Path, cases: Iterable[Case]) -> tuple[list[dict], list[dict]]:
+def judged(out: Path, cases: Iterable[Case]) -> tuple[list, list]:
     """(rows of `cases.JUDGED`, rows of POINTS) of all cases, from the runs in `out`."""
     rows, points = [], []
     for case in cases:
@@ -54,7 +54,7 @@ def _fault(runs: Iterable[Trajectory | None]) -> str:
     return ""
 
 
-def verdict(case: Case, quantity: str, number: families.Number) -> dict[str, object]:
+def verdict(case: Case, quantity: str, number: families.Number) -> Row:
     """Numbers of a quantity, and its verdict."""
     bar, unit = case.bars.get(quantity, (None, number.unit))
     word = MISSES
@@ -66,7 +66,7 @@ def verdict(case: Case, quantity: str, number: families.Number) -> dict[str, obj
     return row | {"ours": number.ours, "theirs": number.theirs, "error": number.error, "verdict": word}
 
 
-def page(rows: Iterable[dict]) -> str:
+def page(rows: Rows) -> str:
     """What is judged, as a table in Markdown."""
     lines = ["| case | compared | ours | theirs | error | bar | verdict |", "|---|---|---|---|---|---|---|"]
     for row in rows:
@@ -75,7 +75,7 @@ def page(rows: Iterable[dict]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _cells(row: dict) -> list[str]:
+def _cells(row: Row) -> list[str]:
     """The cells of a row of `page`."""
     cells = [f"`{row['case']}`", row["quantity"]]
     for name in ("ours", "theirs"):

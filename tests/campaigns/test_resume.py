@@ -186,12 +186,12 @@ def test_a_row_comes_back_to_its_maker_alone_and_while_its_run_is_as_it_was(tmp_
 
 
 def test_the_maker_changes_with_settings_and_sources():
-    makers = [made_by({"transient": 100}, "analysis"), made_by({"transient": 50}, "analysis")]
-    makers.append(made_by({"transient": 100}, "analysis", "campaigns/explore/rows.py"))
-    assert len(set(makers)) == 3 and made_by({"transient": 100}, "analysis") == makers[0]
+    makers = [made_by("analysis", transient=100), made_by("analysis", transient=50)]
+    makers.append(made_by("analysis", "campaigns/explore/rows.py", transient=100))
+    assert len(set(makers)) == 3 and made_by("analysis", transient=100) == makers[0]
     for absent in ("campaigns/rows_that_moved.py", "reports/templates"):
         with pytest.raises(FileNotFoundError):
-            made_by({}, "engine", absent)
+            made_by("engine", absent)
 
 
 def record(out):

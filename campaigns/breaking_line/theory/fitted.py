@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from analysis.compiled import kernel
 from analysis.sampling import checked_not_negative, checked_series
@@ -28,8 +29,6 @@ class ShockPath:
 
         The place is a cubic with the speeds as slopes. Strains grow as the root of the time since the start.
         """
-        from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
-
         t = np.asarray(time_s, float)
         if len(self.time_s) < 2:
             return tuple(np.full(t.shape, np.nan) for _ in range(3))
@@ -90,8 +89,6 @@ class FittedBreak:
 
     def _crossed(self, s, t, edge):
         """Strain and velocity at s, all in the net, which begins at `edge` at time t."""
-        from scipy.interpolate import PchipInterpolator
-
         law, length, shock = self.case.law, self.case.length, len(self.shock.time_s)
         crossings = np.empty((len(self.net.p) + len(self.net.q), 3)).T
         count = on_outgoing(law, self.net, self.starts[-1, row.LINE], length, t, crossings)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from campaigns import figure_data
 from campaigns.breaking_line.lines import FAST, SLOW
-from campaigns.machinery.folder import made_by, read_json, write_json
+from campaigns.machinery import made_by, read_json, write_json
 from campaigns.paper.figures.chaos import running_exponents, sections
 from campaigns.paper.figures.motions import SHOWN, breaking, history, offplane_histories, spectra
 from campaigns.paper.measured import LeftOut, Parts
@@ -58,13 +58,13 @@ def write_figure_data(folder: str | Path) -> dict[int, str]:
     """
     root = Path(folder)
     place_of(root).mkdir(parents=True, exist_ok=True)
-    parts, left_out, code = Parts(root), {}, made_by({}, *SOURCES)
+    parts, left_out, code = Parts(root), {}, made_by(*SOURCES)
     for number, planned in FIGURES.items():
         data, *pictures = files_of(root, number)
         try:
             plan = planned(parts)
             digests = [(source["label"], source["file"], source["sha256"]) for source in plan.sources]
-            key = made_by({"figure": number, "title": plan.title, "sources": digests, "code": code})
+            key = made_by(figure=number, title=plan.title, sources=digests, code=code)
             if figure_data.attribute_of(data) != key:
                 figure_data.store(data, figure_data.dataset(plan.title, plan.arrays(), plan.sources, key))
         except LeftOut as reason:

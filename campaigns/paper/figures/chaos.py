@@ -12,7 +12,7 @@ and g' = r'/(D w_nr).
 import numpy as np
 
 from campaigns.figure_data import Array, Source, source
-from campaigns.machinery.folder import trajectory_path
+from campaigns.machinery import trajectory_path
 from campaigns.paper.measured import LeftOut, Parts, Plan
 from engine.natural_frequencies import natural_frequencies
 from engine.views import carried, strobed_radius
@@ -37,7 +37,7 @@ def running_exponents(parts: Parts) -> Plan:
 def _exponents(runs: dict, transient: int) -> dict[str, Array]:
     from analysis import tangent_lyapunov, wolf_lyapunov
 
-    arrays: dict[str, Array] = {
+    arrays = {
         "transient_periods": ((), transient, "1", "wave periods left out at the start"),
         "linear_periods": ((), LINEAR_PERIODS, "1", "length of the record up to which every value is kept"),
     }
@@ -84,7 +84,7 @@ def sections(parts: Parts) -> Plan:
     return Plan(title, (origin, reduced), lambda: _sections(trajectory, points, states, numbers))
 
 
-def _oscillator(parts: Parts) -> tuple[np.ndarray, dict[str, float], Source]:
+def _oscillator(parts: Parts) -> tuple[np.ndarray, dict, Source]:
     """Strobed states (m, 2) of eq. (33), its numbers, and where they are from."""
     from scipy.io import netcdf_file
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from campaigns.breaking_line.lines import named
 from campaigns.figure_data import Array
+from campaigns.judge import samples_of
 from campaigns.paper.measured import LeftOut, Parts, Plan
 from campaigns.paper.measures import WINDOW, in_window
 from engine.natural_frequencies import natural_frequencies
@@ -42,7 +43,7 @@ def breaking(parts: Parts, cases: tuple[str, ...], quantity: str) -> Plan:
 
 
 def _breaking(runs: dict, quantity: str) -> dict[str, Array]:
-    arrays: dict[str, Array] = {}
+    arrays = {}
     for case, (row, trajectory, _) in runs.items():
         profiles = trajectory.profiles
         wanted = np.arange(0.0, profiles.time_s[-1] + 1e-9, INSTANT_S)
@@ -67,9 +68,9 @@ def history(parts: Parts, steepness: float, side: str) -> Plan:
 def history_arrays(trajectory, side: str) -> dict[str, Array]:
     """The record up to the end of the window of eq. (31)."""
     scene, dimension = trajectory.scene, ("time_s",)
-    last = round(sum(WINDOW) * scene.waves.period_s / scene.sample_step_s()) + 1
+    last = samples_of(scene, sum(WINDOW)) + 1
     shown = {name: values[:last] for name, values in trajectory.columns.items()}
-    arrays: dict[str, Array] = {
+    arrays = {
         "time_s": (dimension, shown["time_s"], "s", "time"),
         "wave_period_s": ((), scene.waves.period_s, "s", "wave period T_i"),
         "window_start_periods": ((), WINDOW[0], "1", "start of the window of eq. (31), in wave periods"),
@@ -111,7 +112,7 @@ def _spectra(trajectory, sides: tuple[str, ...]) -> dict[str, Array]:
     scene = trajectory.scene
     modes = natural_frequencies(scene)
     static_m = trajectory.columns["radius_m"][0]
-    arrays: dict[str, Array] = {
+    arrays = {
         "wave_radps": ((), modes.wave_radps, "rad s-1", "wave frequency"),
         "natural_radial_radps": ((), modes.radial_radps, "rad s-1", "natural frequency, radial, section 4.2.1"),
         "natural_angular_radps": ((), modes.pendulum_radps, "rad s-1", "natural frequency, angular, section 4.2.1"),
@@ -146,7 +147,7 @@ def offplane_histories(parts: Parts) -> Plan:
 def _offplane(runs: dict) -> dict[str, Array]:
     from analysis import envelope_of
 
-    arrays: dict[str, Array] = {}
+    arrays = {}
     for name, (row, trajectory, _) in runs.items():
         scene, columns, kA = trajectory.scene, trajectory.columns, f"kA = {WAVES[name]:g}"
         period_s, of_time, of_envelope = scene.waves.period_s, (f"{name}_time_s",), (f"{name}_periods",)

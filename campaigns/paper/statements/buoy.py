@@ -316,7 +316,7 @@ def large_grows(results: Results) -> Measured:
     rows = pushed(results)
     if not rows:
         return Measured([])
-    checks: dict[str, bool] = {}
+    checks = {}
     for row in rows:
         checks[at(row)] = checks.get(at(row), False) or grows(row)
     bursting = matching(rows, {"rope_motion": "bursts"})
@@ -341,7 +341,7 @@ def comparable(results: Results) -> Measured:
 
 def spatial(results: Results) -> Measured:
     """Largest lateral distance of the rope, m, at every depth."""
-    largest: dict[str, float] = {}
+    largest = {}
     for row in pushed(results):
         distance_m = row["rope_lateral_max_m"]
         if math.isfinite(distance_m):

@@ -10,7 +10,6 @@ from campaigns.paper.measured import Results
 from campaigns.statements import Check, Measured, formula, grouped, shown
 from tables import LARGE, OPEN, TANGENT_ERROR, TANGENT_EXPONENT, Row, number_of
 
-Measure = Callable[[Results], Measured]
 Place = tuple[str, Row]  # where a run was, in words, and its row
 UNDECIDED = ("", *OPEN)  # regimes that decide nothing
 NOT_IN_DOUBT = 2.0  # standard errors
@@ -18,58 +17,54 @@ LONG = "the long run"
 
 
 def numbers(
-    of: dict[str, str], form: str, judge: str = "", printed: Mapping[str, float | str] | None = None
-) -> Measure:
+    results: Results,
+    of: dict[str, str],
+    form: str,
+    judge: str = "",
+    printed: Mapping[str, float | str] | None = None,
+) -> Measured:
     """A check for every place, of a formula over the results' numbers.
 
     judge: the formula that the rule judges; printed: what the paper prints (told in brackets), the rule then judges the
     relative distance from it.
     """
-
-    def measure(results: Results) -> Measured:
-        checks, words = [], []
-        for place, text in of.items():
-            value, expected = formula(text)(results.numbers), 1.0
-            if printed:
-                expected = formula(str(printed[place]))(results.numbers)
-            if not (math.isfinite(value) and math.isfinite(expected)):
-                continue
-            judged, sentence = value, f"{place}: {shown(value, form)}"
-            if judge:
-                judged = formula(judge)(results.numbers)
-            elif printed:
-                judged = value / expected - 1.0
-            if printed:
-                sentence += f" ({expected:g})"
-            checks.append((place, judged))
-            words.append(sentence)
-        return Measured(checks, ", ".join(words))
-
-    return measure
+    checks, words = [], []
+    for place, text in of.items():
+        value, expected = formula(text)(results.numbers), 1.0
+        if printed:
+            expected = formula(str(printed[place]))(results.numbers)
+        if not (math.isfinite(value) and math.isfinite(expected)):
+            continue
+        judged, sentence = value, f"{place}: {shown(value, form)}"
+        if judge:
+            judged = formula(judge)(results.numbers)
+        elif printed:
+            judged = value / expected - 1.0
+        if printed:
+            sentence += f" ({expected:g})"
+        checks.append((place, judged))
+        words.append(sentence)
+    return Measured(checks, ", ".join(words))
 
 
-def depths(of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Measure:
+def depths(results: Results, of: str, form: str, also: Sequence[str] = (), judge: str = "") -> Measured:
     """A check for every depth, at the large wave, of a formula over the row and the results' numbers.
 
     also: formulas that are told besides; judge: the formula that the rule judges.
     """
-
-    def measure(results: Results) -> Measured:
-        checks, words = [], []
-        for row in results.over_depth(LARGE):
-            numbers_of_row = results.numbers | row
-            value = formula(of)(numbers_of_row)
-            if not math.isfinite(value):
-                continue
-            values_in_words = [shown(value, form)]
-            for text in also:
-                values_in_words.append(shown(formula(text)(numbers_of_row), form))
-            words.append(f"{' and '.join(values_in_words)} at {at(row)}")
-            judged = formula(judge)(numbers_of_row) if judge else value
-            checks.append((at(row), judged))
-        return Measured(checks, ", ".join(words))
-
-    return measure
+    checks, words = [], []
+    for row in results.over_depth(LARGE):
+        numbers_of_row = results.numbers | row
+        value = formula(of)(numbers_of_row)
+        if not math.isfinite(value):
+            continue
+        values_in_words = [shown(value, form)]
+        for text in also:
+            values_in_words.append(shown(formula(text)(numbers_of_row), form))
+        words.append(f"{' and '.join(values_in_words)} at {at(row)}")
+        judged = formula(judge or of)(numbers_of_row)
+        checks.append((at(row), judged))
+    return Measured(checks, ", ".join(words))
 
 
 def each(checks: Iterable[Check], form: str) -> Measured:
@@ -121,7 +116,7 @@ def everywhere(results: Results, steepness: float) -> list[Place]:
     return places
 
 
-def regimes(rows: Iterable[Place], is_so: Callable[[str], bool]) -> list[Check]:
+def regimes(rows: Iterable[Place], is_so: Callable) -> list[Check]:
     """A check of every row that has a verdict: whether its regime is so."""
     checks = []
     for place, row in rows:
@@ -132,7 +127,7 @@ def regimes(rows: Iterable[Place], is_so: Callable[[str], bool]) -> list[Check]:
 
 def by_regime(rows: Iterable[Place]) -> str:
     """Regimes of the runs, each with the places that have it."""
-    places: dict[str, list[str]] = {}
+    places = {}  # by regime
     for place, row in rows:
         places.setdefault(row["regime"] or "no verdict", []).append(place)
     return "; ".join(f"{regime} at {grouped(places_of)}" for regime, places_of in places.items()) or "none"

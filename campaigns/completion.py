@@ -12,7 +12,7 @@ import argcomplete
 NAMED = "2"  # by argcomplete's variable of this name the words begin with the second: `tether sweep ...` as `sweep ...`
 
 
-def complete(names: Iterable[str], parser_of: Callable[[str], argparse.ArgumentParser]) -> None:
+def complete(names: Iterable[str], parser_of: Callable) -> None:
     """Tell the shell the names of commands, or of a named one its options, scenes and keys; ends the process."""
     line = os.environ["COMP_LINE"][: int(os.environ["COMP_POINT"])]
     _, *words = f"{line}|".split()
