@@ -9,7 +9,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from engine.animation import moving_picture
 from tables import listed, number, percent
 
-from ..figures.curves import Curve, Panel, cells, curves
+from ..figures.curves import Curve, Panel, cells, curves, dots
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, named, seen
 from ..parts import Figure, Picture
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
@@ -69,7 +69,7 @@ def folds_figure(lines: list[Line]) -> Figure | None:
     drawn = shown(lines, ("1", "1p", "2", "2p", "3", "3p", "4", "4p"))
     if not drawn:
         return None
-    fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
+    fixed = dots(np.zeros(1), np.zeros(1), "o", VERMILION, 3.0)
     panels, low, high = [], np.inf, -np.inf
     for line in drawn:
         profiles = line.trajectory.profiles
@@ -142,9 +142,8 @@ def speeds_figure(exact: xarray.Dataset) -> Figure:
     for case in dict.fromkeys(cases):
         of_case, fast = cases == case, not case.endswith("p")
         marks, size = (_MARKS, 3.5) if fast else (_SLOW, 6)
-        mark, colour = marks[(int(case[0]) - 1) % 4]
-        look = {"size": size, "filled": fast}
-        lines.append(Curve(100 * strain[of_case], speed[of_case], f"case {named(case)}", "", mark, colour, **look))
+        look = *marks[(int(case[0]) - 1) % 4], size
+        lines.append(dots(100 * strain[of_case], speed[of_case], *look, name=f"case {named(case)}", filled=fast))
     seen = (
         f"{off.size} contours, between {percent(float(off.min()))} and {percent(float(off.max()))} off the wave speed, "
         f"by {percent(float(np.abs(off).mean()))} in the mean"
@@ -199,7 +198,7 @@ def animation_figure(lines: list[Line], case: str) -> Figure | None:
     moving = _animation(time_s, profiles.s_m, x, z, 1e-3 * profiles.tension_N[rows], limits)
     strip = []
     for row in np.linspace(0, len(time_s) - 1, _STRIP).round().astype(int):
-        end = Curve(x[row, -1:], z[row, -1:], line="", mark="o", colour=VERMILION, size=3.0)
+        end = dots(x[row, -1:], z[row, -1:], "o", VERMILION, 3.0)
         shape, title = [Curve(x[row], z[row], width=1.0), end], f"{1e3 * time_s[row]:.0f} ms"
         strip.append([Panel(shape, "", "$z$ (m)", title, settings=limits, marks=[(0.0, "")])])
     strip[-1][0] = strip[-1][0]._replace(x_label="$x$ (m)")

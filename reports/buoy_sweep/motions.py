@@ -8,7 +8,7 @@ import numpy as np
 
 from tables import EMPTY, PEAK, PERIODIC, listed, number, of_kicks, ranges
 
-from ..figures.curves import Curve, Panel
+from ..figures.curves import Curve, Panel, dots
 from ..figures.orbit_diagram import cell_edges
 from ..parts import Items, Table, heads, series
 from ..parts.style import INK, SOFT
@@ -31,7 +31,7 @@ def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list
         judged = np.isin(x, sweep.values) & np.isin(x, list(values))
         line, mark = _LINES[place % len(_LINES)], MARKS[place % len(MARKS)]
         curves.append(Curve(x, y, "", line, "", colour, width=1.2))
-        curves.append(Curve(x[judged], y[judged], "", "", mark, colour, size=2.8))
+        curves.append(dots(x[judged], y[judged], mark, colour, 2.8))
     return curves
 
 

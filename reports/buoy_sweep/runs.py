@@ -15,7 +15,7 @@ from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, Column, decimals, listed, number, ranges
 
 from ..figures.run_sheet import NOTHING, run_sheet
-from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, part_of, read_folder
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, read_folder
 from ..sweep.quantities import colours_of, in_order
 
 STEEPNESS = Column("steepness", "", "kA")
@@ -177,10 +177,9 @@ def read_sweep(directory: Path, key: Column = STEEPNESS) -> Sweep:
     runs = []
     for place, row in enumerate(in_order(rows, [key.name]), 1):
         runs.append(_read_run(folder, row, key, f"run-{place}", draw))
-    between, part = [], part_of(folder, "between")
-    if part is not None:
-        for row in part.completed:
-            between.append(_named(_read_run(part, row, key), runs))
+    between, part = [], folder.part("between")
+    for row in part.completed:
+        between.append(_named(_read_run(part, row, key), runs))
     return Sweep(folder, runs, between, tolerance, longest, modes, key)
 
 

@@ -40,6 +40,11 @@ class Curve(NamedTuple):
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
+def dots(x: np.ndarray, y: np.ndarray, mark: str = "o", colour: str | tuple = "", size: float = 4.0, **look) -> Curve:
+    """Marks without a line between them; look: further fields of a `Curve`."""
+    return Curve(x, y, line="", mark=mark, colour=colour, size=size, **look)
+
+
 class Panel(NamedTuple):
     """Curves on one pair of axes.
 

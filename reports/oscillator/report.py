@@ -13,7 +13,7 @@ import numpy as np
 from analysis.oscillator import SnapOscillator, grazing_force
 from tables import Column, count, decimals, number, number_of, percent, sub
 
-from ..figures.curves import Curve, Panel, curves
+from ..figures.curves import Curve, Panel, curves, dots
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts import PARTS as FILES
 from ..parts import (
@@ -128,10 +128,10 @@ def _section(study: Study, arrays: dict) -> Items:
     alpha = 1.0
     if len(states) > 20000:
         alpha = 0.6
-    lines = [Curve(*states.T, "", "", ",", INK, alpha=alpha), *_frames(boxes, 1)]
+    lines = [dots(*states.T, ",", INK, alpha=alpha), *_frames(boxes, 1)]
     orbit = attracting_orbit(study)
     if orbit is not None:
-        lines.append(Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION))
+        lines.append(dots(*orbit.T, "o", VERMILION, name=f"attracting period-{len(orbit)} orbit"))
     caption = (
         f"Poincaré section at the forcing phase {number(study.oscillator['phase'])} rad, in the layout of the paper's "
         f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. From the part "
@@ -144,8 +144,8 @@ def _section(study: Study, arrays: dict) -> Items:
         return
     panels = []
     for place, (points, box) in enumerate(zip(zooms, boxes, strict=True), 1):
-        dots, limits = Curve(*points.T, "", "", ",", INK, alpha=0.7), {"xlim": box[:2], "ylim": box[2:]}
-        lines, y_label = [dots, *_frames(boxes[place:], place + 1)], ""
+        limits = {"xlim": box[:2], "ylim": box[2:]}
+        lines, y_label = [dots(*points.T, ",", INK, alpha=0.7), *_frames(boxes[place:], place + 1)], ""
         if place == 1:
             y_label = STATE[1]
         panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", settings=limits, ticks=5))
@@ -220,7 +220,7 @@ def _errors(convergence: np.ndarray, of_start: np.ndarray) -> Figure:
     for place, (size, number_of_groups) in enumerate(zip(sizes, groups, strict=True)):
         means = of_start[: size * number_of_groups].reshape(number_of_groups, size).mean(axis=1)
         scatter[place] = means.std(ddof=1)
-    observed = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
+    observed = dots(sizes, scatter, "o", INK, 3.5, error=2 * scatter / np.sqrt(2.0 * (groups - 1)))
     ends = sizes[[0, -1]]
     law = Curve(ends, scatter[0] * ends**-0.5, r"$k^{-1/2}$ from $k = 1$", colour=VERMILION)
     log = "xy" if (scatter > 0).all() else "x"  # starts on one periodic orbit may agree to the last bit
@@ -245,16 +245,13 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> I
     marks = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
     positive = largest - 2 * arrays["errors"] > 0
     across = np.broadcast_to(values[:, None], largest.shape)
-
-    def dots(x: np.ndarray, y: np.ndarray, name: str, colour: str, size: float) -> Curve:
-        return Curve(x.ravel(), y.ravel(), name, "", "o", colour, size=size)
-
+    every_value = across.ravel()
     lines = [
-        dots(across, arrays["exponents"][..., 1], r"$\lambda_2$", SOFT, 1.0),
-        dots(across[~positive], largest[~positive], r"$\lambda_1$", BLUE, 1.3),
-        dots(across[positive], largest[positive], r"$\lambda_1$, above 0 by two errors", VERMILION, 1.3),
+        dots(every_value, arrays["exponents"][..., 1].ravel(), "o", SOFT, 1.0, name=r"$\lambda_2$"),
+        dots(across[~positive], largest[~positive], "o", BLUE, 1.3, name=r"$\lambda_1$"),
+        dots(across[positive], largest[positive], "o", VERMILION, 1.3, name=r"$\lambda_1$, above 0 by two errors"),
     ]
-    slack = dots(across, arrays["slack_fraction"], "", BLUE, 1.0)
+    slack = dots(every_value, arrays["slack_fraction"].ravel(), "o", BLUE, 1.0)
     below = [
         Panel(lines, y_label="exponents\n(nats per time)", level=0.0),
         Panel([slack], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)}),

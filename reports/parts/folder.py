@@ -59,6 +59,16 @@ class Folder(NamedTuple):
         """The rows of the runs that reached their full length."""
         return having(self.table, status="ok")
 
+    def part(self, name: str) -> Folder:
+        """The folder of that name inside of this one; without rows where it was left out or cannot be read."""
+        directory, columns, table = self.directory / name, {}, ()
+        try:
+            columns = read_columns(directory / "columns.csv")
+            table = by_columns(read_rows(directory / "table.csv"), columns)
+        except (OSError, ValueError):
+            pass
+        return self._replace(directory=directory, table=table, columns=columns)
+
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
 
@@ -125,17 +135,6 @@ def read_folder(directory: Path, needed: tuple[str, ...] = ()) -> Folder:
     if faults:
         raise FolderError(directory, *faults)
     return Folder(directory, parts["provenance.json"], table, parts["scene.toml"], columns)
-
-
-def part_of(folder: Folder, name: str) -> Folder | None:
-    """A folder of the same layout inside of a campaign's; None where it was left out or cannot be read."""
-    directory = folder.directory / name
-    try:
-        columns = read_columns(directory / "columns.csv")
-        table = by_columns(read_rows(directory / "table.csv"), columns)
-    except (OSError, ValueError):
-        return None
-    return Folder(directory, folder.provenance, table, folder.scene, columns)
 
 
 def read_files(

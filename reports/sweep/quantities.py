@@ -7,7 +7,7 @@ import numpy as np
 
 from tables import EMPTY, PEAK, Column, errors_of, number, number_of
 
-from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..figures.curves import COLOURS, Panel, curves, dots
 from ..parts import Folder, Picture, Row, Table, heads, series, shown_on, table_of
 from ..parts.style import BLUE, BROWN, GREEN, INK, PLUM, SOFT, VERMILION
 
@@ -113,8 +113,8 @@ def panels_over(rows: Sequence[Row], key: Column, shown: Sequence[Measured], mot
                     title = name
                 points, crosses = (letters == letter) & completed, (letters == letter) & ~completed
                 error_bars = None if bars is None else bars[points]
-                lines.append(Curve(x[points], y[points], title, "", mark, curve_colour, error_bars, 3.0))
-                lines.append(Curve(x[crosses], y[crosses], "", "", "x", curve_colour, size=5.0))
+                lines.append(dots(x[points], y[points], mark, curve_colour, 3.0, name=title, error=error_bars))
+                lines.append(dots(x[crosses], y[crosses], "x", curve_colour, 5.0))
         last_column, _ = pairs[-1]
         label = ", ".join([*names[:-1], last_column.label])  # the unit once, at the end
         panels.append(Panel(lines, key.label, label, level=level))
@@ -150,11 +150,11 @@ def at(keys: Sequence[Column], row: Row) -> str:
 
 
 def filled_table(
-    part: Folder | None, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
+    part: Folder, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
 ) -> list[Table]:
     """The table of a part of a folder, with those of the named columns (all, but for the key of a run) that say
-    something in some row; nothing without a part."""
-    if part is None:
+    something in some row; nothing without a row."""
+    if not part.table:
         return []
     filled = []
     for name in names or shown_on(part.columns, part.table):

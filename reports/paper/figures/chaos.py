@@ -15,7 +15,7 @@ import xarray
 
 from tables import decimals, number
 
-from ...figures.curves import Curve, Panel, curves
+from ...figures.curves import Curve, Panel, curves, dots
 from ...figures.offplane_history import History, lateral_histories
 from ...parts import L_0, T_I, Figure
 from ...parts.style import BLUE, INK, VERMILION
@@ -92,8 +92,8 @@ def sections(data: xarray.Dataset, kind: str) -> Figure:
     panels = []
     for name, (title, *axes) in PANELS.items():
         x, y = data[f"{name}_displacement"].values, data[f"{name}_velocity"].values
-        dots = Curve(x, y, line="", mark=".", colour=INK, size=_size_of_dots(len(x)), pixels=True)
-        panels.append(Panel([dots], *axes, title, marks=[(0.0, "")]))
+        strobed = dots(x, y, ".", INK, _size_of_dots(len(x)), pixels=True)
+        panels.append(Panel([strobed], *axes, title, marks=[(0.0, "")]))
     return Figure(curves([panels], 3.6, kind=kind), caption, f"Two scatter plots of strobed motion: {seen}.")
 
 
