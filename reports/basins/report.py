@@ -13,6 +13,7 @@ from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN, cell_edges
+from ..figures.quantities import colours_of
 from ..figures.regime_map import widest
 from ..parts import (
     LONGEST_CELL,
@@ -24,6 +25,8 @@ from ..parts import (
     Notice,
     Report,
     Text,
+    batched,
+    filled_table,
     having,
     limits,
     read_folder,
@@ -33,7 +36,6 @@ from ..parts import (
     table_of,
 )
 from ..parts.style import BLUE, INK, SHADES, WIDTH_IN, picture_of, sheet
-from ..sweep.quantities import batched, colours_of, filled_table
 
 _AXES = {
     "vx": ("kick_x_mps", "velocity along the waves (m/s)"),

@@ -11,9 +11,8 @@ from tables import listed, number, percent
 
 from ..figures.curves import Curve, Panel, cells, curves, dots
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, named, seen
-from ..parts import Figure, Picture
+from ..parts import Figure, Picture, batched
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
-from ..sweep.quantities import batched
 from .runs import FAST, SLOW, Line, of_kind
 
 INSTANT_S = 0.010

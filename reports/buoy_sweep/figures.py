@@ -27,9 +27,8 @@ from tables import (
 from ..figures.animations import tether_animation, tether_stills
 from ..figures.curves import Curve, Panel, dots
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, plain, series
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, in_order, plain, series
 from ..parts.style import BLUE, INK, REGIME_COLOURS, kind_of
-from ..sweep.quantities import in_order
 from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import STEEPNESS, Run, Sweep
 

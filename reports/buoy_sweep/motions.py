@@ -12,7 +12,7 @@ from ..figures.curves import Curve, Panel, dots
 from ..figures.orbit_diagram import cell_edges
 from ..parts import Items, Table, heads, series
 from ..parts.style import INK, SOFT
-from ..sweep.motions import ends_of, place_of
+from .ends import ends_of, place_of
 from .runs import Run, Sweep
 
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"

@@ -14,9 +14,9 @@ from engine.natural_frequencies import Modes, natural_frequencies
 from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, Column, decimals, listed, number, ranges
 
+from ..figures.quantities import colours_of
 from ..figures.run_sheet import NOTHING, run_sheet
-from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, read_folder
-from ..sweep.quantities import colours_of, in_order
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, in_order, read_folder
 
 STEEPNESS = Column("steepness", "", "kA")
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper

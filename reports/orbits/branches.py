@@ -10,9 +10,9 @@ import numpy as np
 from tables import PEAK, any_rows, number_of
 
 from ..figures.curves import COLOURS, Curve, dots, with_gaps
+from ..figures.quantities import colours_of
 from ..parts import Folder, Row, having, series
 from ..parts.style import INK
-from ..sweep.quantities import colours_of
 
 EVENTS = {"fold": "D", "flip": "s", "torus": "^"}  # kinds, with their marks
 DASHED = (0, (3.5, 1.5))

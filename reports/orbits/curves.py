@@ -10,9 +10,8 @@ from tables import Column, listed, number_of
 
 from ..figures.curves import COLOURS, Curve, Panel, curves, dots
 from ..figures.regime_map import LINES
-from ..parts import Figure, Folder, Heading, Items, having, series
+from ..parts import Figure, Folder, Heading, Items, filled_table, having, series
 from ..parts.style import INK
-from ..sweep.quantities import filled_table
 
 
 def keys_of(part: Folder) -> tuple[Column, Column]:

@@ -14,6 +14,7 @@ from tables import EMPTY, Column, any_rows, count, decimals, listed, number, num
 from ..buoy_sweep.motions import MARKS
 from ..figures.curves import Curve, Panel, curves, dots
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
+from ..figures.quantities import colours_of
 from ..parts import (
     Figure,
     Folder,
@@ -23,8 +24,11 @@ from ..parts import (
     Notice,
     Report,
     Table,
+    batched,
     entries,
+    filled_table,
     heads,
+    in_order,
     limits,
     plain,
     read_folder,
@@ -33,7 +37,6 @@ from ..parts import (
     series,
 )
 from ..parts.style import INK, SOFT
-from ..sweep.quantities import batched, colours_of, filled_table, in_order
 from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches
 from .curves import curve_items
 

@@ -24,6 +24,7 @@ from ..parts import (
     Report,
     Row,
     Text,
+    batched,
     counted,
     entries,
     having,
@@ -40,7 +41,6 @@ from ..parts import (
     table_of,
     timing_items,
 )
-from ..sweep.quantities import batched
 from .runs import VARIED, Study, columns_of_bodies, envelope, read_study
 
 _MOST = 18  # columns of one table

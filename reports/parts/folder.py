@@ -5,14 +5,15 @@ from __future__ import annotations
 import io
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from tables import Column, by_columns, read_columns, read_rows
 
-from .columns import Row
+from .columns import Row, shown_on, table_of
+from .content import Table
 from .selecting import having
 
 if TYPE_CHECKING:
@@ -135,6 +136,21 @@ def read_folder(directory: Path, needed: tuple[str, ...] = ()) -> Folder:
     if faults:
         raise FolderError(directory, *faults)
     return Folder(directory, parts["provenance.json"], table, parts["scene.toml"], columns)
+
+
+def filled_table(
+    part: Folder, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
+) -> list[Table]:
+    """The table of a part of a folder, with those of the named columns (all, but for the key of a run) that say
+    something in some row; nothing without a row."""
+    if not part.table:
+        return []
+    filled = []
+    for name in names or shown_on(part.columns, part.table):
+        entries = [row.get(name, "") for row in part.table]
+        if name != "run_key" and any(entry not in ("", 0.0) and entry == entry for entry in entries):  # nan is not
+            filled.append(name)
+    return [table_of(part.columns, filled, part.table, caption, own_cells)]
 
 
 def read_files(

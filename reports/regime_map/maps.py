@@ -10,9 +10,8 @@ from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENE
 
 from ..figures.regime_map import HATCHES, LINES, Map, Page
 from ..orbits.curves import drawn_curves
-from ..parts import Folder, entries, series
+from ..parts import Folder, at, entries, series
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
-from ..sweep.quantities import at
 
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}

@@ -7,8 +7,8 @@ import numpy as np
 from analysis import read_evidence
 from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts import LONGEST_CELL, CellSheets, Folder, Row, plain, printed_cells, shown_on
-from ..sweep.quantities import at, colours_of
+from ..figures.quantities import colours_of
+from ..parts import LONGEST_CELL, CellSheets, Folder, Row, at, plain, printed_cells, shown_on
 from .maps import LIMITS, PULL, Atlas
 
 _STROBES = "radius_m", "tension_N"  # once a wave period

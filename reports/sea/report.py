@@ -9,6 +9,7 @@ import numpy as np
 from tables import EMPTY, TANGENT_EXPONENT, count, number_of
 
 from ..figures.maps import Map, maps
+from ..figures.quantities import measured, over_key
 from ..parts import (
     LONGEST_CELL,
     Figure,
@@ -19,6 +20,7 @@ from ..parts import (
     Notice,
     Report,
     Table,
+    batched,
     heads,
     limits,
     plain,
@@ -30,7 +32,6 @@ from ..parts import (
     shown_on,
     table_of,
 )
-from ..sweep.quantities import batched, measured, over_key
 from .figures import history_figure, responses_figure
 
 _MOST = 12  # columns of one table

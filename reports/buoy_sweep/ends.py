@@ -8,8 +8,7 @@ from operator import itemgetter
 
 from tables import EMPTY, OUTCOMES, UNSETTLED, number, number_of, percent
 
-from ..parts import Folder, Heading, Items, Table, Text, heads, plus_minus, table_of
-from .quantities import in_order
+from ..parts import Folder, Heading, Items, Table, Text, heads, in_order, plus_minus, table_of
 
 _METHOD = (
     "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "

@@ -9,9 +9,9 @@ from engine.views import snaps_of
 from tables import PEAK, Column, number, number_of
 
 from ..figures.curves import Curve, Panel, curves
-from ..parts import Figure, Folder, Heading, Items, Picture
+from ..figures.quantities import colours_of
+from ..parts import Figure, Folder, Heading, Items, Picture, in_order
 from ..parts.style import BLUE
-from .quantities import colours_of, in_order
 
 SHOWN_PERIODS = 12.0  # of the histories: motions of period 2, 3, 4 and 6 are seen to repeat
 
