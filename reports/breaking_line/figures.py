@@ -77,8 +77,8 @@ def folds_figure(lines: list[Line]) -> Figure | None:
         low, high = min(low, near.min() - 0.05), max(high, near.max() + 0.05)
         title = f"case {line.name}, {1e3 * float(profiles.time_s[-1]):.0f} ms"
         panels.append(Panel([Curve(x, z, width=0.7), fixed], "$x$ (m)", "$z$ (m)", title))
-    limits = {"aspect": "equal", "xlim": NEAR_M, "ylim": (float(low), float(high))}
-    rows = batched([panel._replace(settings=limits) for panel in panels], 2)
+    look = {"xlim": NEAR_M, "ylim": (float(low), float(high)), "settings": {"aspect": "equal"}}
+    rows = batched([panel._replace(**look) for panel in panels], 2)
     height = _WIDTH_IN / len(rows[0]) * (high - low) / (NEAR_M[1] - NEAR_M[0])
     caption = (
         "The fixed end (dot) at the end of every run, in true proportion; the table of the cases tells up to which "
@@ -199,7 +199,7 @@ def animation_figure(lines: list[Line], case: str) -> Figure | None:
     for row in np.linspace(0, len(time_s) - 1, _STRIP).round().astype(int):
         end = dots(x[row, -1:], z[row, -1:], "o", VERMILION, 3.0)
         shape, title = [Curve(x[row], z[row], width=1.0), end], f"{1e3 * time_s[row]:.0f} ms"
-        strip.append([Panel(shape, "", "$z$ (m)", title, settings=limits, marks=[(0.0, "")])])
+        strip.append([Panel(shape, "", "$z$ (m)", title, marks=[(0.0, "")], **limits)])
     strip[-1][0] = strip[-1][0]._replace(x_label="$x$ (m)")
     return Figure(curves(strip, 0.4 + 0.85 * _STRIP, share="x"), caption, alt, moving)
 

@@ -177,7 +177,7 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
     margin = 0.08 * float(np.ptp(y[known])) + 0.01
     limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin
-    return Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, settings={"ylim": limits})
+    return Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, ylim=limits)
 
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
@@ -187,7 +187,7 @@ def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Pan
         curves = [Curve(series(drawn, sweep.key.name), scale * series(drawn, PEAK), "as run", colour=INK)]
         if capped:
             curves.append(Curve(cap_x, cap_y, cap_name, colour=BLUE))
-        return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
+        return Panel(curves, y_label=label, ylim=(0.0, None))
     curves = lines(sweep, drawn, PEAK, scale)
     if capped:
         curves.append(dots(cap_x, cap_y, "_", INK, name=cap_name))  # of one motion or another

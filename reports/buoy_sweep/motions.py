@@ -64,8 +64,7 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
         texts.append((place, height, number(place, 3).removeprefix("0"), colour))
     span = sweep.values[-1] - sweep.values[0]
     texts = _apart(texts, 0.07 * span, 0.15 * top)
-    limits = {"ylim": (0.0, 1.35 * top)}
-    return Panel(curves, y_label=label, settings=limits, arrows=arrows, texts=texts, height=1.5)
+    return Panel(curves, y_label=label, ylim=(0.0, 1.35 * top), arrows=arrows, texts=texts, height=1.5)
 
 
 def _apart(texts: Sequence[tuple], wide: float, high: float) -> list[tuple]:
@@ -105,13 +104,13 @@ def shares_panel(sweep: Sweep) -> list[Panel]:
             boxes.append((low, high, total, 1.0, SOFT, "////"))
     if not boxes:
         return []
-    axis = {"ylim": (0.0, 1.0), "yticks": (0.5,), "yticklabels": ("50",)}
+    axis = {"yticks": (0.5,), "yticklabels": ("50",)}
     intervals = []
     for run in sweep.motions[lowest]:
         if run.known("share_low"):
             ends = np.array([run["share_low"], run["share_high"]])
             intervals.append(Curve(np.full(2, run.value), ends, colour=INK, width=0.8))
-    return [Panel(intervals, y_label="kicks\n(%)", settings=axis, boxes=boxes, height=0.75)]
+    return [Panel(intervals, y_label="kicks\n(%)", settings=axis, ylim=(0.0, 1.0), boxes=boxes, height=0.75)]
 
 
 def _of_largest_tension(sweep: Sweep) -> str:

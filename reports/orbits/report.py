@@ -110,12 +110,11 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     tension = Panel(
         [*simulated, *lines["peak"]],
         y_label="largest T\n(kN)",
-        settings={"ylim": (0.0, 1.25 * top)},
+        ylim=(0.0, 1.25 * top),
         texts=[*_texts(branches, 0.14 * top)],
         height=1.5,
     )
-    limits_of_modulus = {"ylim": (0.0, min(1.05 * far, _FAR))}
-    modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, settings=limits_of_modulus)
+    modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, ylim=(0.0, min(1.05 * far, _FAR)))
     points, labels = _points_of_motions(folder, key, motions, colours), (key.label, "strobed r (m)")
     orbits = [*lines["strobes"], *_legend(met)]
     diagram = OrbitDiagram(points, labels, [tension, modulus], motions=named, orbits=orbits)
@@ -218,12 +217,11 @@ def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Items:
         line, stability = "-", "stable"
         if row["unstable"]:
             line, stability = DASHED, "unstable"
-        look = {"line": line, "colour": colours.get(row["branch"] or row["motion"], INK), "width": 1.2}
-        radius, rate = series(history, "radius_m"), series(history, "radius_rate_mps")
-        plane.append(Curve(np.append(radius, radius[:1]), np.append(rate, rate[:1]), f"{name}, {stability}", **look))
-        time = series(history, "time_s")
-        tension_kN = 1e-3 * series(history, "tension_top_N")
-        pull.append(Curve(row["period"] * time / time[-1], tension_kN, f"{name}, {stability}", **look))
+        look = f"{name}, {stability}", line, "", colours.get(row["branch"] or row["motion"], INK)
+        closed = [*history, *history[:1]]
+        plane.append(Curve(series(closed, "radius_m"), series(closed, "radius_rate_mps"), *look, width=1.2))
+        time, tension_kN = series(history, "time_s"), 1e-3 * series(history, "tension_top_N")
+        pull.append(Curve(row["period"] * time / time[-1], tension_kN, *look, width=1.2))
     yield Heading("Orbits")
     panels = Panel(plane, "r (m)", "dr/dt (m/s)"), Panel(pull, "time (wave periods)", "T at the top (kN)", level=0.0)
     caption = f"Orbits at {key.head} = {number(at)}: radial speed over r, and tension over one round (`orbits/`)."
@@ -267,7 +265,7 @@ def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))
     turn, panels = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200)), []
-    settings = {"aspect": "equal", "xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out)}
+    square = {"xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out), "settings": {"aspect": "equal"}}
     for branch in branches:
         drawn = [Curve(turn.real, turn.imag, colour=SOFT)]
         for row in branch.orbits:
@@ -282,7 +280,7 @@ def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
             drawn.append(dots(turned.real, turned.imag, EVENTS[row["kind"]], INK, 5.5, filled=False))
         span = f"{number(branch.at.min())} to {number(branch.at.max())}"
         title = f"branch {branch.name}, {plain(key.head)} {span}"
-        panels.append(Panel(drawn, r"Re $\mu$ (–)", r"Im $\mu$ (–)", title, settings=settings))
+        panels.append(Panel(drawn, r"Re $\mu$ (–)", r"Im $\mu$ (–)", title, **square))
     rows = batched(panels, 3)
     caption = (
         f"The largest multipliers of each orbit and the unit circle; {key.head} from {number(low)} (small, violet) to "

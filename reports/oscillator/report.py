@@ -48,20 +48,15 @@ PARTS = ("section", "history", "exponents", "orbits", "diagram-force", "diagram-
 
 
 class Study(NamedTuple):
-    """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
-    numbers of eq. (33), `faults` by part where its arrays are not to be had."""
+    """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` with the
+    five numbers of eq. (33), `faults` by part where its arrays are not to be had."""
 
     provenance: dict
     columns: dict[str, Column]
     rows: dict[str, dict[str, str]]
     arrays: dict[str, dict[str, np.ndarray]]
-    oscillator: dict[str, float]
+    oscillator: SnapOscillator
     faults: dict[str, str]
-
-    @property
-    def period(self) -> float:
-        """Forcing period, in units of time."""
-        return 2.0 * math.pi / self.oscillator["frequency"]
 
     @property
     def chaotic(self) -> bool:
@@ -81,7 +76,8 @@ def read_study(directory: Path) -> Study:
     wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
     files = read_files(directory, wanted)
     try:
-        oscillator = {key: float(entry) for key, entry in files["provenance.json"]["oscillator"].items()}
+        numbers = {key: float(entry) for key, entry in files["provenance.json"]["oscillator"].items()}
+        oscillator = SnapOscillator(**numbers)
         rows = {row["part"]: row for row in files["table.csv"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
@@ -119,7 +115,7 @@ def report(directory: Path) -> Report:
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
     made = [method_items(study), Heading("Parts and times"), parts]
-    numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
+    numbers = (f"{symbol} = {number(getattr(study.oscillator, key))}" for key, (symbol, *_) in NUMBERS.items())
     return report_page(study, "The snap oscillator, equation (33)", picture_first(items), made, ", ".join(numbers))
 
 
@@ -133,7 +129,7 @@ def _section(study: Study, arrays: dict) -> Items:
     if orbit is not None:
         lines.append(dots(*orbit.T, "o", VERMILION, name=f"attracting period-{len(orbit)} orbit"))
     caption = (
-        f"Poincaré section at the forcing phase {number(study.oscillator['phase'])} rad, in the layout of the paper's "
+        f"Poincaré section at the forcing phase {number(study.oscillator.phase)} rad, in the layout of the paper's "
         f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. From the part "
         "`section`."
     )
@@ -144,11 +140,10 @@ def _section(study: Study, arrays: dict) -> Items:
         return
     panels = []
     for place, (points, box) in enumerate(zip(zooms, boxes, strict=True), 1):
-        limits = {"xlim": box[:2], "ylim": box[2:]}
         lines, y_label = [dots(*points.T, ",", INK, alpha=0.7), *_frames(boxes[place:], place + 1)], ""
         if place == 1:
             y_label = STATE[1]
-        panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", settings=limits, ticks=5))
+        panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", ticks=5, xlim=box[:2], ylim=box[2:]))
     counts = " and ".join(str(len(zoom)) for zoom in zooms)
     caption = (
         "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
@@ -172,14 +167,14 @@ def _history(study: Study, arrays: dict) -> Items:
     switches = count(len(arrays.get("switches", ())), "switch", "switches")
     share = percent(study.number("history", "slack_fraction"))
     seen = f"{switches} in {study.rows['history']['periods']} periods, {share} of the time slack"
-    periods, slack = arrays["time"] / study.period, arrays["displacement"] < 0.0
+    periods, slack = arrays["time"] / study.oscillator.period, arrays["displacement"] < 0.0
     rows = []
     for name, label in (("displacement", r"$\gamma$ (–)"), ("velocity", r"$\dot\gamma$ (–)")):
         values = arrays[name]
         band = periods, np.where(slack, values.min(), np.nan), np.where(slack, values.max(), np.nan)
         history = Curve(periods, values, colour=INK, band=band)
         x_label = r"$t/T$ (forcing periods)" if rows else ""
-        rows.append([Panel([history], x_label, label, level=0.0, settings={"xlim": (periods[0], periods[-1])})])
+        rows.append([Panel([history], x_label, label, level=0.0, xlim=(periods[0], periods[-1]))])
     caption = f"The first periods from γ = 0.68 at rest; shaded: slack. Seen: {seen}. From the part `history`."
     return [Figure(curves(rows, 2.9, share="x"), caption, f"Histories of displacement and velocity: {seen}.")]
 
@@ -238,8 +233,8 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> I
     if not np.isfinite(arrays["section"]).any():
         return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
     values, largest = arrays["values"], arrays["exponents"][..., 0]
-    marks = [(study.oscillator[key], "as run")]
-    grazing = grazing_force(SnapOscillator(**study.oscillator))
+    marks = [(getattr(study.oscillator, key), "as run")]
+    grazing = grazing_force(study.oscillator)
     if key == "force" and math.isfinite(grazing):
         marks.append((grazing, "grazing"))
     marks = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
@@ -254,7 +249,7 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> I
     slack = dots(every_value, arrays["slack_fraction"].ravel(), "o", BLUE, 1.0)
     below = [
         Panel(lines, y_label="exponents\n(nats per time)", level=0.0),
-        Panel([slack], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)}),
+        Panel([slack], y_label="slack share\n(–)", ylim=(-0.03, 1.03)),
     ]
     columns = []
     for at, points in zip(values, arrays["section"], strict=True):
@@ -292,7 +287,7 @@ def orbit_items(study: Study, arrays: dict) -> Items:
         "attractors found. A chaotic attractor holds infinitely many unstable orbits; the table has those that were "
         "met. The product of the two multipliers must be e to the −μpT."
     )
-    damping, frequency = study.oscillator["damping"], study.oscillator["frequency"]
+    damping, frequency = study.oscillator.damping, study.oscillator.frequency
     rows = []
     for period, real1, imag1, real2, imag2, residual, first in arrays["table"]:
         m1, m2 = complex(real1, imag1), complex(real2, imag2)
@@ -326,7 +321,7 @@ def method_items(study: Study) -> Items:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():
-        chosen, usual = study.oscillator[key], getattr(SnapOscillator, key)
+        chosen, usual = getattr(study.oscillator, key), getattr(SnapOscillator, key)
         if chosen != usual:
             source = f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(chosen, 10), source))

@@ -101,10 +101,11 @@ def overview(study: Study) -> Figure:
     errors = []
     for chosen, colour in ((~missing, BLUE), (missing, VERMILION)):
         errors.append(dots(shares[chosen], places[chosen], "o", colour, 4.5))
-    axis = {"yticks": places, "yticklabels": names, "ylim": (len(names) - 0.5, -0.5)}
+    axis = {"yticks": places, "yticklabels": names}
+    ends_of_names = (len(names) - 0.5, -0.5)
     panels = [
         Panel(drawn, "theirs, over its largest value", "ours, over the largest of theirs"),
-        Panel(errors, "error over the most it may be", log="x", settings=axis, marks=[(1.0, "")]),
+        Panel(errors, "error over the most it may be", log="x", settings=axis, marks=[(1.0, "")], ylim=ends_of_names),
     ]
     caption = (
         "Left: ours over theirs at every point of every case; on the line both agree. Right: the error of each judged "

@@ -67,11 +67,11 @@ def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     for curve in full_curves:
         begin = curve.x <= first
         early.append(curve._replace(x=curve.x[begin], y=curve.y[begin]))
-    limits = {"ylim": settled([curve.y for curve in early]), "xmargin": 0.01}
+    limits = settled([curve.y for curve in early])
     x_label, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
-    panels = [Panel(early, x_label, sigma, level=0.0, settings=limits)]
+    panels = [Panel(early, x_label, sigma, level=0.0, settings={"xmargin": 0.01}, ylim=limits)]
     if longest > 1.5 * first:
-        later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
+        later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, xlim=(10.0, longest))
         panels = [panels[0]._replace(title=f"first {first:.0f} wave periods"), later]
     return panels
 
