@@ -62,12 +62,12 @@ class Folder(NamedTuple):
 
     def part(self, name: str) -> Folder:
         """The folder of that name inside of this one; without rows where it was left out or cannot be read."""
-        directory, columns, table = self.directory / name, {}, ()
+        directory = self.directory / name
         try:
             columns = read_columns(directory / "columns.csv")
             table = by_columns(read_rows(directory / "table.csv"), columns)
         except (OSError, ValueError):
-            pass
+            columns, table = {}, ()
         return self._replace(directory=directory, table=table, columns=columns)
 
     def trajectory_path(self, run_key: str) -> Path:
