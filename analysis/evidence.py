@@ -247,9 +247,7 @@ def exponents_evidence(
     return from_caller, [Evidence(name, full.value, 3.0 * full.error, passed, sentence, full.error)]
 
 
-def null_evidence(
-    section: np.ndarray, surrogates: int, seed: int | list[int], least: float = LEAST_ADVANTAGE
-) -> list[Evidence]:
+def null_evidence(section: np.ndarray, surrogates: int, seed: int | list[int], least: float) -> list[Evidence]:
     """Rank and margin of the prediction gain among the surrogates of one null, then of the other."""
     items = []
     for name, rank in zip(NULLS, null_ranks(section, surrogates, seed), strict=True):

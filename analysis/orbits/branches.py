@@ -114,16 +114,18 @@ class _Follower:
 
     def one_way(self, first, step):
         """Places after the first; events between them; why they end; whether they come back to the first."""
-        places, events = [first], []
+        places, events, closed, reason = [first], [], False, f"followed over {self.limit} orbits"
         while len(places) <= self.limit:
             last, closing = places[-1], None
             end, limited = self._limit(last, step)
             if limited == 0.0:
-                return places[1:], events, f"reaches the end of the range, {end:g}", False
+                reason = f"reaches the end of the range, {end:g}"
+                break
             try:
                 place, easy = self._next(last, limited, end)
                 if _meets_half(self.system, last.orbit.points, place.orbit.points):
-                    return places[1:], events, f"meets the orbit of period {last.orbit.period // 2}", False
+                    reason = f"meets the orbit of period {last.orbit.period // 2}"
+                    break
                 if len(places) > 2:
                     closing = _come_back(self.system, first, last, place)
                 place = closing or place
@@ -131,17 +133,20 @@ class _Follower:
             except ArithmeticError as why:
                 step = 0.5 * limited
                 if step < self.least:
-                    parameter = f"{last.orbit.parameter:.6g}"
-                    return places[1:], events, f"at {parameter} no step above {self.least:g} succeeds: {why}", False
+                    reason = f"at {last.orbit.parameter:.6g} no step above {self.least:g} succeeds: {why}"
+                    break
                 continue
             places.append(place)
-            if closing is not None:
-                return places[1:], events, "comes back to its beginning", True
+            if closing:
+                closed = True
+                reason = "comes back to its beginning"
+                break
             if self.callback and self.callback(place.orbit):
-                return places[1:], events, "followed as far as asked", False
+                reason = "followed as far as asked"
+                break
             if easy:
                 step = min(step * GROW, self.longest)
-        return places[1:], events, f"followed over {self.limit} orbits", False
+        return places[1:], events, reason, closed
 
     def _limit(self, place, step):
         """The end of the range that a step would reach, or None; and the step, cut there."""

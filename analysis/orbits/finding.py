@@ -128,13 +128,12 @@ def find_orbit(
         points = _images(system, guess, parameter, period) if guess.ndim == 1 else guess
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
-        solved = solved_near(system, points, parameter, Newton(tolerance, iterations, halvings))
-        if (least := _least_period(system, solved.points)) == period:
-            return described(solved, count)[0]
-        start = solved.points[:least]
-        return find_orbit(
-            system, start, parameter, least, count=count, tolerance=tolerance, iterations=iterations, halvings=halvings
-        )
+        while True:
+            solved = solved_near(system, points, parameter, Newton(tolerance, iterations, halvings))
+            least = _least_period(system, solved.points)
+            if least == len(points):
+                return described(solved, count)[0]
+            guess = points = solved.points[:least]
     except ArithmeticError as why:
         return not_found(np.atleast_2d(guess), parameter, why)
 
@@ -245,16 +244,15 @@ def solved_near(
     row: np.ndarray | None = None,
     directions: np.ndarray | None = None,
     slopes: np.ndarray | None = None,
-    mesh: int = 0,
 ) -> Solved:
     """`corrected`, roughly with the steps of the system at the guess, and then with those at the orbit."""
-    maps = system.near(points, parameter, mesh)
+    maps = system.near(points, parameter)
     if system.frozen is None:
         return corrected(maps, points, parameter, newton, row, directions, slopes)
     rough = corrected(maps, points, parameter, newton._replace(tolerance=ROUGH), row, directions, slopes)
     shots = rough.shots
     if np.linalg.norm(rough.points - points, axis=1).max() > MOVED:
-        maps, shots = system.near(rough.points, rough.parameter, mesh), None
+        maps, shots = system.near(rough.points, rough.parameter), None
     newton = newton._replace(kept=max(newton.kept, KEPT))
     return corrected(maps, rough.points, rough.parameter, newton, row, rough.directions, slopes, rough.space, shots)
 

@@ -33,7 +33,7 @@ def snap_map(oscillator: SnapOscillator) -> OrbitMap:
         if force not in tables_by_force:
             tables_by_force.clear()
             tables_by_force[force] = tables(replace(oscillator, force=force))
-        g, velocity, jacobian = tangent_map(state[0], state[1], 1, tables_by_force[force])
+        g, velocity, jacobian = tangent_map(state[0], state[1], tables_by_force[force])
         return np.array([g, velocity]), lambda vectors: jacobian @ vectors
 
     return OrbitMap(step)

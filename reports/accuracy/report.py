@@ -15,7 +15,7 @@ import numpy as np
 
 from tables import EMPTY, Column, count, decimals, number
 
-from ..figures.curves import Curve, Panel, curves
+from ..figures.curves import Curve, Panel, curves, dots
 from ..parts import (
     Bullets,
     Figure,
@@ -301,7 +301,7 @@ def diagram(study: Study, work: str) -> Figure:
                 error.append(max(setting.error, 1e-12))
         time, error = np.array(time), np.array(error)
         colour, mark = _LOOKS.get(name.partition(",")[0], _OTHER)
-        lines.append(Curve(time, error, "", "", mark, colour, size=2.6, alpha=0.45))
+        lines.append(dots(time, error, mark, colour, 2.6, alpha=0.45))
         front = cheapest(time, error)
         dash = "--" if name.endswith(DASHED) else "-"
         width = 1.6 if settings[0].peer else 1.0
@@ -309,7 +309,7 @@ def diagram(study: Study, work: str) -> Figure:
     for setting in timed:
         if (setting.method, setting.nodes, setting.control, setting.value) == SHIPPED:
             time, error = np.array([factor * setting.wall_s]), np.array([setting.error])
-            lines.append(Curve(time, error, "shipped setting", "", "o", INK, size=9.0, filled=False))
+            lines.append(dots(time, error, "o", INK, 9.0, name="shipped setting", filled=False))
             break
     panel = Panel(lines, f"stepping time ({unit})", f"error ({error_unit})", log="xy")
     best = min(timed, key=lambda setting: setting.error)

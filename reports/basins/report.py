@@ -13,6 +13,7 @@ from tables import FAILED, REGIMES, RUNS, count, listed, number, of_kicks
 
 from ..figures.curves import Curve, Panel, curves
 from ..figures.orbit_diagram import NARROW_IN, cell_edges
+from ..figures.quantities import colours_of
 from ..figures.regime_map import widest
 from ..parts import (
     LONGEST_CELL,
@@ -24,9 +25,10 @@ from ..parts import (
     Notice,
     Report,
     Text,
+    batched,
+    filled_table,
     having,
     limits,
-    part_of,
     read_folder,
     report_page,
     section_items,
@@ -34,7 +36,6 @@ from ..parts import (
     table_of,
 )
 from ..parts.style import BLUE, INK, SHADES, WIDTH_IN, picture_of, sheet
-from ..sweep.quantities import batched, colours_of, filled_table
 
 _AXES = {
     "vx": ("kick_x_mps", "velocity along the waves (m/s)"),
@@ -65,16 +66,14 @@ def report(directory: Path) -> Report:
     across = folder.provenance.get("across")
     if not isinstance(across, list) or not set(across) <= set(_AXES):
         raise FolderError(folder.directory, "provenance.json cannot be read: it does not name what was varied")
-    motion_runs, shock, edge = [part_of(folder, name) for name in ("motions", "shock", "edge")]
-    motions = []
-    if motion_runs is not None:
-        motions = [row for row in motion_runs.table if row["motion"]]
+    motion_runs, shock, edge = [folder.part(name) for name in ("motions", "shock", "edge")]
+    motions = [row for row in motion_runs.table if row["motion"]]
     items = [_map(folder, across, motions, shock), section_items("basins")]
     if motions:
         items.append(_motions(motion_runs, motions, edge))
-    if shock is not None:
+    if shock.table:
         items += [Heading("The smallest start"), filled_table(shock, _SMALLEST)]
-    if edge is not None:
+    if edge.table:
         items += [Heading("The edge state"), Text(_EDGE), filled_table(edge, "The edge state.")]
     items += [Heading("Warnings"), _warnings(folder, across)]
     return report_page(folder, "Basins: which start ends in which motion", items)
@@ -92,7 +91,7 @@ def _value(row, axis: str) -> float:
     return value
 
 
-def _map(folder: Folder, across: list[str], motions, shock: Folder | None) -> Items:
+def _map(folder: Folder, across: list[str], motions, shock: Folder) -> Items:
     x, columns = np.unique([_value(row, across[0]) for row in folder.table], return_inverse=True)
     y, rows = np.unique([_value(row, across[1]) for row in folder.table], return_inverse=True)
     ended = np.full((len(y), len(x)), "", dtype=object)
@@ -185,10 +184,8 @@ def _outcome(row) -> str:
     return row["outcome"]
 
 
-def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] | None:
+def _arrow(across: list[str], shock: Folder) -> tuple[list[float], str] | None:
     """(where the smallest start to the largest tension is on the map, its size in words); None without one."""
-    if shock is None:
-        return None
     starts = having(shock.table, status="ok")
     if not starts or not starts[0]["size"] > 0.0:
         return None
@@ -196,7 +193,7 @@ def _arrow(across: list[str], shock: Folder | None) -> tuple[list[float], str] |
     return [_value(starts[0], axis) for axis in across], f"{number(starts[0]['size'], 2)} {unit}"
 
 
-def _motions(part: Folder, motions, edge: Folder | None) -> Items:
+def _motions(part: Folder, motions, edge: Folder) -> Items:
     yield Heading("Motions")
     shown = shown_on(part.columns, motions, RUNS, REGIMES, longest=LONGEST_CELL)
     for names in batched([name for name in shown if name not in ("steepness", "motion")], _MOST):
@@ -207,9 +204,8 @@ def _motions(part: Folder, motions, edge: Folder | None) -> Items:
     colours, lines = _colours(motions), []
     for row in motions:
         lines += _loop(part, row, name=row["motion"], colour=colours[row["motion"]])
-    if edge is not None:
-        for row in edge.table:
-            lines += _loop(edge, row, name="edge state", line=(0, (3, 1)), colour=INK)
+    for row in edge.table:
+        lines += _loop(edge, row, name="edge state", line=(0, (3, 1)), colour=INK)
     if lines:
         caption = "Radial speed over r, of the last periods of each motion and of the edge state between two of them."
         picture = curves([[Panel(lines, "r (m)", "dr/dt (m/s)")]], 3.4, "right")

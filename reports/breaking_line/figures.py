@@ -9,11 +9,10 @@ from matplotlib.colors import LinearSegmentedColormap
 from engine.animation import moving_picture
 from tables import listed, number, percent
 
-from ..figures.curves import Curve, Panel, cells, curves
+from ..figures.curves import Curve, Panel, cells, curves, dots
 from ..figures.line_panels import QUANTITIES, SCALED, LinePanel, line_panels, named, seen
-from ..parts import Figure, Picture
+from ..parts import Figure, Picture, batched
 from ..parts.style import BLUE, GREEN, INK, ORANGE, PURPLE, SKY, SOFT, VERMILION, picture_of, sheet
-from ..sweep.quantities import batched
 from .runs import FAST, SLOW, Line, of_kind
 
 INSTANT_S = 0.010
@@ -69,7 +68,7 @@ def folds_figure(lines: list[Line]) -> Figure | None:
     drawn = shown(lines, ("1", "1p", "2", "2p", "3", "3p", "4", "4p"))
     if not drawn:
         return None
-    fixed = Curve(np.zeros(1), np.zeros(1), line="", mark="o", colour=VERMILION, size=3.0)
+    fixed = dots(np.zeros(1), np.zeros(1), "o", VERMILION, 3.0)
     panels, low, high = [], np.inf, -np.inf
     for line in drawn:
         profiles = line.trajectory.profiles
@@ -78,8 +77,8 @@ def folds_figure(lines: list[Line]) -> Figure | None:
         low, high = min(low, near.min() - 0.05), max(high, near.max() + 0.05)
         title = f"case {line.name}, {1e3 * float(profiles.time_s[-1]):.0f} ms"
         panels.append(Panel([Curve(x, z, width=0.7), fixed], "$x$ (m)", "$z$ (m)", title))
-    limits = {"aspect": "equal", "xlim": NEAR_M, "ylim": (float(low), float(high))}
-    rows = batched([panel._replace(settings=limits) for panel in panels], 2)
+    look = {"xlim": NEAR_M, "ylim": (float(low), float(high)), "settings": {"aspect": "equal"}}
+    rows = batched([panel._replace(**look) for panel in panels], 2)
     height = _WIDTH_IN / len(rows[0]) * (high - low) / (NEAR_M[1] - NEAR_M[0])
     caption = (
         "The fixed end (dot) at the end of every run, in true proportion; the table of the cases tells up to which "
@@ -142,9 +141,8 @@ def speeds_figure(exact: xarray.Dataset) -> Figure:
     for case in dict.fromkeys(cases):
         of_case, fast = cases == case, not case.endswith("p")
         marks, size = (_MARKS, 3.5) if fast else (_SLOW, 6)
-        mark, colour = marks[(int(case[0]) - 1) % 4]
-        look = {"size": size, "filled": fast}
-        lines.append(Curve(100 * strain[of_case], speed[of_case], f"case {named(case)}", "", mark, colour, **look))
+        look = *marks[(int(case[0]) - 1) % 4], size
+        lines.append(dots(100 * strain[of_case], speed[of_case], *look, name=f"case {named(case)}", filled=fast))
     seen = (
         f"{off.size} contours, between {percent(float(off.min()))} and {percent(float(off.max()))} off the wave speed, "
         f"by {percent(float(np.abs(off).mean()))} in the mean"
@@ -199,9 +197,9 @@ def animation_figure(lines: list[Line], case: str) -> Figure | None:
     moving = _animation(time_s, profiles.s_m, x, z, 1e-3 * profiles.tension_N[rows], limits)
     strip = []
     for row in np.linspace(0, len(time_s) - 1, _STRIP).round().astype(int):
-        end = Curve(x[row, -1:], z[row, -1:], line="", mark="o", colour=VERMILION, size=3.0)
+        end = dots(x[row, -1:], z[row, -1:], "o", VERMILION, 3.0)
         shape, title = [Curve(x[row], z[row], width=1.0), end], f"{1e3 * time_s[row]:.0f} ms"
-        strip.append([Panel(shape, "", "$z$ (m)", title, settings=limits, marks=[(0.0, "")])])
+        strip.append([Panel(shape, "", "$z$ (m)", title, marks=[(0.0, "")], **limits)])
     strip[-1][0] = strip[-1][0]._replace(x_label="$x$ (m)")
     return Figure(curves(strip, 0.4 + 0.85 * _STRIP, share="x"), caption, alt, moving)
 

@@ -25,11 +25,10 @@ from tables import (
 )
 
 from ..figures.animations import tether_animation, tether_stills
-from ..figures.curves import Curve, Panel
+from ..figures.curves import Curve, Panel, dots
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
-from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, part_of, plain, series
+from ..parts import T_I, T_S, Figure, Heading, Items, Table, Text, entries, heads, in_order, plain, series
 from ..parts.style import BLUE, INK, REGIME_COLOURS, kind_of
-from ..sweep.quantities import in_order
 from .motions import MARKS, lines, shares_panel, tension_panel
 from .runs import STEEPNESS, Run, Sweep
 
@@ -174,11 +173,11 @@ def _exponent_panel(sweep: Sweep) -> Panel | None:
     lines = []
     for name in dict.fromkeys(names[known]):
         points = known & (names == name)
-        lines.append(Curve(x[points], y[points], "", "", marks.get(name, "o"), colours[name], bars[points], 3.0))
+        lines.append(dots(x[points], y[points], marks.get(name, "o"), colours[name], 3.0, error=bars[points]))
     usual = np.minimum(np.nan_to_num(bars), 3.0 * float(np.nanmedian(bars)))  # one long bar would hide the others
     margin = 0.08 * float(np.ptp(y[known])) + 0.01
     limits = float((y - usual)[known].min()) - margin, float((y + usual)[known].max()) + margin
-    return Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, settings={"ylim": limits})
+    return Panel(lines, y_label="exponent\n(bits/wave)", level=0.0, ylim=limits)
 
 
 def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Panel:
@@ -188,10 +187,10 @@ def _tension(sweep: Sweep, drawn: Sequence[Run], scale: float, unit: str) -> Pan
         curves = [Curve(series(drawn, sweep.key.name), scale * series(drawn, PEAK), "as run", colour=INK)]
         if capped:
             curves.append(Curve(cap_x, cap_y, cap_name, colour=BLUE))
-        return Panel(curves, y_label=label, settings={"ylim": (0.0, None)})
+        return Panel(curves, y_label=label, ylim=(0.0, None))
     curves = lines(sweep, drawn, PEAK, scale)
     if capped:
-        curves.append(Curve(cap_x, cap_y, cap_name, line="", mark="_", colour=INK))  # of one motion or another
+        curves.append(dots(cap_x, cap_y, "_", INK, name=cap_name))  # of one motion or another
     return tension_panel(sweep, drawn, curves, scale, label)
 
 
@@ -204,11 +203,8 @@ def _run(sweep: Sweep, row: Mapping[str, object]) -> Run:
 
 def _capped(sweep: Sweep) -> list[Run]:
     """The runs with the wetted cap that ended as asked, by value."""
-    part = part_of(sweep.folder, "companions")
-    if part is None:
-        return []
     runs = []
-    for row in in_order(part.completed, [sweep.key.name]):
+    for row in in_order(sweep.folder.part("companions").completed, [sweep.key.name]):
         if row["role"] == CAPPED:
             runs.append(_run(sweep, row))
     return runs
@@ -216,8 +212,8 @@ def _capped(sweep: Sweep) -> list[Run]:
 
 def close_up_items(sweep: Sweep) -> Items:
     """Heading and figure; nothing where no run was kept with its tether."""
-    part = part_of(sweep.folder, "close_up")
-    if part is None or not part.completed:
+    part = sweep.folder.part("close_up")
+    if not part.completed:
         return []
     row = part.completed[-1]
     trajectory, _ = part.trajectory(row)

@@ -8,11 +8,11 @@ import numpy as np
 
 from tables import EMPTY, PEAK, PERIODIC, listed, number, of_kicks, ranges
 
-from ..figures.curves import Curve, Panel
+from ..figures.curves import Curve, Panel, dots
 from ..figures.orbit_diagram import cell_edges
 from ..parts import Items, Table, heads, series
 from ..parts.style import INK, SOFT
-from ..sweep.motions import ends_of, place_of
+from .ends import ends_of, place_of
 from .runs import Run, Sweep
 
 _LINES, MARKS = ("-", (0, (4, 1)), (0, (1, 1)), (0, (5, 1, 1, 1))), "osD^vP"
@@ -31,7 +31,7 @@ def lines(sweep: Sweep, drawn: Sequence[Run], column: str, scale: float) -> list
         judged = np.isin(x, sweep.values) & np.isin(x, list(values))
         line, mark = _LINES[place % len(_LINES)], MARKS[place % len(MARKS)]
         curves.append(Curve(x, y, "", line, "", colour, width=1.2))
-        curves.append(Curve(x[judged], y[judged], "", "", mark, colour, size=2.8))
+        curves.append(dots(x[judged], y[judged], mark, colour, 2.8))
     return curves
 
 
@@ -64,8 +64,7 @@ def tension_panel(sweep: Sweep, drawn: Sequence[Run], curves: list[Curve], scale
         texts.append((place, height, number(place, 3).removeprefix("0"), colour))
     span = sweep.values[-1] - sweep.values[0]
     texts = _apart(texts, 0.07 * span, 0.15 * top)
-    limits = {"ylim": (0.0, 1.35 * top)}
-    return Panel(curves, y_label=label, settings=limits, arrows=arrows, texts=texts, height=1.5)
+    return Panel(curves, y_label=label, ylim=(0.0, 1.35 * top), arrows=arrows, texts=texts, height=1.5)
 
 
 def _apart(texts: Sequence[tuple], wide: float, high: float) -> list[tuple]:
@@ -105,13 +104,13 @@ def shares_panel(sweep: Sweep) -> list[Panel]:
             boxes.append((low, high, total, 1.0, SOFT, "////"))
     if not boxes:
         return []
-    axis = {"ylim": (0.0, 1.0), "yticks": (0.5,), "yticklabels": ("50",)}
+    axis = {"yticks": (0.5,), "yticklabels": ("50",)}
     intervals = []
     for run in sweep.motions[lowest]:
         if run.known("share_low"):
             ends = np.array([run["share_low"], run["share_high"]])
             intervals.append(Curve(np.full(2, run.value), ends, colour=INK, width=0.8))
-    return [Panel(intervals, y_label="kicks\n(%)", settings=axis, boxes=boxes, height=0.75)]
+    return [Panel(intervals, y_label="kicks\n(%)", settings=axis, ylim=(0.0, 1.0), boxes=boxes, height=0.75)]
 
 
 def _of_largest_tension(sweep: Sweep) -> str:

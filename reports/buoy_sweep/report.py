@@ -14,19 +14,19 @@ from ..parts import (
     Notice,
     Report,
     Text,
+    extremes,
     limits,
     report_page,
     section_items,
     series,
     timing_items,
 )
-from ..sweep.motions import every_motion
-from ..sweep.quantities import extremes
-from ..sweep.snaps import snap_items
+from .ends import every_motion
 from .figures import close_up_items, orbit_figure, regime_items
 from .motions import motions_items
 from .runs import PAPER_WINDOW, Run, Sweep, read_sweep
 from .sheets import explorer, sheet_items
+from .snaps import snap_items
 from .tables import cost_figure, plane_items, runs_items, scene_and_modes
 
 _EXTREMES = (

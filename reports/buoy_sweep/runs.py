@@ -14,9 +14,9 @@ from engine.natural_frequencies import Modes, natural_frequencies
 from engine.views import strobed_radius
 from tables import PAPER_STEEPNESS, Column, decimals, listed, number, ranges
 
+from ..figures.quantities import colours_of
 from ..figures.run_sheet import NOTHING, run_sheet
-from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, part_of, read_folder
-from ..sweep.quantities import colours_of, in_order
+from ..parts import OMEGA_I, OMEGA_R, Folder, TableRow, having, in_order, read_folder
 
 STEEPNESS = Column("steepness", "", "kA")
 PAPER_WINDOW = (40, 20)  # tau_0/T_i and n of eq. (31) in the paper
@@ -177,10 +177,9 @@ def read_sweep(directory: Path, key: Column = STEEPNESS) -> Sweep:
     runs = []
     for place, row in enumerate(in_order(rows, [key.name]), 1):
         runs.append(_read_run(folder, row, key, f"run-{place}", draw))
-    between, part = [], part_of(folder, "between")
-    if part is not None:
-        for row in part.completed:
-            between.append(_named(_read_run(part, row, key), runs))
+    between, part = [], folder.part("between")
+    for row in part.completed:
+        between.append(_named(_read_run(part, row, key), runs))
     return Sweep(folder, runs, between, tolerance, longest, modes, key)
 
 

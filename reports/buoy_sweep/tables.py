@@ -6,6 +6,7 @@ import numpy as np
 
 from tables import EMPTY, PLANE, REGIMES, RUNS, decimals, listed, number, of_kicks, percent, ranges
 
+from ..figures.quantities import over_key
 from ..parts import (
     LONGEST_CELL,
     OMEGA_I,
@@ -17,6 +18,7 @@ from ..parts import (
     Items,
     Table,
     Text,
+    batched,
     heads,
     link,
     plain,
@@ -25,7 +27,6 @@ from ..parts import (
     shown_on,
     table_of,
 )
-from ..sweep.quantities import batched, over_key
 from .runs import Run, Sweep
 
 _MOST = 21  # columns of one table

@@ -40,14 +40,19 @@ class Curve(NamedTuple):
     band: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
 
+def dots(x: np.ndarray, y: np.ndarray, mark: str = "o", colour: str | tuple = "", size: float = 4.0, **look) -> Curve:
+    """Marks without a line between them; look: further fields of a `Curve`."""
+    return Curve(x, y, line="", mark=mark, colour=colour, size=size, **look)
+
+
 class Panel(NamedTuple):
     """Curves on one pair of axes.
 
-    log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: of
-    matplotlib's `Axes.set`, such as limits. ticks: most numbers on the x axis, None as they come. marks: (x, name) of
-    places on the x axis. beside: "right" or "top" -> factor from the axis opposite, label. arrows: (x, y from, y to,
-    colour), upright. texts: (x, y, text, colour). boxes: (left, right, low, high, colour, hatch on white or "").
-    height: against that of other panels.
+    log: the axes that are logarithmic, "", "x", "y" or "xy". level: a thin horizontal line there. settings: further
+    ones of matplotlib's `Axes.set`. ticks: most numbers on the x axis, None as they come. marks: (x, name) of places on
+    the x axis. xlim, ylim: ends of the axes, None where the curves decide. beside: "right" or "top" -> factor from the
+    axis opposite, label. arrows: (x, y from, y to, colour), upright. texts: (x, y, text, colour). boxes: (left, right,
+    low, high, colour, hatch on white or ""). height: against that of other panels.
     """
 
     curves: Sequence[Curve]
@@ -58,6 +63,8 @@ class Panel(NamedTuple):
     level: float | None = None
     settings: Mapping[str, object] = {}
     ticks: int | None = None
+    xlim: Sequence[float] | None = None
+    ylim: Sequence[float | None] | None = None
     marks: Sequence[tuple[float, str]] = ()
     beside: Mapping[str, tuple[float, str]] = {}
     boxes: Sequence[tuple[float, float, float, float, str, str]] = ()
@@ -109,6 +116,10 @@ def draw(axes, panel: Panel) -> None:
     for axis in panel.log:
         getattr(axes, f"set_{axis}scale")("log")
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label, title=panel.title)
+    if panel.xlim is not None:
+        axes.set_xlim(panel.xlim)
+    if panel.ylim is not None:
+        axes.set_ylim(panel.ylim)
     axes.set(**panel.settings)
     if panel.ticks:
         axes.locator_params(axis="x", nbins=panel.ticks)

@@ -40,7 +40,7 @@ def lateral_histories(panels: list[tuple[str, list[History]]], kind: str = "svg"
         all_levels = np.concatenate(levels)
         low, high = np.min(all_levels), np.max(all_levels)
         top = np.nanmax([high] + [run.inplane_m for run in runs])
-        limits = {"ylim": (low / 10**_DECADES_BELOW, 4.0 * top), "xmargin": 0.01}
+        limits = (low / 10**_DECADES_BELOW, 4.0 * top)
         x_label = r"$t/T_i$ (wave periods)" if len(rows) == len(panels) - 1 else ""
-        rows.append([Panel(lines, x_label, label, log="y", settings=limits, **further)])
+        rows.append([Panel(lines, x_label, label, log="y", settings={"xmargin": 0.01}, ylim=limits, **further)])
     return curves(rows, 0.7 + 2.3 * len(panels), "below", "x", kind)

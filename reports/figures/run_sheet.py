@@ -48,11 +48,11 @@ def run_sheet(
     parts = [f'<svg class="glance" viewBox="0 0 {_WIDE} {_TALL}" role="img" aria-label="{escape(label)}">']
     side_panels = (_section(section), _spectrum(*spectrum, marks), _exponent(*exponent))
     for row, ((name, low, high), right) in enumerate(zip(histories, side_panels, strict=True)):
-        limits = {"ylim": wide_limits(np.concatenate([low, high]))}
+        limits = wide_limits(np.concatenate([low, high]))
         below = f"t/{T_I}" if right is side_panels[-1] else ""
         history = _banded(periods, low, high, bins)
         larger = _banded(periods[end], low[end], high[end], bins // 2)
-        panels = Panel([history], below, name, name, settings=limits), Panel([larger], below, settings=limits), right
+        panels = Panel([history], below, name, name, ylim=limits), Panel([larger], below, ylim=limits), right
         for (left_edge, wide), panel in zip(_COLUMNS, panels, strict=True):
             parts.append(_drawn(panel, left_edge, wide, _TOP + row * _PITCH))
     return "".join([*parts, "</svg>"])
@@ -70,9 +70,9 @@ def _banded(x: np.ndarray, low: np.ndarray, high: np.ndarray, bins: int) -> Curv
 def _section(points: np.ndarray) -> Panel:
     if not len(points):
         return Panel([], title="no section: no time after the transient")
-    limits = {"xlim": wide_limits(points[:, 0], 0.1), "ylim": wide_limits(points[:, 1], 0.1)}
+    xlim, ylim = wide_limits(points[:, 0], 0.1), wide_limits(points[:, 1], 0.1)
     title = "section: dr/dt (m/s) over r (m)"
-    return Panel([Curve(*points.T, mark="o")], "", title, title, settings=limits)
+    return Panel([Curve(*points.T, mark="o")], "", title, title, xlim=xlim, ylim=ylim)
 
 
 def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> Panel:
@@ -81,10 +81,11 @@ def _spectrum(omega: np.ndarray, amplitude: np.ndarray, marks) -> Panel:
         return Panel([], title="no spectrum: the record is too short")
     omega, decades = omega[shown], np.log10(amplitude[shown])
     top = math.ceil(float(decades.max()))
-    limits = {"xlim": (0.0, float(omega[-1])), "ylim": (top - _DECADES, top)}
+    low = top - _DECADES
     title = f"spectrum: log{sub('10')} of |Δr̃| (m) over ω (rad/s)"
     inside = [(at, name) for at, name in marks if at < omega[-1]]
-    return Panel([Curve(omega, np.maximum(decades, top - _DECADES))], "", title, title, settings=limits, marks=inside)
+    curve = Curve(omega, np.maximum(decades, low))
+    return Panel([curve], "", title, title, marks=inside, xlim=(0.0, float(omega[-1])), ylim=(low, top))
 
 
 def _exponent(periods: np.ndarray, bits: np.ndarray) -> Panel:
@@ -92,7 +93,7 @@ def _exponent(periods: np.ndarray, bits: np.ndarray) -> Panel:
         return Panel([], title="no exponent after the transient")
     limits = wide_limits(np.append(bits[len(bits) // 10 :], 0.0), 0.02)
     title = f"exponent so far: σ (bits per {T_I}) over t/{T_I}"
-    return Panel([Curve(periods, np.clip(bits, *limits))], "", title, title, level=0.0, settings={"ylim": limits})
+    return Panel([Curve(periods, np.clip(bits, *limits))], "", title, title, level=0.0, ylim=limits)
 
 
 def _drawn(panel: Panel, left_edge: int, wide: int, top: int) -> str:
@@ -100,7 +101,9 @@ def _drawn(panel: Panel, left_edge: int, wide: int, top: int) -> str:
     if not panel.curves:
         return _text(left_edge, top + 40, panel.title)
     curve, low = panel.curves[0], top + _HEIGHT
-    (x0, x1), (y0, y1) = panel.settings.get("xlim", curve.x[[0, -1]]), panel.settings["ylim"]
+    (x0, x1), (y0, y1) = curve.x[[0, -1]], panel.ylim
+    if panel.xlim is not None:
+        x0, x1 = panel.xlim
     scale = np.array([wide / (x1 - x0), -_HEIGHT / (y1 - y0)])
 
     def fine(x, y) -> np.ndarray:

@@ -9,10 +9,10 @@ import numpy as np
 
 from tables import PEAK, any_rows, number_of
 
-from ..figures.curves import COLOURS, Curve, with_gaps
-from ..parts import Folder, Row, having, part_of, series
+from ..figures.curves import COLOURS, Curve, dots, with_gaps
+from ..figures.quantities import colours_of
+from ..parts import Folder, Row, having, series
 from ..parts.style import INK
-from ..sweep.quantities import colours_of
 
 EVENTS = {"fold": "D", "flip": "s", "torus": "^"}  # kinds, with their marks
 DASHED = (0, (3.5, 1.5))
@@ -55,25 +55,19 @@ class Branch(NamedTuple):
         """The same at the events."""
         for kind, mark in EVENTS.items():
             x, y = self._points(quantity, self.kinds == kind)
-            yield Curve(x.ravel(), y.ravel(), line="", mark=mark, colour=INK, size=3.4)
+            yield dots(x.ravel(), y.ravel(), mark, INK, 3.4)
 
     def _points(self, quantity: str, part) -> tuple[np.ndarray, np.ndarray]:
         y = self.seen[quantity][part]
         return np.broadcast_to(self.at[part][:, None], y.shape), y
 
 
-def rows_of(folder: Folder, name: str) -> tuple[Row, ...]:
-    """The table of a part of the folder, empty where it was left out."""
-    part = part_of(folder, name)
-    return part.table if part else ()
-
-
 def read_branches(folder: Folder, key: str, motions: Sequence[Row]) -> list[Branch]:
     """The branches, each in the colour of the motion on it; one that begins at an event of another has its colour."""
     letters, parents, strobes = {}, {}, {}
-    for row in rows_of(folder, "branches"):
+    for row in folder.part("branches").table:
         letters[row["branch"]] = row["motion"].partition(" ")[0]
-    events = [row for row in rows_of(folder, "events") if np.isfinite(row[key])]
+    events = [row for row in folder.part("events").table if np.isfinite(row[key])]
     for row in events:
         parents[row["leads_to"]] = row["branch"]
     parents.pop("", None)

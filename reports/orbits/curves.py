@@ -8,11 +8,10 @@ import numpy as np
 
 from tables import Column, listed, number_of
 
-from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..figures.curves import COLOURS, Curve, Panel, curves, dots
 from ..figures.regime_map import LINES
-from ..parts import Figure, Folder, Heading, Items, having, part_of, series
+from ..parts import Figure, Folder, Heading, Items, filled_table, having, series
 from ..parts.style import INK
-from ..sweep.quantities import filled_table
 
 
 def keys_of(part: Folder) -> tuple[Column, Column]:
@@ -36,13 +35,13 @@ def drawn_curves(part: Folder, keys: Sequence[Column]) -> Iterator[Curve]:
         special = [row for row in rows if row["special"]]
         if special:
             x, y = (series(special, key.name) for key in keys)
-            yield Curve(x, y, "", "", "o", INK, size=4.0)
+            yield dots(x, y, "o", INK)
 
 
 def curve_items(folder: Folder) -> Items:
     """The picture of the curves with their special points and ends; nothing in a folder without curves."""
-    part = part_of(folder, "curves")
-    if part is None or not part.table:
+    part = folder.part("curves")
+    if not part.table:
         return
     keys = keys_of(part)
     lines = list(drawn_curves(part, keys))

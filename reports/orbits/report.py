@@ -12,8 +12,9 @@ from engine.views import strobed_radius
 from tables import EMPTY, Column, any_rows, count, decimals, listed, number, number_of
 
 from ..buoy_sweep.motions import MARKS
-from ..figures.curves import Curve, Panel, curves
+from ..figures.curves import Curve, Panel, curves, dots
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
+from ..figures.quantities import colours_of
 from ..parts import (
     Figure,
     Folder,
@@ -23,11 +24,12 @@ from ..parts import (
     Notice,
     Report,
     Table,
+    batched,
     entries,
-    having,
+    filled_table,
     heads,
+    in_order,
     limits,
-    part_of,
     plain,
     read_folder,
     report_page,
@@ -35,8 +37,7 @@ from ..parts import (
     series,
 )
 from ..parts.style import INK, SOFT
-from ..sweep.quantities import batched, colours_of, filled_table, in_order
-from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches, rows_of
+from .branches import DASHED, EVENTS, MODULUS, PEAK, Branch, Row, read_branches
 from .curves import curve_items
 
 _NEEDED = ("branch", "place", "period", "unstable", MODULUS, PEAK, "status", "message")
@@ -55,13 +56,13 @@ def report(directory: Path) -> Report:
     """The content of the report on a folder of orbits. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, _NEEDED)
     key = _varied(folder)
-    motions = having(rows_of(folder, "motions"), status="ok")
+    motions = folder.part("motions").completed
     branches = read_branches(folder, key.name, motions)
     located = {key.name: partial(_located, key=key.name)}
     events = ("branch", _EVENT[0], key.name, *_EVENT[1:])
     items = [
         _diagram(folder, key, branches, motions),
-        filled_table(part_of(folder, "events"), _EVENTS, events, located),
+        filled_table(folder.part("events"), _EVENTS, events, located),
         curve_items(folder),
         section_items("orbits"),
         Heading("Warnings"),
@@ -69,7 +70,7 @@ def report(directory: Path) -> Report:
         _chosen(folder, key, branches),
         _multipliers(key, branches),
         Heading("Branches"),
-        filled_table(part_of(folder, "branches"), "The branches, and why each ends both ways.", _BRANCH),
+        filled_table(folder.part("branches"), "The branches, and why each ends both ways.", _BRANCH),
     ]
     return report_page(folder, f"Periodic orbits over {plain(key.head)}, stable and unstable", items)
 
@@ -102,19 +103,18 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
     for branch in branches:
         at, modulus = series(branch.orbits, key.name), series(branch.orbits, MODULUS)
         bars = series(branch.orbits, "multiplier_1_error")
-        lines["modulus"].append(Curve(at, modulus, line="", colour=branch.colour, error=bars))
+        lines["modulus"].append(dots(at, modulus, "", branch.colour, error=bars))
     top, far = _largest(branches, "peak"), _largest(branches, "modulus")
     for curve in simulated:
         top = max(top, float(np.nanmax(curve.y, initial=0.0)))
     tension = Panel(
         [*simulated, *lines["peak"]],
         y_label="largest T\n(kN)",
-        settings={"ylim": (0.0, 1.25 * top)},
+        ylim=(0.0, 1.25 * top),
         texts=[*_texts(branches, 0.14 * top)],
         height=1.5,
     )
-    limits_of_modulus = {"ylim": (0.0, min(1.05 * far, _FAR))}
-    modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, settings=limits_of_modulus)
+    modulus = Panel(lines["modulus"], y_label=r"$|\mu|$ (–)", level=1.0, ylim=(0.0, min(1.05 * far, _FAR)))
     points, labels = _points_of_motions(folder, key, motions, colours), (key.label, "strobed r (m)")
     orbits = [*lines["strobes"], *_legend(met)]
     diagram = OrbitDiagram(points, labels, [tension, modulus], motions=named, orbits=orbits)
@@ -140,7 +140,7 @@ def _largest(branches: Sequence[Branch], quantity: str) -> float:
 
 def _points_of_motions(folder: Folder, key: Column, motions: Sequence[Row], colours: dict[str, str]) -> list[Strobes]:
     """The strobed points of the motions that runs have found."""
-    part, columns = part_of(folder, "motions"), []
+    part, columns = folder.part("motions"), []
     for row in in_order(motions, [key.name]):
         run, _ = part.trajectory(row)
         points = np.empty(0)
@@ -159,7 +159,7 @@ def _simulated(key: Column, motions: Sequence[Row], colours: dict[str, str]) -> 
         if colours:
             rows = [row for row in motions if row["motion"] == letter]
         tension_kN = 1e-3 * series(rows, PEAK)
-        drawn.append(Curve(series(rows, key.name), tension_kN, "", "", mark, colour, size=2.8))
+        drawn.append(dots(series(rows, key.name), tension_kN, mark, colour, 2.8))
         if letter:
             named[letter] = (colour, f"up to {number(np.nanmax(tension_kN), 3)} kN")
     return drawn, named
@@ -200,11 +200,11 @@ def _coarse(row: Row, key: str) -> bool:
 
 def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Items:
     """The orbits themselves at the value that has most of them, and the multipliers of all that were chosen."""
-    rows, plane, pull = rows_of(folder, "orbits"), [], []
+    rows, plane, pull = folder.part("orbits").table, [], []
     if not rows:
         return
     at = Counter(entries(rows, key.name)).most_common(1)[0][0]
-    colours = colours_of(rows_of(folder, "motions"))
+    colours = colours_of(folder.part("motions").table)
     for branch in branches:
         colours[branch.name] = branch.colour
     for row in rows:
@@ -217,12 +217,11 @@ def _chosen(folder: Folder, key: Strobes, branches: Sequence[Branch]) -> Items:
         line, stability = "-", "stable"
         if row["unstable"]:
             line, stability = DASHED, "unstable"
-        look = {"line": line, "colour": colours.get(row["branch"] or row["motion"], INK), "width": 1.2}
-        radius, rate = series(history, "radius_m"), series(history, "radius_rate_mps")
-        plane.append(Curve(np.append(radius, radius[:1]), np.append(rate, rate[:1]), f"{name}, {stability}", **look))
-        time = series(history, "time_s")
-        tension_kN = 1e-3 * series(history, "tension_top_N")
-        pull.append(Curve(row["period"] * time / time[-1], tension_kN, f"{name}, {stability}", **look))
+        look = f"{name}, {stability}", line, "", colours.get(row["branch"] or row["motion"], INK)
+        closed = [*history, *history[:1]]
+        plane.append(Curve(series(closed, "radius_m"), series(closed, "radius_rate_mps"), *look, width=1.2))
+        time, tension_kN = series(history, "time_s"), 1e-3 * series(history, "tension_top_N")
+        pull.append(Curve(row["period"] * time / time[-1], tension_kN, *look, width=1.2))
     yield Heading("Orbits")
     panels = Panel(plane, "r (m)", "dr/dt (m/s)"), Panel(pull, "time (wave periods)", "T at the top (kN)", level=0.0)
     caption = f"Orbits at {key.head} = {number(at)}: radial speed over r, and tension over one round (`orbits/`)."
@@ -266,22 +265,22 @@ def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
     low, high = float(every_value.min()), float(every_value.max())
     out = min(_OUT, max(1.2, _largest(branches, "modulus")))
     turn, panels = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200)), []
-    settings = {"aspect": "equal", "xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out)}
+    square = {"xlim": (-1.05 * out, 1.05 * out), "ylim": (-1.05 * out, 1.05 * out), "settings": {"aspect": "equal"}}
     for branch in branches:
-        dots = [Curve(turn.real, turn.imag, colour=SOFT)]
+        drawn = [Curve(turn.real, turn.imag, colour=SOFT)]
         for row in branch.orbits:
             multipliers = np.array([_complex(row, k) for k in _SHOWN])
             multipliers = multipliers[np.isfinite(multipliers)]
             multipliers = multipliers / np.maximum(np.abs(multipliers) / out, 1.0)
             share = (row[key.name] - low) / (high - low or 1.0)
-            look = {"colour": matplotlib.colormaps["viridis"](share), "size": 1.5 + 2.0 * share}
-            dots.append(Curve(multipliers.real, multipliers.imag, line="", mark="o", **look))
+            colour = matplotlib.colormaps["viridis"](share)
+            drawn.append(dots(multipliers.real, multipliers.imag, "o", colour, 1.5 + 2.0 * share))
         for row in branch.events:
             turned = np.exp(1j * number_of(row, "angle_rad") * np.array([1.0, -1.0]))
-            dots.append(Curve(turned.real, turned.imag, "", "", EVENTS[row["kind"]], INK, size=5.5, filled=False))
+            drawn.append(dots(turned.real, turned.imag, EVENTS[row["kind"]], INK, 5.5, filled=False))
         span = f"{number(branch.at.min())} to {number(branch.at.max())}"
         title = f"branch {branch.name}, {plain(key.head)} {span}"
-        panels.append(Panel(dots, r"Re $\mu$ (–)", r"Im $\mu$ (–)", title, settings=settings))
+        panels.append(Panel(drawn, r"Re $\mu$ (–)", r"Im $\mu$ (–)", title, **square))
     rows = batched(panels, 3)
     caption = (
         f"The largest multipliers of each orbit and the unit circle; {key.head} from {number(low)} (small, violet) to "
@@ -293,7 +292,7 @@ def _multipliers(key: Column, branches: Sequence[Branch]) -> Items:
 
 
 def _warnings(folder: Folder, key: Column, branches: Sequence[Branch]) -> Notice:
-    followed, events = rows_of(folder, "branches"), rows_of(folder, "events")
+    followed, events = folder.part("branches").table, folder.part("events").table
     lines = []
     for branch in branches:
         missed = [number(branch.at[place]) for place in branch.changes if not branch.kinds[place]]
@@ -310,7 +309,7 @@ def _warnings(folder: Folder, key: Column, branches: Sequence[Branch]) -> Notice
     if coarse:
         lines.append(f"Known to no better than {number(_ACCURATE)}: {listed(coarse)}.")
     unsure = []
-    for row in (*folder.table, *rows_of(folder, "orbits")):
+    for row in (*folder.table, *folder.part("orbits").table):
         if _unsure(row):
             unsure.append(f"{row['branch']} at {number(row[key.name])}")
     if unsure:

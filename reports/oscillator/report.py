@@ -13,7 +13,7 @@ import numpy as np
 from analysis.oscillator import SnapOscillator, grazing_force
 from tables import Column, count, decimals, number, number_of, percent, sub
 
-from ..figures.curves import Curve, Panel, curves
+from ..figures.curves import Curve, Panel, curves, dots
 from ..figures.orbit_diagram import OrbitDiagram, Strobes
 from ..parts import PARTS as FILES
 from ..parts import (
@@ -48,20 +48,15 @@ PARTS = ("section", "history", "exponents", "orbits", "diagram-force", "diagram-
 
 
 class Study(NamedTuple):
-    """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` the five
-    numbers of eq. (33), `faults` by part where its arrays are not to be had."""
+    """What the campaign left: `rows` of table.csv by part (text), `arrays` by part and name, `oscillator` with the
+    five numbers of eq. (33), `faults` by part where its arrays are not to be had."""
 
     provenance: dict
     columns: dict[str, Column]
     rows: dict[str, dict[str, str]]
     arrays: dict[str, dict[str, np.ndarray]]
-    oscillator: dict[str, float]
+    oscillator: SnapOscillator
     faults: dict[str, str]
-
-    @property
-    def period(self) -> float:
-        """Forcing period, in units of time."""
-        return 2.0 * math.pi / self.oscillator["frequency"]
 
     @property
     def chaotic(self) -> bool:
@@ -81,7 +76,8 @@ def read_study(directory: Path) -> Study:
     wanted = {name: meaning for name, meaning in FILES.items() if name != "scene.toml"}
     files = read_files(directory, wanted)
     try:
-        oscillator = {key: float(entry) for key, entry in files["provenance.json"]["oscillator"].items()}
+        numbers = {key: float(entry) for key, entry in files["provenance.json"]["oscillator"].items()}
+        oscillator = SnapOscillator(**numbers)
         rows = {row["part"]: row for row in files["table.csv"]}
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         fault = f"provenance.json or table.csv is not of this campaign: {error!r}"
@@ -119,7 +115,7 @@ def report(directory: Path) -> Report:
     shown = ("part", "status", "starts", "periods", "transient", "wall_s")
     parts = table_of(study.columns, shown, study.rows.values(), "The parts of the study, from `table.csv`.")
     made = [method_items(study), Heading("Parts and times"), parts]
-    numbers = (f"{symbol} = {number(study.oscillator[key])}" for key, (symbol, *_) in NUMBERS.items())
+    numbers = (f"{symbol} = {number(getattr(study.oscillator, key))}" for key, (symbol, *_) in NUMBERS.items())
     return report_page(study, "The snap oscillator, equation (33)", picture_first(items), made, ", ".join(numbers))
 
 
@@ -128,12 +124,12 @@ def _section(study: Study, arrays: dict) -> Items:
     alpha = 1.0
     if len(states) > 20000:
         alpha = 0.6
-    lines = [Curve(*states.T, "", "", ",", INK, alpha=alpha), *_frames(boxes, 1)]
+    lines = [dots(*states.T, ",", INK, alpha=alpha), *_frames(boxes, 1)]
     orbit = attracting_orbit(study)
     if orbit is not None:
-        lines.append(Curve(*orbit.T, f"attracting period-{len(orbit)} orbit", "", "o", VERMILION))
+        lines.append(dots(*orbit.T, "o", VERMILION, name=f"attracting period-{len(orbit)} orbit"))
     caption = (
-        f"Poincaré section at the forcing phase {number(study.oscillator['phase'])} rad, in the layout of the paper's "
+        f"Poincaré section at the forcing phase {number(study.oscillator.phase)} rad, in the layout of the paper's "
         f"figure 19(b): {len(states)} points, one a forcing period, after {row['transient']} periods. From the part "
         "`section`."
     )
@@ -144,11 +140,10 @@ def _section(study: Study, arrays: dict) -> Items:
         return
     panels = []
     for place, (points, box) in enumerate(zip(zooms, boxes, strict=True), 1):
-        dots, limits = Curve(*points.T, "", "", ",", INK, alpha=0.7), {"xlim": box[:2], "ylim": box[2:]}
-        lines, y_label = [dots, *_frames(boxes[place:], place + 1)], ""
+        lines, y_label = [dots(*points.T, ",", INK, alpha=0.7), *_frames(boxes[place:], place + 1)], ""
         if place == 1:
             y_label = STATE[1]
-        panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", settings=limits, ticks=5))
+        panels.append(Panel(lines, STATE[0], y_label, f"zoom {place}", ticks=5, xlim=box[:2], ylim=box[2:]))
     counts = " and ".join(str(len(zoom)) for zoom in zooms)
     caption = (
         "Layers within layers: zooms by 10 and by 100 round the place visited most. They have "
@@ -172,14 +167,14 @@ def _history(study: Study, arrays: dict) -> Items:
     switches = count(len(arrays.get("switches", ())), "switch", "switches")
     share = percent(study.number("history", "slack_fraction"))
     seen = f"{switches} in {study.rows['history']['periods']} periods, {share} of the time slack"
-    periods, slack = arrays["time"] / study.period, arrays["displacement"] < 0.0
+    periods, slack = arrays["time"] / study.oscillator.period, arrays["displacement"] < 0.0
     rows = []
     for name, label in (("displacement", r"$\gamma$ (–)"), ("velocity", r"$\dot\gamma$ (–)")):
         values = arrays[name]
         band = periods, np.where(slack, values.min(), np.nan), np.where(slack, values.max(), np.nan)
         history = Curve(periods, values, colour=INK, band=band)
         x_label = r"$t/T$ (forcing periods)" if rows else ""
-        rows.append([Panel([history], x_label, label, level=0.0, settings={"xlim": (periods[0], periods[-1])})])
+        rows.append([Panel([history], x_label, label, level=0.0, xlim=(periods[0], periods[-1]))])
     caption = f"The first periods from γ = 0.68 at rest; shaded: slack. Seen: {seen}. From the part `history`."
     return [Figure(curves(rows, 2.9, share="x"), caption, f"Histories of displacement and velocity: {seen}.")]
 
@@ -220,7 +215,7 @@ def _errors(convergence: np.ndarray, of_start: np.ndarray) -> Figure:
     for place, (size, number_of_groups) in enumerate(zip(sizes, groups, strict=True)):
         means = of_start[: size * number_of_groups].reshape(number_of_groups, size).mean(axis=1)
         scatter[place] = means.std(ddof=1)
-    observed = Curve(sizes, scatter, "", "", "o", INK, 2 * scatter / np.sqrt(2.0 * (groups - 1)), 3.5)
+    observed = dots(sizes, scatter, "o", INK, 3.5, error=2 * scatter / np.sqrt(2.0 * (groups - 1)))
     ends = sizes[[0, -1]]
     law = Curve(ends, scatter[0] * ends**-0.5, r"$k^{-1/2}$ from $k = 1$", colour=VERMILION)
     log = "xy" if (scatter > 0).all() else "x"  # starts on one periodic orbit may agree to the last bit
@@ -238,26 +233,23 @@ def _diagram(study: Study, arrays: dict, symbol: str, key: str, label: str) -> I
     if not np.isfinite(arrays["section"]).any():
         return [Text(f"There is no orbit diagram over {symbol}: no finite points.")]
     values, largest = arrays["values"], arrays["exponents"][..., 0]
-    marks = [(study.oscillator[key], "as run")]
-    grazing = grazing_force(SnapOscillator(**study.oscillator))
+    marks = [(getattr(study.oscillator, key), "as run")]
+    grazing = grazing_force(study.oscillator)
     if key == "force" and math.isfinite(grazing):
         marks.append((grazing, "grazing"))
     marks = [(at, text) for at, text in marks if values[0] <= at <= values[-1]]
     positive = largest - 2 * arrays["errors"] > 0
     across = np.broadcast_to(values[:, None], largest.shape)
-
-    def dots(x: np.ndarray, y: np.ndarray, name: str, colour: str, size: float) -> Curve:
-        return Curve(x.ravel(), y.ravel(), name, "", "o", colour, size=size)
-
+    every_value = across.ravel()
     lines = [
-        dots(across, arrays["exponents"][..., 1], r"$\lambda_2$", SOFT, 1.0),
-        dots(across[~positive], largest[~positive], r"$\lambda_1$", BLUE, 1.3),
-        dots(across[positive], largest[positive], r"$\lambda_1$, above 0 by two errors", VERMILION, 1.3),
+        dots(every_value, arrays["exponents"][..., 1].ravel(), "o", SOFT, 1.0, name=r"$\lambda_2$"),
+        dots(across[~positive], largest[~positive], "o", BLUE, 1.3, name=r"$\lambda_1$"),
+        dots(across[positive], largest[positive], "o", VERMILION, 1.3, name=r"$\lambda_1$, above 0 by two errors"),
     ]
-    slack = dots(across, arrays["slack_fraction"], "", BLUE, 1.0)
+    slack = dots(every_value, arrays["slack_fraction"].ravel(), "o", BLUE, 1.0)
     below = [
         Panel(lines, y_label="exponents\n(nats per time)", level=0.0),
-        Panel([slack], y_label="slack share\n(–)", settings={"ylim": (-0.03, 1.03)}),
+        Panel([slack], y_label="slack share\n(–)", ylim=(-0.03, 1.03)),
     ]
     columns = []
     for at, points in zip(values, arrays["section"], strict=True):
@@ -295,7 +287,7 @@ def orbit_items(study: Study, arrays: dict) -> Items:
         "attractors found. A chaotic attractor holds infinitely many unstable orbits; the table has those that were "
         "met. The product of the two multipliers must be e to the −μpT."
     )
-    damping, frequency = study.oscillator["damping"], study.oscillator["frequency"]
+    damping, frequency = study.oscillator.damping, study.oscillator.frequency
     rows = []
     for period, real1, imag1, real2, imag2, residual, first in arrays["table"]:
         m1, m2 = complex(real1, imag1), complex(real2, imag2)
@@ -329,7 +321,7 @@ def method_items(study: Study) -> Items:
     """The equation, how it is integrated, and what the exponents are."""
     rows = []
     for key, (symbol, meaning, source) in NUMBERS.items():
-        chosen, usual = study.oscillator[key], getattr(SnapOscillator, key)
+        chosen, usual = getattr(study.oscillator, key), getattr(SnapOscillator, key)
         if chosen != usual:
             source = f"given; the default is {number(usual)}"
         rows.append((symbol, meaning, number(chosen, 10), source))

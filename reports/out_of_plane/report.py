@@ -12,7 +12,7 @@ import numpy as np
 from engine.views import strobed_radius
 from tables import BODIES, COST, PAIRS, PLANE, RUNS, any_rows, count, errors_of, listed, number, number_of
 
-from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..figures.curves import COLOURS, Curve, Panel, curves, dots
 from ..figures.offplane_history import History, lateral_histories
 from ..parts import (
     LONGEST_CELL,
@@ -22,7 +22,9 @@ from ..parts import (
     Items,
     Notice,
     Report,
+    Row,
     Text,
+    batched,
     counted,
     entries,
     having,
@@ -39,8 +41,7 @@ from ..parts import (
     table_of,
     timing_items,
 )
-from ..sweep.quantities import batched
-from .runs import VARIED, Run, Study, columns_of_bodies, envelope, read_study
+from .runs import VARIED, Study, columns_of_bodies, envelope, read_study
 
 _MOST = 18  # columns of one table
 _RESOLVED_RAD = 0.5 * math.pi  # in one element
@@ -168,8 +169,8 @@ def dependence_items(study: Study) -> Items:
             decays = np.array(entries(runs, f"{body}_motion")) == "decay"
             name = f"EI = {number(stiffness)} N m²"
             lines.append(Curve(depth, size, colour=colour, width=0.6, alpha=0.6))
-            lines.append(Curve(depth[~decays], size[~decays], name, "", mark, colour, size=4.5))
-            lines.append(Curve(depth[decays], size[decays], "", "", mark, colour, size=4.5, filled=False))
+            lines.append(dots(depth[~decays], size[~decays], mark, colour, 4.5, name=name))
+            lines.append(dots(depth[decays], size[decays], mark, colour, 4.5, filled=False))
         panels.append(Panel(lines, "depth $H$ (m)", "max $|y|$, second half (m)", body, log="y"))
     caption = (
         f"Largest lateral distance in the second half of each run at kA = {number(study.base['steepness'])} over the "
@@ -212,9 +213,9 @@ def comparison_items(study: Study) -> Items:
         points = [strobed_radius(trajectory, study.transient) for _, trajectory in study.loaded(pair)]
         if len(points) == 2:
             title, labels = f"H = {number(number_of(row, 'depth_m'))} m", (r"$r$ (m)", r"$\dot{r}$ (m/s)")
-            rings = Curve(*points[0].T, "planar", line="", mark="o", size=5.0, width=0.7, filled=False)
-            dots = Curve(*points[1].T, "three dimensions", line="", mark=".", size=3.0)
-            panels.append(Panel([rings, dots], *labels, title, ticks=4))
+            planar = dots(*points[0].T, size=5.0, name="planar", width=0.7, filled=False)
+            spatial = dots(*points[1].T, ".", size=3.0, name="three dimensions")
+            panels.append(Panel([planar, spatial], *labels, title, ticks=4))
     if panels:
         caption = (
             f"Poincaré sections of planar runs with loop release and of runs in three dimensions, after "
@@ -233,11 +234,14 @@ def _runs_tables(study: Study) -> Items:
 
 
 def _warnings(study: Study) -> Items:
-    pushed = [run for run in study.runs if run.pushed]
+    pushed = []  # in three dimensions, out of the plane
+    for run in having(study.runs, status="ok", dimensions=3):
+        if run["seed_direction"] != "along":
+            pushed.append(run)
     coarse = [run["nodes"] for run in pushed if run["max_turn_rad"] > _RESOLVED_RAD]
     failed, lost, looped, turned = [], [], [], []
     for run in study.runs:
-        if not run.ok:
+        if run["status"] != "ok":
             reason = ": ".join(filter(None, (run["status"], run["message"])))
             failed.append(f"{_name(run)}: {reason}.")
         elif not study.folder.trajectory_path(run["run_key"]).exists():
@@ -258,7 +262,7 @@ def _warnings(study: Study) -> Items:
     return notices or [limits("", (), "No run failed, no loop was released, and every turn is resolved.")]
 
 
-def _name(run: Run) -> str:
+def _name(run: Row) -> str:
     pushed = f"push {number(run['seed_mps'])} m/s {run['seed_direction']}" if run["dimensions"] == 3 else "planar"
     return (
         f"kA = {number(run['steepness'])}, H = {number(run['depth_m'])} m, EI = {number(run['bending_stiffness_Nm2'])} "
@@ -279,7 +283,7 @@ def _scene_and_times(study: Study) -> Items:
     for name, key in keys.items():
         varied[key] = listed(map(number, sorted(set(entries(study.runs, name)))))
     varied["start.buoy_velocity_mps"] = "see the table of runs"
-    if any(run.known("offplane_growth_bits_per_period") for run in study.runs):
+    if np.isfinite(series(study.runs, "offplane_growth_bits_per_period")).any():
         varied |= {"output.tangent_vectors": "1 in planar runs", "output.lateral_growth": "yes in planar runs"}
     if any(entries(study.runs, "profiles")):
         varied["output.profiles"] = "yes in one run"

@@ -8,7 +8,7 @@ import numpy as np
 
 from tables import BODIES, number
 
-from ..parts import Folder, FolderError, Table, TableRow, having, read_folder, table_of
+from ..parts import Folder, FolderError, Row, Table, having, read_folder, table_of
 
 VARIED = (
     "steepness", "depth_m", "bending_stiffness_Nm2", "nodes", "dimensions", "seed_mps", "seed_direction", "profiles",
@@ -19,24 +19,15 @@ NEEDED = (
 )  # fmt: skip
 
 
-class Run(TableRow):
-    """One row of the table."""
-
-    @property
-    def pushed(self) -> bool:
-        """Whether it is a run in three dimensions that ended as asked, with a push out of the plane."""
-        return self.ok and self["dimensions"] == 3 and self["seed_direction"] != "along"
-
-
 class Study(NamedTuple):
     """All runs of the folder. base: the values from which the campaign varied one quantity at a time."""
 
     folder: Folder
-    runs: tuple[Run, ...]
+    runs: tuple[Row, ...]
     base: dict
     transient: int
 
-    def select(self, **wanted) -> list[Run]:
+    def select(self, **wanted) -> list[Row]:
         """The runs that ended as asked, with the values `wanted` and otherwise those of the base.
 
         A quantity whose wanted value is None may have any value, and the runs are sorted by it.
@@ -50,11 +41,11 @@ class Study(NamedTuple):
                 fixed[key] = entry
         return sorted(having(self.runs, **fixed), key=lambda run: [run[key] for key in free])
 
-    def over(self, **wanted) -> list[Run]:
+    def over(self, **wanted) -> list[Row]:
         """As `select`, at every steepness, in rising order."""
         return self.select(**{"steepness": None, **wanted})
 
-    def loaded(self, runs: Sequence[Run]) -> list[tuple]:
+    def loaded(self, runs: Sequence[Row]) -> list[tuple]:
         """(run, its trajectory) of the runs whose trajectory can be read."""
         pairs = []
         for run in runs:
@@ -63,7 +54,7 @@ class Study(NamedTuple):
                 pairs.append((run, trajectory))
         return pairs
 
-    def table(self, names: Sequence[str], runs: Sequence[Run], caption: str) -> Table:
+    def table(self, names: Sequence[str], runs: Sequence[Row], caption: str) -> Table:
         """A table of the named columns of these runs; the varied numbers have four significant digits."""
         varied_cells = {}
         for name in VARIED:
@@ -78,7 +69,7 @@ def read_study(directory: Path) -> Study:
     base = folder.provenance.get("base")
     if not isinstance(base, dict) or set(base) != set(VARIED) or "transient" not in folder.provenance:
         raise FolderError(folder.directory, "provenance.json cannot be read: it does not name base and transient")
-    return Study(folder, tuple(map(Run, folder.table)), dict(base), int(folder.provenance["transient"]))
+    return Study(folder, folder.table, dict(base), int(folder.provenance["transient"]))
 
 
 def columns_of_bodies(*names: str) -> list[str]:

@@ -11,7 +11,7 @@ from engine import Scene, load_scene
 from engine.natural_frequencies import natural_frequencies
 from tables import EMPTY, PERIODIC, TANGENT_ERROR, TANGENT_EXPONENT, Column, by_columns, number, percent
 
-from ..figures.curves import COLOURS, Curve, Panel, curves
+from ..figures.curves import COLOURS, Curve, Panel, curves, dots
 from ..out_of_plane.report import comparison_items
 from ..out_of_plane.runs import read_study
 from ..parts import (
@@ -216,7 +216,7 @@ def depth_exponents(panels: Panels, key: str, label: str, log: bool = False) -> 
     meanings, nothing = [], np.empty(0)  # of the marks, as curves without points
     for kind, mark in MARKS.items():
         if kind in kinds:
-            meanings.append(Curve(nothing, nothing, kind.replace(PERIODIC, "periodic") or "no verdict", "", mark, INK))
+            meanings.append(dots(nothing, nothing, mark, INK, name=kind.replace(PERIODIC, "periodic") or "no verdict"))
     axis, ticks = "x", {}
     if not log:
         axis, ticks = "", {"xticks": range(len(values)), "xticklabels": list(map(number, values))}
@@ -236,7 +236,7 @@ def depth_exponents(panels: Panels, key: str, label: str, log: bool = False) -> 
                     chosen = kinds == kind
                     if chosen.any():
                         size = 7.0 if mark == "*" else 4.5
-                        lines.append(Curve(at[chosen], exponent[chosen], "", "", mark, colour, size=size))
+                        lines.append(dots(at[chosen], exponent[chosen], mark, colour, size))
             y_label = "" if drawn else r"$\sigma$ (bits per $T_i$)"
             x_label = label if row is panels[-1] else ""
             drawn.append(Panel([*lines, *meanings], x_label, y_label, title, axis, 0.0, ticks))

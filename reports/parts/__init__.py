@@ -6,7 +6,7 @@ folder       a campaign's folder, read and checked
 judged       statements of the paper as a campaign judged them
 provenance   how a campaign was made
 sections     texts and equations that no run decides
-selecting    rows chosen by their entries, and the picture of the first page
+selecting    rows chosen by their entries and put in order, and the picture of the first page
 symbols      those of the paper
 
 By their own names are imported: `style`, which loads matplotlib, and `html`, `pdf`, `first_page` and `unchanged`, which

@@ -2,9 +2,12 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
+import numpy as np
+
 from tables import EMPTY, Column, errors_of
 
-from .content import Head, Table
+from .content import Head, Table, heads
+from .selecting import at, series
 
 Columns = Mapping[str, Column]  # of a table, by name
 Row = Mapping[str, object]
@@ -23,17 +26,17 @@ def table_of(
     """
     cells = printed_cells(columns) | (own_cells or {})
     shown = [columns[name] for name in names]
-    heads = []
+    titles = []
     for column in shown:
         align = "left" if column.digits is None else "right"
-        heads.append(Head(column.head, column.unit, align, meaning=column.meaning))
+        titles.append(Head(column.head, column.unit, align, meaning=column.meaning))
     body = []
     for row in rows:
         if isinstance(row, str):
             body.append([row])
         else:
             body.append([cells[column.name](row) for column in shown])
-    return Table(heads, body, caption)
+    return Table(titles, body, caption)
 
 
 def printed_cells(columns: Columns) -> dict[str, Callable[[Row], str]]:
@@ -68,3 +71,20 @@ def shown_on(columns: Columns, rows: Sequence[Row], *pages: str, longest: int | 
         if texts - {EMPTY} and (longest is None or max(map(len, texts)) <= longest):
             names.append(name)
     return names
+
+
+def extremes(keys: Sequence[Column], rows: Sequence[Row], shown: Iterable[Column], caption: str) -> list[Table]:
+    """The least and the greatest value of every quantity, and where; nothing where no run has one."""
+    cells = []
+    for column in shown:
+        values = series(rows, column.name)
+        if not np.isfinite(values).any():
+            continue
+        line = [column.meaning or column.head, column.unit or EMPTY]
+        for row in (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))]):
+            line += [column.cell(row), at(keys, row)]
+        cells.append(line)
+    columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
+    if not cells:
+        return []
+    return [Table(columns, cells, caption)]

@@ -5,14 +5,15 @@ from __future__ import annotations
 import io
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from tables import Column, by_columns, read_columns, read_rows
 
-from .columns import Row
+from .columns import Row, shown_on, table_of
+from .content import Table
 from .selecting import having
 
 if TYPE_CHECKING:
@@ -58,6 +59,16 @@ class Folder(NamedTuple):
     def completed(self) -> list[Row]:
         """The rows of the runs that reached their full length."""
         return having(self.table, status="ok")
+
+    def part(self, name: str) -> Folder:
+        """The folder of that name inside of this one; without rows where it was left out or cannot be read."""
+        directory = self.directory / name
+        try:
+            columns = read_columns(directory / "columns.csv")
+            table = by_columns(read_rows(directory / "table.csv"), columns)
+        except (OSError, ValueError):
+            columns, table = {}, ()
+        return self._replace(directory=directory, table=table, columns=columns)
 
     def trajectory_path(self, run_key: str) -> Path:
         return self.directory / "trajectories" / f"{run_key}.nc"
@@ -127,15 +138,19 @@ def read_folder(directory: Path, needed: tuple[str, ...] = ()) -> Folder:
     return Folder(directory, parts["provenance.json"], table, parts["scene.toml"], columns)
 
 
-def part_of(folder: Folder, name: str) -> Folder | None:
-    """A folder of the same layout inside of a campaign's; None where it was left out or cannot be read."""
-    directory = folder.directory / name
-    try:
-        columns = read_columns(directory / "columns.csv")
-        table = by_columns(read_rows(directory / "table.csv"), columns)
-    except (OSError, ValueError):
-        return None
-    return Folder(directory, folder.provenance, table, folder.scene, columns)
+def filled_table(
+    part: Folder, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
+) -> list[Table]:
+    """The table of a part of a folder, with those of the named columns (all, but for the key of a run) that say
+    something in some row; nothing without a row."""
+    if not part.table:
+        return []
+    filled = []
+    for name in names or shown_on(part.columns, part.table):
+        entries = [row.get(name, "") for row in part.table]
+        if name != "run_key" and any(entry not in ("", 0.0) and entry == entry for entry in entries):  # nan is not
+            filled.append(name)
+    return [table_of(part.columns, filled, part.table, caption, own_cells)]
 
 
 def read_files(

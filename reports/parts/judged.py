@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS, read_rows
 
-from .content import Head, Table
+from .content import Head, Table, heads
 from .folder import read_files
 from .selecting import entries
 
@@ -31,14 +31,9 @@ def counted(rows: Iterable[Judged]) -> str:
 
 def statements_table(rows: Iterable[Judged], caption: str) -> Table:
     """Number, place, statement, verdict, evidence of the rows."""
-    heads = (
-        Head("no."),
-        Head("place", align="left"),
-        Head("the paper", align="left", share=3),
-        Head("verdict", align="left", share=3),
-        Head("the runs", align="left", share=5),
-        Head("decided by, evidence", align="left", share=3),
-    )
+    columns = heads(("no.", ""), "place")
+    for title, share in (("the paper", 3), ("verdict", 3), ("the runs", 5), ("decided by, evidence", 3)):
+        columns.append(Head(title, align="left", share=share))
     body = []
     for row in rows:
         verdict = row["verdict"]
@@ -46,4 +41,4 @@ def statements_table(rows: Iterable[Judged], caption: str) -> Table:
             verdict = f"{verdict}: {row['condition']}"
         evidence = f"{row['threshold']}. {row['evidence']}"
         body.append((row["number"], row["place"], row["statement"], verdict, row["found"], evidence))
-    return Table(heads, body, caption)
+    return Table(columns, body, caption)

@@ -10,9 +10,8 @@ from tables import CHAOTIC, COMPUTED, FAILED, PAPER_STEEPNESS, PERIODIC, SCREENE
 
 from ..figures.regime_map import HATCHES, LINES, Map, Page
 from ..orbits.curves import drawn_curves
-from ..parts import Folder, entries, part_of, series
+from ..parts import Folder, at, entries, series
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
-from ..sweep.quantities import at
 
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
 LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
@@ -60,9 +59,7 @@ def _paper_marks(key: Column) -> Sequence[float]:
 
 def read_atlas(folder: Folder) -> Atlas | None:
     """The maps of a folder; None where it has no cell that can be read."""
-    part = part_of(folder, "cells")
-    if part is None:
-        return None
+    part = folder.part("cells")
     axes = [name.removeprefix("width_") for name in part.columns if name.startswith("width_")]
     if len(axes) != 2 or not {*axes, "level", "source", "regime_rest"} <= set(part.columns):
         return None
@@ -74,8 +71,7 @@ def read_atlas(folder: Folder) -> Atlas | None:
     for row in part.table:
         value = row[first] if len(keys) > 2 else ""
         rows_of_pages.setdefault(value, []).append(row)
-    curves, pages = part_of(folder, "curves"), []
-    lines = [] if curves is None else [*drawn_curves(curves, keys[-2:])]
+    lines, pages = [*drawn_curves(folder.part("curves"), keys[-2:])], []
     for number_of_page, page_rows in enumerate(rows_of_pages.values()):
         page_rows.sort(key=lambda row: row["level"])
         edges = []

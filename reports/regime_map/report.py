@@ -19,6 +19,7 @@ from ..parts import (
     Notice,
     Report,
     Table,
+    at,
     having,
     heads,
     limits,
@@ -28,7 +29,6 @@ from ..parts import (
     report_page,
     section_items,
 )
-from ..sweep.quantities import at
 from .maps import LIMITS, PULL, Atlas, legend, numbers, read_atlas, regimes, without_border
 from .sheets import cell_sheets
 

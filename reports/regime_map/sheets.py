@@ -7,8 +7,8 @@ import numpy as np
 from analysis import read_evidence
 from tables import COMPUTED, REGIMES, RUNS, SCREENED, number, printed
 
-from ..parts import LONGEST_CELL, CellSheets, Folder, Row, plain, printed_cells, shown_on
-from ..sweep.quantities import at, colours_of
+from ..figures.quantities import colours_of
+from ..parts import LONGEST_CELL, CellSheets, Folder, Row, at, plain, printed_cells, shown_on
 from .maps import LIMITS, PULL, Atlas
 
 _STROBES = "radius_m", "tension_N"  # once a wave period
@@ -63,8 +63,8 @@ def _strobes(folder: Folder) -> dict[str, list[np.ndarray]]:
     try:
         file = np.load(folder.directory / "strobes.npz")
         radius, tension = (file[name] for name in _STROBES)
-        for place, key in enumerate(file["run_key"]):
-            strobes_of_runs[key] = [radius[place], tension[place]]
+        for key, *strobes in zip(file["run_key"], radius, tension, strict=True):
+            strobes_of_runs[key] = strobes
     except (OSError, ValueError, KeyError):
         return {}
     return strobes_of_runs
@@ -105,14 +105,12 @@ def _drawn(motions: Sequence[tuple]) -> dict:
     """The motions of one cell (row, facts, curves) in the scales of them all."""
     colours = colours_of([row for row, _, _ in motions])
     radius, tension = [[]], [[0.0]]  # the scale of the tension has 0
-    for _, _, (radius_history, tension_history, radius_strobes, tension_strobes) in motions:
-        radius += [radius_history, radius_strobes]
-        tension += [tension_history, tension_strobes]
-    radius_scale, tension_scale = _ends(np.concatenate(radius)), _ends(np.concatenate(tension))
-    scales_of_curves = (radius_scale, tension_scale, radius_scale, tension_scale)
-    drawn = []
+    for _, _, curves in motions:  # r and T, twice
+        radius += curves[::2]
+        tension += curves[1::2]
+    scales, drawn = [_ends(np.concatenate(radius)), _ends(np.concatenate(tension))], []
     for row, facts, curves in motions:
-        steps = [_steps(values, scale) for values, scale in zip(curves, scales_of_curves, strict=True)]
+        steps = [_steps(values, scale) for values, scale in zip(curves, 2 * scales, strict=True)]
         letter = row["motion"]
         drawn.append(
             {
@@ -123,7 +121,7 @@ def _drawn(motions: Sequence[tuple]) -> dict:
                 "series": steps,
             }
         )
-    return {"scales": [radius_scale, tension_scale], "motions": drawn}
+    return {"scales": scales, "motions": drawn}
 
 
 def _ends(values: np.ndarray) -> list[float]:

@@ -11,7 +11,7 @@ from engine.views import snaps_of
 from tables import number_of
 
 from ..figures.curves import envelope as thinned
-from ..parts import Figure, Folder, Row, having, part_of, series
+from ..parts import Figure, Folder, Row, having, series
 from ..parts.style import (
     BLUE,
     GREEN,
@@ -114,12 +114,10 @@ def _tension_panel(axes, time: np.ndarray, rest, shown: slice, shares, regular_N
 
 def _together(folder: Folder) -> float:
     """When the starts of the first sea first come together and stay for ten periods; nan: never."""
-    over_time = part_of(folder, "history")
-    if over_time is not None:
-        rows = having(over_time.table, sea=1)
-        for begin, end in spells_of([row["responses"] == 1 for row in rows]):
-            if end - begin >= HOLD:
-                return float(begin)
+    rows = having(folder.part("history").table, sea=1)
+    for begin, end in spells_of([row["responses"] == 1 for row in rows]):
+        if end - begin >= HOLD:
+            return float(begin)
     return math.nan
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from tables import EMPTY, TANGENT_EXPONENT, count, number_of
 
 from ..figures.maps import Map, maps
+from ..figures.quantities import measured, over_key
 from ..parts import (
     LONGEST_CELL,
     Figure,
@@ -19,9 +20,9 @@ from ..parts import (
     Notice,
     Report,
     Table,
+    batched,
     heads,
     limits,
-    part_of,
     plain,
     printed_cells,
     read_folder,
@@ -31,7 +32,6 @@ from ..parts import (
     shown_on,
     table_of,
 )
-from ..sweep.quantities import batched, measured, over_key
 from .figures import history_figure, responses_figure
 
 _MOST = 12  # columns of one table
@@ -47,17 +47,17 @@ _MAPS = {
 def report(directory: Path) -> Report:
     """The content of the report on a sea's folder. Raises FolderError for a folder that is not one."""
     folder = read_folder(directory, ("sea", "start", "solver", "status"))
-    cells = part_of(folder, "cells")
+    cells = folder.part("cells")
     keys = folder.provenance.get("sea_keys")
-    if cells is None or not isinstance(keys, list):
+    if not cells.table or not isinstance(keys, list):
         raise FolderError(folder.directory, "cells/table.csv cannot be read")
     if keys:
         figures = _maps(cells, keys)
     else:
         figures = _pictures(folder, cells)
     items = [figures, section_items("sea"), Heading("What the runs say together"), _numbers(cells)]
-    regular = part_of(folder, "regular")
-    if regular is not None:
+    regular = folder.part("regular")
+    if regular.table:
         items += [Heading("Regular waves beside the sea"), _regular(regular)]
     items += [Heading("Warnings"), _warnings(folder)]
     names = shown_on(folder.columns, folder.table, longest=LONGEST_CELL)
@@ -83,9 +83,9 @@ def _numbers(cells: Folder) -> Table:
 def _pictures(folder: Folder, cells: Folder) -> Items:
     (cell,) = cells.table
     yield history_figure(folder, cell)
-    over_time, distance = part_of(folder, "history"), number_of(cell, "distance")
-    if over_time is not None and math.isfinite(distance):  # there is none between the runs of one start
-        yield responses_figure(over_time, distance)
+    distance = number_of(cell, "distance")
+    if math.isfinite(distance):  # there is none between the runs of one start
+        yield responses_figure(folder.part("history"), distance)
 
 
 def _maps(cells: Folder, keys: Sequence[str]) -> Items:

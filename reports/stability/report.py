@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
-from tables import Column, count, number, number_of
+from tables import count, number, number_of
 
 from ..figures.verdict_grid import verdict_grid
 from ..parts import (
     Figure,
+    Folder,
     FolderError,
     Heading,
     Items,
@@ -32,18 +32,18 @@ from ..parts.style import BLUE, GREEN, ORANGE, SKY, VERMILION, picture_of, sheet
 
 def report(directory: Path) -> Report:
     """The content of the report on a stability folder. Raises FolderError for a folder that is not one."""
-    study = read_study(directory)
+    folder = read_cases(directory)
     items = [
-        grid_figure(study),
-        unexplained_items(study),  # before the first heading: on the first page, after the answer
+        grid_figure(folder),
+        unexplained_items(folder),  # before the first heading: on the first page, after the answer
         section_items("stability"),
-        stiffness_items(study),
-        case_items(study),
-        limit_items(study),
+        stiffness_items(folder),
+        case_items(folder),
+        limit_items(folder),
     ]
-    kind = "quick selection" if study.provenance.get("quick") else "all cases"
-    subtitle = f"{count(len(study.cases), 'case')} ({kind})"
-    return report_page(study, "Stiff and extreme scenes", items, timing_items(study), subtitle)
+    kind = "quick selection" if folder.provenance.get("quick") else "all cases"
+    subtitle = f"{count(len(folder.table), 'case')} ({kind})"
+    return report_page(folder, "Stiff and extreme scenes", items, timing_items(folder), subtitle)
 
 
 FILES = {
@@ -68,55 +68,46 @@ VERDICT_COLOURS = {"ok": GREEN, "refused": SKY, "known limit": ORANGE, "unexplai
 LEAST = 1e-8  # where smaller errors are drawn
 
 
-class Study(NamedTuple):
-    """What the campaign left: `cases`, rows of text by column. Older tables have rows of random scenes as well."""
+def read_cases(directory: Path) -> Folder:
+    """The folder, without a scene; its rows are those of the cases, as text: older tables have random scenes as well.
 
-    provenance: dict
-    columns: dict[str, Column]
-    cases: list[dict[str, str]]
-
-    def judged(self, verdict: str) -> list[dict[str, str]]:
-        """The cases with that verdict."""
-        return having(self.cases, verdict=verdict)
-
-
-def read_study(directory: Path) -> Study:
-    """Read the folder. Raises FolderError naming every file that is missing or cannot be read."""
+    Raises FolderError naming every file that is missing or cannot be read.
+    """
     table, columns, provenance = read_files(directory, FILES).values()
     if not table or not {"part", "group", "verdict"} <= set(table[0]):
         raise FolderError(directory, "table.csv cannot be read: it has no rows, or not those of this campaign")
-    return Study(provenance, columns, having(table, part="case"))
+    return Folder(directory, provenance, tuple(having(table, part="case")), None, columns)
 
 
-def case_items(study: Study) -> Items:
+def case_items(folder: Folder) -> Items:
     """One table of all cases, a row with its title before each group."""
     rows = []
-    for about, cases in by_group(study).items():
+    for about, cases in by_group(folder).items():
         rows += [about, *cases]
-    table = table_of(study.columns, SHOWN, rows, "Cases and verdicts, from `table.csv`.")
+    table = table_of(folder.columns, SHOWN, rows, "Cases and verdicts, from `table.csv`.")
     return [Heading("Cases and verdicts"), Text(HOW), table]
 
 
-def by_group(study: Study) -> dict[str, list[dict[str, str]]]:
+def by_group(folder: Folder) -> dict[str, list[dict[str, str]]]:
     """The cases of each group, by its title."""
     groups = {}
-    for row in study.cases:
+    for row in folder.table:
         groups.setdefault(row["about"], []).append(row)
     return groups
 
 
-def grid_figure(study: Study) -> Figure:
+def grid_figure(folder: Folder) -> Figure:
     """All cases as cells in the colours of their verdicts, a row for each group."""
-    groups = {about: entries(cases, "verdict") for about, cases in by_group(study).items()}
+    groups = {about: entries(cases, "verdict") for about, cases in by_group(folder).items()}
     caption = "Every case, a cell each, in the colour of its verdict, in the order of the table of cases."
     return verdict_grid(groups, VERDICT_COLOURS, "case", caption)
 
 
-def stiffness_items(study: Study) -> Items:
+def stiffness_items(folder: Folder) -> Items:
     """Error of the largest tension, and cost, over stiffness; nothing without the case whose cost is the unit."""
     measured = {}  # how it was checked -> stiffness in N, error, Newton iterations a second
     unit = math.nan
-    for row in study.judged("ok"):
+    for row in having(folder.table, verdict="ok"):
         shown = row["group"] == "EA" or row["how"] == "waves in a bar"
         if not shown or not row["measured_tension"] or row.get("warning", row["message"]):
             continue
@@ -154,7 +145,7 @@ def stiffness_items(study: Study) -> Items:
     )
 
 
-def limit_items(study: Study) -> Items:
+def limit_items(folder: Folder) -> Items:
     """What ended otherwise than "ok", and what the user is told."""
     cells = {"message": lambda row: row["message"].removeprefix("faulty scene: ")}
     sections = (
@@ -162,18 +153,18 @@ def limit_items(study: Study) -> Items:
         (Heading("Refused, and what the user is told", 2), "refused", ("case", "message"), "Scenes not started."),
     )
     for heading, verdict, names, caption in sections:
-        rows = sorted(study.judged(verdict), key=lambda row: row["limit"])
+        rows = sorted(having(folder.table, verdict=verdict), key=lambda row: row["limit"])
         yield heading
         if rows:
-            yield table_of(study.columns, names, rows, f"{caption} From `table.csv`.", cells)
+            yield table_of(folder.columns, names, rows, f"{caption} From `table.csv`.", cells)
         else:
             yield Text("None.")
 
 
-def unexplained_items(study: Study) -> Items:
+def unexplained_items(folder: Folder) -> Items:
     """A warning with all that nobody expected, or a note that there is nothing of the kind."""
     lines = []
-    for row in study.judged("unexplained"):
+    for row in having(folder.table, verdict="unexplained"):
         lines.append(f"{row['group']}, {row['case']}: {row['run_status']} {row['message']}".strip())
     if lines:
         return [Notice("warning", "Unexplained", lines)]

@@ -7,11 +7,14 @@ import numpy as np
 
 from tables import Column, listed, number
 
+from ..buoy_sweep.ends import every_motion
 from ..buoy_sweep.figures import orbit_figure
 from ..buoy_sweep.motions import motions_items
 from ..buoy_sweep.runs import NEEDED, read_sweep
 from ..buoy_sweep.sheets import explorer, sheet_items
+from ..buoy_sweep.snaps import snap_items
 from ..figures.maps import Map, maps
+from ..figures.quantities import Measured, colours_of, measured, over_key
 from ..parts import (
     LONGEST_CELL,
     Figure,
@@ -22,7 +25,11 @@ from ..parts import (
     Report,
     Table,
     Text,
+    at,
+    batched,
+    extremes,
     having,
+    in_order,
     limits,
     picture_first,
     plain,
@@ -34,9 +41,6 @@ from ..parts import (
     table_of,
     timing_items,
 )
-from .motions import every_motion
-from .quantities import Measured, at, batched, colours_of, extremes, in_order, measured, over_key
-from .snaps import snap_items
 
 _PANELS, _MAPS, _COLUMNS = 8, 6, 14  # of one figure, of one table
 _NOTHING = Text("Every number of the table is the same in all runs, so there is nothing to draw.")

@@ -9,7 +9,7 @@ import numpy as np
 
 from tables import count, number, number_of
 
-from ..figures.curves import Curve, Panel, curves
+from ..figures.curves import Curve, Panel, curves, dots
 from ..parts import (
     Figure,
     Folder,
@@ -96,15 +96,16 @@ def overview(study: Study) -> Figure:
     ends = np.array([min(x.min(initial=0.0), 0.0), 1.0])
     drawn = [
         Curve(ends, ends, colour=SOFT),
-        Curve(x, y, line="", mark=".", colour=BLUE, size=2.0, alpha=0.5, pixels=True),
+        dots(x, y, ".", BLUE, 2.0, alpha=0.5, pixels=True),
     ]
     errors = []
     for chosen, colour in ((~missing, BLUE), (missing, VERMILION)):
-        errors.append(Curve(shares[chosen], places[chosen], line="", mark="o", colour=colour, size=4.5))
-    axis = {"yticks": places, "yticklabels": names, "ylim": (len(names) - 0.5, -0.5)}
+        errors.append(dots(shares[chosen], places[chosen], "o", colour, 4.5))
+    axis = {"yticks": places, "yticklabels": names}
+    ends_of_names = (len(names) - 0.5, -0.5)
     panels = [
         Panel(drawn, "theirs, over its largest value", "ours, over the largest of theirs"),
-        Panel(errors, "error over the most it may be", log="x", settings=axis, marks=[(1.0, "")]),
+        Panel(errors, "error over the most it may be", log="x", settings=axis, marks=[(1.0, "")], ylim=ends_of_names),
     ]
     caption = (
         "Left: ours over theirs at every point of every case; on the line both agree. Right: the error of each judged "

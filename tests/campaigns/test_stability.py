@@ -16,7 +16,7 @@ from campaigns.machinery.folder import CampaignStopped
 from campaigns.machinery.plan import Summary
 from campaigns.stability import cases, checks, limits, tasks
 from campaigns.stability.cases import ABOVE_BAR, REFUSED, Case, all_cases, case_row
-from reports.stability.report import read_study, unexplained_items
+from reports.stability.report import read_cases, unexplained_items
 from tables import names
 from tests.campaigns.conftest import built_twice, rows_of
 from tests.reports.conftest import folder_at
@@ -202,15 +202,15 @@ def folder(place, judged=CASES):
 
 def test_verdicts_and_faults_follow_the_tables(tmp_path):
     older = {"part": "fuzz", "group": "random", "verdict": "ok", "about": "", "dimensions": ""}
-    study = read_study(folder(tmp_path / "out", [*CASES, older]))  # what earlier versions left is no case
+    judged = read_cases(folder(tmp_path / "out", [*CASES, older]))  # what earlier versions left is no case
     verdicts = ("ok", "refused", "known limit", "unexplained")
-    assert [len(study.judged(word)) for word in verdicts] == [3, 1, 1, 0]
-    assert unexplained_items(study)[0].kind == "note"
+    assert [sum(row["verdict"] == word for row in judged.table) for word in verdicts] == [3, 1, 1, 0]
+    assert unexplained_items(judged)[0].kind == "note"
 
 
 def test_what_is_unexplained_leads(tmp_path):
     lost = {"group": "EA", "case": "stiff", "verdict": "unexplained", "run_status": "hang", "message": "no answer"}
-    (notice,) = unexplained_items(read_study(folder(tmp_path / "out", [*CASES, lost])))
+    (notice,) = unexplained_items(read_cases(folder(tmp_path / "out", [*CASES, lost])))
     assert notice.kind == "warning" and len(notice.lines) == 1 and "stiff" in notice.lines[0]
 
 

@@ -18,8 +18,8 @@ from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from engine import Trajectory, load_scene, simulate
 from reports import build
+from reports.figures.quantities import measured
 from reports.parts.content import Figure, Table, plain
-from reports.sweep.quantities import measured
 from reports.sweep.report import report
 from tables import Column
 from tests.campaigns.conftest import built_twice, order_of, ran, rows_of

@@ -12,9 +12,9 @@ from campaigns.explore.rows import COLUMNS, STEEPNESS
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure
 from reports.buoy_sweep.runs import read_sweep
+from reports.figures.quantities import colours_of, panels_over
 from reports.parts.content import Explorer, Heading, Sheet, Table, plain
 from reports.parts.style import VERMILION
-from reports.sweep.quantities import colours_of, panels_over
 from reports.sweep.report import _maps_of_each
 from tables import Column
 from tests.campaigns.conftest import rows_of

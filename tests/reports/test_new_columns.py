@@ -10,7 +10,7 @@ from engine import list_scenes, load_scene
 from reports import content_of
 from reports.basins.report import _motions
 from reports.out_of_plane.report import _runs_tables
-from reports.out_of_plane.runs import VARIED, Run, Study
+from reports.out_of_plane.runs import VARIED, Study
 from reports.parts.content import Sheet, Table, flat
 from reports.parts.folder import Folder, read_folder
 from reports.parts.provenance import _flat, scene_table
@@ -53,14 +53,14 @@ def test_a_new_column_is_in_the_motions_of_basins_with_its_error(tmp_path):
     columns = {column.name: column for column in (*COLUMNS, NEW, ERROR)}
     row = one_row(COLUMNS) | {NEW.name: 0.75, ERROR.name: 0.25, "motion": "A"}
     part = Folder(tmp_path, {}, (row,), load_scene("tethered_buoy"), columns)
-    assert shown(_motions(part, [row], None)) == ["0.75\u00a0±\u00a00.25"]
+    assert shown(_motions(part, [row], part._replace(table=()))) == ["0.75\u00a0±\u00a00.25"]
 
 
 def test_a_new_column_is_in_the_table_of_runs_out_of_the_plane():
     columns = {column.name: column for column in (*IN_SPACE, NEW)}
     row = one_row(IN_SPACE) | {NEW.name: 0.75}
     folder = Folder(None, {}, (row,), load_scene("tethered_buoy"), columns)
-    assert shown(_runs_tables(Study(folder, (Run(row),), dict.fromkeys(VARIED), 0))) == ["0.75"]
+    assert shown(_runs_tables(Study(folder, (row,), dict.fromkeys(VARIED), 0))) == ["0.75"]
 
 
 def test_a_column_is_printed_where_its_declaration_says(folder, tmp_path):

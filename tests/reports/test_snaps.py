@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from reports.sweep.snaps import SnappingMotion, exceedance, larger_a_wave, tension_histories
+from reports.buoy_sweep.snaps import SnappingMotion, exceedance, larger_a_wave, tension_histories
 from tests.reports.test_words_apart import crowded
 
 

@@ -103,7 +103,7 @@ def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(d
     rows[-1] |= {"motion": "", "outcome": "unsettled"}
     chaos = {"motion": "A", "regime": "chaotic", "tension_top_max_N": 9e3}
     motions = [chaos, chaos | {"motion": "B", "tension_top_max_N": 7e3}]
-    list(_map(Folder(None, {}, tuple(rows), SCENE, {}), ["vx", "phase"], motions, None))
+    list(_map(Folder(None, {}, tuple(rows), SCENE, {}), ["vx", "phase"], motions, Folder(None, {}, (), SCENE, {})))
     (axes,) = drawn[0].axes
     assert axes.get_xlim() == (-1.5, 1.5) and axes.get_ylim() == (-0.125, 0.875)
     cells = axes.collections[0]

@@ -93,9 +93,8 @@ def _histories(data: xarray.Dataset, side: Side) -> list[list[Panel]]:
             if y.min() - room <= level <= y.max() + room:
                 lines.append(Curve(x[[0, -1]], np.full(2, level), name, look[1], colour=look[0]))
         right_axis = {"right": (side.factor, side.other), **top}
-        settings = {"xlim": (x[0], x[-1])}
         marks = [] if rows else starts
-        rows.append([Panel(lines, x_label, side.label, settings=settings, marks=marks, beside=right_axis)])
+        rows.append([Panel(lines, x_label, side.label, marks=marks, xlim=(x[0], x[-1]), beside=right_axis)])
     return rows
 
 
@@ -142,11 +141,10 @@ def spectrum_panels(
     shown = lines[0].x <= highest_radps
     lines = [line._replace(x=line.x[shown], y=line.y[shown]) for line in lines]
     everything = np.concatenate([line.y for line in lines])
-    limits = {"xlim": (0.0, highest_radps), "ylim": (0.0, 1.32 * max(float(everything.max()), 1e-12))}
-    decades = limits | {"ylim": log_limits(everything)}
+    xlim, top = (0.0, highest_radps), 1.32 * max(float(everything.max()), 1e-12)
     nameless = [(at, "") for at, _ in marks]
-    linear = Panel(lines, *labels, settings=limits, marks=marks)
-    return [linear, Panel(lines, labels[0], log="y", settings=decades, marks=nameless)]
+    linear = Panel(lines, *labels, marks=marks, xlim=xlim, ylim=(0.0, top))
+    return [linear, Panel(lines, labels[0], log="y", marks=nameless, xlim=xlim, ylim=log_limits(everything))]
 
 
 def log_limits(amplitude: np.ndarray) -> tuple[float | None, float | None]:

@@ -15,7 +15,7 @@ import xarray
 
 from tables import decimals, number
 
-from ...figures.curves import Curve, Panel, curves
+from ...figures.curves import Curve, Panel, curves, dots
 from ...figures.offplane_history import History, lateral_histories
 from ...parts import L_0, T_I, Figure
 from ...parts.style import BLUE, INK, VERMILION
@@ -67,11 +67,11 @@ def _running(data: xarray.Dataset, labels: dict[str, str]) -> list[Panel]:
     for curve in full_curves:
         begin = curve.x <= first
         early.append(curve._replace(x=curve.x[begin], y=curve.y[begin]))
-    limits = {"ylim": settled([curve.y for curve in early]), "xmargin": 0.01}
+    limits = settled([curve.y for curve in early])
     x_label, sigma = r"$t/T_i$ (wave periods)", r"$\sigma_m$ (bits per wave period)"
-    panels = [Panel(early, x_label, sigma, level=0.0, settings=limits)]
+    panels = [Panel(early, x_label, sigma, level=0.0, settings={"xmargin": 0.01}, ylim=limits)]
     if longest > 1.5 * first:
-        later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, {"xlim": (10.0, longest)})
+        later = Panel(full_curves, x_label, "", "whole record, logarithmic", "x", 0.0, xlim=(10.0, longest))
         panels = [panels[0]._replace(title=f"first {first:.0f} wave periods"), later]
     return panels
 
@@ -92,8 +92,8 @@ def sections(data: xarray.Dataset, kind: str) -> Figure:
     panels = []
     for name, (title, *axes) in PANELS.items():
         x, y = data[f"{name}_displacement"].values, data[f"{name}_velocity"].values
-        dots = Curve(x, y, line="", mark=".", colour=INK, size=_size_of_dots(len(x)), pixels=True)
-        panels.append(Panel([dots], *axes, title, marks=[(0.0, "")]))
+        strobed = dots(x, y, ".", INK, _size_of_dots(len(x)), pixels=True)
+        panels.append(Panel([strobed], *axes, title, marks=[(0.0, "")]))
     return Figure(curves([panels], 3.6, kind=kind), caption, f"Two scatter plots of strobed motion: {seen}.")
 
 

@@ -8,8 +8,7 @@ from operator import itemgetter
 
 from tables import EMPTY, OUTCOMES, UNSETTLED, number, number_of, percent
 
-from ..parts import Folder, Heading, Items, Table, Text, heads, part_of, plus_minus, table_of
-from .quantities import in_order
+from ..parts import Folder, Heading, Items, Table, Text, heads, in_order, plus_minus, table_of
 
 _METHOD = (
     "At each value the motion starts from rest, from kicks of the buoy and from the motions of its neighbours. A start "
@@ -25,10 +24,7 @@ _ENDS = (
 
 def ends_of(folder: Folder, key: str) -> list[dict]:
     """The ends of ranges that were found, by motion and value."""
-    part = part_of(folder, "ends")
-    if part is None:
-        return []
-    return sorted(part.completed, key=lambda row: (row["motion"], row[f"{key}_with"]))
+    return sorted(folder.part("ends").completed, key=lambda row: (row["motion"], row[f"{key}_with"]))
 
 
 def place_of(end: dict, key: str) -> float:
@@ -39,15 +35,15 @@ def place_of(end: dict, key: str) -> float:
 
 def every_motion(folder: Folder, key: str, title: str) -> Items:
     """The section of starts and ends; nothing where there are no tables of them. key, title: of the varied column."""
-    ends, starts = ends_of(folder, key), part_of(folder, "starts")
-    if not ends and starts is None:
+    ends, starts = ends_of(folder, key), folder.part("starts").table
+    if not ends and not starts:
         return
     yield Heading("Every motion")
     yield Text(_METHOD)
     if ends:
-        yield _ends_table(part_of(folder, "ends"), ends, key)
-    if starts is not None:
-        yield _starts_table(starts.table, key, title)
+        yield _ends_table(folder.part("ends"), ends, key)
+    if starts:
+        yield _starts_table(starts, key, title)
 
 
 def _ends_table(part: Folder, ends: list[dict], key: str) -> Table:

@@ -9,9 +9,9 @@ from engine.views import snaps_of
 from tables import PEAK, Column, number, number_of
 
 from ..figures.curves import Curve, Panel, curves
-from ..parts import Figure, Folder, Heading, Items, Picture
+from ..figures.quantities import colours_of
+from ..parts import Figure, Folder, Heading, Items, Picture, in_order
 from ..parts.style import BLUE
-from .quantities import colours_of, in_order
 
 SHOWN_PERIODS = 12.0  # of the histories: motions of period 2, 3, 4 and 6 are seen to repeat
 
@@ -118,8 +118,7 @@ def exceedance(motions: Sequence[SnappingMotion]) -> Picture:
         across, up = larger_a_wave(motion.peaks_kN, motion.waves)
         lines.append(Curve(across, up, motion.letter, colour=motion.colour, width=1.2))
     largest = max(float(motion.peaks_kN.max(initial=0.0)) for motion in motions)
-    limits = {"xlim": (0.0, 1.05 * largest)}
-    panel = Panel(lines, "peak of a snap (kN)", "snaps a wave that are larger", log="y", settings=limits)
+    panel = Panel(lines, "peak of a snap (kN)", "snaps a wave that are larger", log="y", xlim=(0.0, 1.05 * largest))
     return curves([[panel]], 2.6, "lower left")
 
 
@@ -143,5 +142,5 @@ def tension_histories(motions: Sequence[SnappingMotion], static_kN: float) -> Pi
         ends = np.column_stack([motion.low_kN, motion.high_kN]).ravel()
         label = "$t/T_i$ (wave periods)" if place == len(motions) else ""
         line = Curve(times, ends, colour=motion.colour, width=0.8)
-        rows.append([Panel([line], label, "$T$ (kN)", motion.title, level=static_kN, settings={"ylim": limits})])
+        rows.append([Panel([line], label, "$T$ (kN)", motion.title, level=static_kN, ylim=limits)])
     return curves(rows, 0.5 + 1.15 * len(rows), share="x")

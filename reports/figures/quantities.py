@@ -1,15 +1,15 @@
-"""What a table measures, as a report draws it: its numbers with their errors, least and greatest values together."""
+"""What a table measures, as a report draws it: its numbers with their errors over a key, and the colours of motions."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import cycle
 
 import numpy as np
 
-from tables import EMPTY, PEAK, Column, errors_of, number, number_of
+from tables import PEAK, Column, errors_of, number_of
 
-from ..figures.curves import COLOURS, Curve, Panel, curves
-from ..parts import Folder, Picture, Row, Table, heads, series, shown_on, table_of
+from ..parts import Picture, Row, batched, in_order, series
 from ..parts.style import BLUE, BROWN, GREEN, INK, PLUM, SOFT, VERMILION
+from .curves import COLOURS, Panel, curves, dots
 
 PER_ROW = 2
 # of all motions but that of the largest tension; dark ones, because the page makes dark colours light on a dark screen
@@ -65,24 +65,10 @@ def colours_of(rows: Sequence[Row]) -> dict[str, str]:
     return colours
 
 
-def in_order(rows: Iterable[Row], keys: Sequence[str]) -> list:
-    """The rows of a table by their keys, then by motion."""
-
-    def place(row: Row) -> list:
-        return [row[name] for name in keys] + [row.get("motion") or ""]
-
-    return sorted(rows, key=place)
-
-
 def over_key(rows: Sequence[Row], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]) -> Picture:
     """`panels_over` as one picture."""
     grid = batched(panels_over(rows, key, shown, motions), PER_ROW)
     return curves(grid, 0.6 + 1.7 * len(grid), "best")
-
-
-def batched(items: Sequence, size: int) -> list[Sequence]:
-    """The items in their order, `size` of them at a time."""
-    return [items[first : first + size] for first in range(0, len(items), size)]
 
 
 def panels_over(rows: Sequence[Row], key: Column, shown: Sequence[Measured], motions: Mapping[str, str]) -> list[Panel]:
@@ -113,52 +99,9 @@ def panels_over(rows: Sequence[Row], key: Column, shown: Sequence[Measured], mot
                     title = name
                 points, crosses = (letters == letter) & completed, (letters == letter) & ~completed
                 error_bars = None if bars is None else bars[points]
-                lines.append(Curve(x[points], y[points], title, "", mark, curve_colour, error_bars, 3.0))
-                lines.append(Curve(x[crosses], y[crosses], "", "", "x", curve_colour, size=5.0))
+                lines.append(dots(x[points], y[points], mark, curve_colour, 3.0, name=title, error=error_bars))
+                lines.append(dots(x[crosses], y[crosses], "x", curve_colour, 5.0))
         last_column, _ = pairs[-1]
         label = ", ".join([*names[:-1], last_column.label])  # the unit once, at the end
         panels.append(Panel(lines, key.label, label, level=level))
     return panels
-
-
-def extremes(keys: Sequence[Column], rows: Sequence[Row], shown: Iterable[Column], caption: str) -> list[Table]:
-    """The least and the greatest value of every quantity, and where; nothing where no run has one."""
-    cells = []
-    for column in shown:
-        values = series(rows, column.name)
-        if not np.isfinite(values).any():
-            continue
-        line = [column.meaning or column.head, column.unit or EMPTY]
-        for row in (rows[int(np.nanargmin(values))], rows[int(np.nanargmax(values))]):
-            line += [column.cell(row), at(keys, row)]
-        cells.append(line)
-    columns = heads("quantity", "unit", ("least", ""), "at", ("greatest", ""), "at")
-    if not cells:
-        return []
-    return [Table(columns, cells, caption)]
-
-
-def at(keys: Sequence[Column], row: Row) -> str:
-    """Where a row stands: "H = 21 m, kA = 0.1"; with the letter of its motion, where keys have that: "motion B"."""
-    parts = []
-    for key in keys:
-        if key.digits is None:
-            parts.append(f"{key.head} {row[key.name]}")
-        else:
-            parts.append(f"{key.head} = {number(float(row[key.name]))} {key.unit}".strip())
-    return ", ".join(parts)
-
-
-def filled_table(
-    part: Folder | None, caption: str, names: Iterable[str] = (), own_cells: Mapping[str, Callable] | None = None
-) -> list[Table]:
-    """The table of a part of a folder, with those of the named columns (all, but for the key of a run) that say
-    something in some row; nothing without a part."""
-    if part is None:
-        return []
-    filled = []
-    for name in names or shown_on(part.columns, part.table):
-        entries = [row.get(name, "") for row in part.table]
-        if name != "run_key" and any(entry not in ("", 0.0) and entry == entry for entry in entries):  # nan is not
-            filled.append(name)
-    return [table_of(part.columns, filled, part.table, caption, own_cells)]
