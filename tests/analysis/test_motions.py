@@ -14,6 +14,12 @@ def of_map(orbit):
     return settled(orbit, orbit[:-1], scale=np.ones(orbit.shape[1]))
 
 
+def motion_at(*states, period=1):
+    """Settled at these states, whose measures are all 1."""
+    points = np.reshape(states, (len(states), -1))
+    return Settled(period, points, np.ones((len(points), 1)), np.ones(1), "")
+
+
 def test_every_start_is_put_to_its_motion():
     """Duffing's two wells at force .26 have a period 1 each, and both of them a period 5. Who joins is right later."""
     orbits, extremes = wells(np.random.default_rng(1).uniform(-1.5, 1.5, (40, 2)), PERIODS)
@@ -68,18 +74,17 @@ def test_a_cloud_that_moves_or_is_too_short_has_not_settled():
 
 
 def test_an_orbit_is_joined_in_its_order_only():
-    points = np.array([[0.0], [1.0], [3.0]])
-    known = [Settled(3, points, points, np.ones(1), "")]
-    x = np.tile(points, (6, 1))
+    known = [motion_at(0.0, 1.0, 3.0, period=3)]
+    x, ones = np.tile(known[0].points, (6, 1)), np.ones((17, 1))
     for start in range(3):
-        assert joins(x[start:], x[start:-1], known) == 0
-    assert joins(x[::-1], x[::-1][1:], known) is None
-    assert joins(x[:5], x[:4], known) is None
+        assert joins(x[start:], ones[start:], known) == 0
+    assert joins(x[::-1], ones, known) is None
+    assert joins(x[:5], ones[:4], known) is None
 
 
 def test_motions_are_matched_by_least_distance_in_all():
     def at(*values):
-        return [Settled(1, np.array([[v]]), np.array([[1.0]]), np.ones(1), "") for v in values]
+        return [motion_at(value) for value in values]
 
     assert distance(*at(0.2, 0.5)) == pytest.approx(0.3)
     assert matched(at(0.0, 0.4), at(0.25, 0.65)) == [0, 1]
@@ -89,20 +94,17 @@ def test_motions_are_matched_by_least_distance_in_all():
 
 
 def test_a_cloud_that_lies_within_another_is_the_same_motion_and_an_orbit_within_it_is_not():
-    def placed(period, points):
-        return Settled(period, points, np.ones((len(points), 1)), np.ones(1), "")
-
-    line = np.linspace(0.0, 1.0, 201)[:, None]
-    assert distance(placed(None, line), placed(None, line[:100])) == 0.0
-    assert distance(placed(None, line), placed(1, line[:1])) == pytest.approx(0.5, abs=0.01)
+    line = np.linspace(0.0, 1.0, 201)
+    cloud = motion_at(*line, period=None)
+    assert distance(cloud, motion_at(*line[:100], period=None)) == 0.0
+    assert distance(cloud, motion_at(0.0)) == pytest.approx(0.5, abs=0.01)
 
 
 @pytest.mark.parametrize(("limit", "reached"), [(0.01, 0), (0.05, None)])
 def test_a_decay_is_joined_where_its_geometric_limit_is_the_orbit(limit, reached):
     """Three windows of a dozen periods, at distances of limit + 0.4, limit + 0.2 and limit + 0.1."""
-    orbit = [Settled(1, np.zeros((1, 1)), np.ones((1, 1)), np.ones(1), "")]
     x = np.append(np.repeat(limit + np.array([0.4, 0.2, 0.1]), 12), limit + 0.1)[:, None]
-    assert joins(x, np.ones((36, 1)), orbit) == reached
+    assert joins(x, np.ones((36, 1)), [motion_at(0.0)]) == reached
 
 
 @pytest.mark.parametrize(("confidence", "z"), [(0.95, 1.959964), (0.99, 2.575829)])

@@ -166,6 +166,12 @@ def test_a_table_that_does_not_fit_leaves_the_old_one(sweep, monkeypatch):
     assert (code, rows_left) == (1, rows)
 
 
+def plan_of(folder, engine, jobs=2):
+    """Of runs that share workers."""
+    describe = partial(buoy_row, judgement=Judgement(2))
+    return Plan(Running(folder, jobs, "loky"), engine, describe, COLUMNS, simulate_each=engine.each)
+
+
 LATER = [0.04, 0.06, 0.07, 0.09]
 
 
@@ -176,8 +182,7 @@ def test_workers_that_would_wait_do_runs_of_a_later_step_which_begins_none_of_th
     (tmp_path / "trajectories").mkdir()
     failing = {accident: (0.06,)} if accident else {}
     engine = FakeEngine(log=str(tmp_path / "log"), sleep_s=0.3, **failing)
-    describe = partial(buoy_row, judgement=Judgement(2))
-    plan = Plan(Running(tmp_path, 2, "loky"), engine, describe, COLUMNS, simulate_each=engine.each)
+    plan = plan_of(tmp_path, engine)
     for job in jobs_of(LATER):
         plan.spare.extend(spare_groups(plan, tmp_path / "later", [job]))
     summary = run_campaign(plan, jobs_of(FIVE))
@@ -205,9 +210,7 @@ def side_by_side(tmp_path):
         log = tmp_path / "log"
         log.unlink(missing_ok=True)
         engine = FakeEngine(log=str(log), **fake)
-        running, describe = Running(tmp_path, jobs, "loky"), partial(buoy_row, judgement=Judgement(2))
-        plan = Plan(running, engine, describe, COLUMNS, simulate_each=engine.each)
-        return run_campaign(plan, jobs_of(EIGHT)), engine.begun()
+        return run_campaign(plan_of(tmp_path, engine, jobs), jobs_of(EIGHT)), engine.begun()
 
     run.out = tmp_path
     return run

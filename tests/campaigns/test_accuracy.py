@@ -2,6 +2,7 @@
 facts of its report follow the tables."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -107,7 +108,10 @@ def test_other_codes_run_beside_the_middle_round_of_ours():
 
 
 @pytest.mark.slow
-def test_every_integrator_shows_its_order_on_a_smooth_work_of_the_engine(tmp_path):
+def test_every_integrator_shows_its_order_on_a_smooth_work_of_the_engine(tmp_path, monkeypatch):
+    """Orders are read from differences of neighbours in a series, which need no reference."""
+    series_alone = replace(BY_NAME["pendulum"], duration_s=2.0, reference=None, checks=(), timed=False)
+    monkeypatch.setitem(BY_NAME, "pendulum", series_alone)
     out = tmp_path / "out"
     words = ["--works", "pendulum", "--quick", "--no-peers", "--no-report"]
     assert accuracy.main([*words, "--out", str(out)]) == 0

@@ -1,5 +1,8 @@
 """What an answer says was checked of a load follows from the row and from the scene; so does why nothing is judged."""
 
+import tomllib
+from pathlib import Path
+
 import pytest
 
 from campaigns.explore.answer import sentences
@@ -8,19 +11,8 @@ from engine import load_scene
 from tables import OTHER_MOTION
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
-KNOWN = {
-    "grid and steps": {"tension_top_max_error_N": 30.0},
-    "loops": {"loop_releases": 0},
-    "wetted buoy": {"max_buoy_height_above_water_m": 0.1},
-    "settled": {"regime": "period-1"},
-    "out of the plane": {"dimensions": 3},
-}
-IN_SCENE = {
-    "sea bed": {"floor.stiffness_Npm3": 1e4},
-    "wetted buoy": {"buoy.submergence": "spherical-cap"},
-    "out of the plane": {"motion.dimensions": 3, "tether.bending_stiffness_Nm2": 0.4},
-}
-PULLS = {"status": "ok", "tension_top_max_N": 1000.0, "steepness": 0.1, "end_time_s": 360.0}
+LOAD = tomllib.loads(Path(__file__).with_name("answers.toml").read_text(encoding="utf-8"))["load"]
+PULLS, KNOWN, IN_SCENE = LOAD["row"], LOAD["known"], LOAD["in_scene"]
 
 
 def checked(row, scene, searched=False) -> tuple[str, str]:

@@ -4,7 +4,6 @@ A mistake (mistakes.toml) gets exit code 2, no traceback, and nothing is written
 """
 
 import importlib
-import json
 import tomllib
 from itertools import product
 from pathlib import Path
@@ -25,25 +24,6 @@ from tests.pages import ROOT
 from tests.processes import python
 
 HEAVY = {"numpy", "numba", "pandas", "scipy", "pydantic", "joblib", "matplotlib", "dask", "hypothesis", "typst"}
-SERIES = "--column --time --step --period --tolerance --out"
-HELPS = {  # what each tells
-    "analysis": SERIES,
-    "engine": "--set --periods --duration --out",
-    "reports": "folder of a finished campaign",
-    "campaigns.time_series": SERIES,
-    "campaigns.buoy_sweep": "--steepness --steepness-range --periods --transient --scene --set --jobs --backend "
-    "loky|threading|dask --out --no-report [--",
-    "campaigns.accuracy": "--works",
-    "campaigns.orbits": "--vary --values --start-from --motion --orbits --branches --no-accuracy",
-    "campaigns.basins": "--across --grid --kick-speed --displacement --seed",
-    "campaigns.regime_map": "--vary --pages --starts --refine --budget --cut --screen",
-    "campaigns.oscillator": "--effort",
-    "campaigns.out_of_plane": "--periods",
-    "campaigns.sea": "--vary --seeds --starts --hours --distance --breaking-load --no-regular",
-    "campaigns.stability": "--drift-periods",
-    "campaigns.sweep": "--vary",
-    "campaigns.validation": "--only --quick",
-}
 ASKED = """
 import contextlib, runpy, sys
 for name in sys.argv[1:]:
@@ -63,6 +43,8 @@ for words in sys.argv[1:]:
         print(end.code, "loaded:", *sys.modules, end="\f")
 """
 MISTAKES = tomllib.loads(Path(__file__).with_name("mistakes.toml").read_text(encoding="utf-8"))
+TABLES = tomllib.loads(Path(__file__).with_name("commands.toml").read_text(encoding="utf-8"))
+HELPS = TABLES["helps"]
 ROWS = [f"{0.1 * k:.3f},{np.sin(k):.6f}" for k in range(300)]
 
 
@@ -74,18 +56,9 @@ def changed(row, text):
     return table([*ROWS[:row], text, *ROWS[row + 1 :]])
 
 
-FILES = {
-    "comma.toml": 'name = "mine"\n[tether]\nlength_m = 20,5\n',
-    "bracket.toml": "[tether\nlength_m = 20\n",
-    "text.toml": 'name = "mine"\n[water]\ndepth_m = "21,6"\ndensity_kgpm3 = "1027 kg"\n',
+FILES = TABLES["files"] | {
     "utf16.toml": 'name = "mine"\n'.encode("utf-16"),
     "latin1.toml": '# Schäkel\nname = "mine"\n'.encode("latin-1"),
-    "own/scene.toml": 'name = "mine"\n',
-    "a_file": "mine",
-    "old/provenance.json": json.dumps({"campaign": "breaking_line"}),
-    "broken/provenance.json": "not json",
-    "mine/table.csv": "my,own,table\n",
-    "part/table.csv": "steepness\n0.1\n",
     "nan.csv": changed(7, "0.700,nan"),
     "gap.csv": changed(7, "0.700,"),
     "word.csv": changed(7, "0.700,broken"),
@@ -107,11 +80,6 @@ FILES = {
     "blank.csv": "t x\n" + "\0" * 500,
     "kept/series.csv": table(ROWS),
     "whole/series.csv": table(ROWS),
-    "whole/provenance.json": json.dumps({"campaign": "time_series"}),
-    "nothing.csv": "",
-    "no_row.csv": "time_s,elevation_m\n",
-    "one_column.csv": "time_s\n0\n1\n",
-    "nan_gauge.csv": "time_s,elevation_m\n0,0.1\n1,nan\n2,0.1\n",
     "image.csv": bytes(range(128, 256)),
     "latin1.csv": "t,höhe\n".encode("latin-1"),
     "table.xlsx": b"PK\x03\x04 and more",
@@ -197,13 +165,20 @@ def test_the_list_of_campaigns_is_no_mistake(capsys, words):
     assert "buoy_sweep     Sweep of wave steepness" in printed and "sweep          Sweep of any number" in printed
 
 
-@pytest.fixture
-def place(tmp_path, monkeypatch):
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """The folder of FILES, to which no mistake adds anything."""
+    folder = tmp_path_factory.mktemp("files")
     for name, text in FILES.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+    return folder
+
+
+@pytest.fixture
+def place(files, monkeypatch):
+    monkeypatch.chdir(files)
+    return files
 
 
 def listing(place):

@@ -34,7 +34,7 @@ def doubles(line, value):
     return {"reason": "", "value": 2.0 * value}, [np.array([[value]])]
 
 
-def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
+def test_a_result_is_kept_under_a_key_of_all_that_it_rests_on(tmp_path):
     scene = load_scene("tethered_buoy", {"tether.nodes": 9})
     line = Line(Scenes(scene, key_of("waves.steepness")), 0.1, 0.2, 0.1, Digest(), 0.1)
     plan = Plan(Running(tmp_path, 1, "threading"), None, None, ())
@@ -46,9 +46,6 @@ def test_a_result_is_kept_and_a_damaged_one_made_again(tmp_path, capsys):
 
     assert result_of(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 0)
     assert result_of(task) == (({"reason": "", "value": 0.6}, [[[0.3]]]), 1)
-    path = tmp_path / "kept" / f"{task.key}.json"
-    path.write_bytes(path.read_bytes()[:-7])
-    assert result_of(task)[1] == 0 and "damaged; made again" in capsys.readouterr().err
     assert result_of(line_task(loops, line, (0.3,))) == (({"reason": "a loop is released"}, []), 0)
     lines = [replace(line, **{name: 0.15}) for name in ("low", "high", "size", "value", "rtol")]
     lines += [replace(line, nodes=17), replace(line, scenes=Scenes(finer(scene, 2), line.scenes.key))]

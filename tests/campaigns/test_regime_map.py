@@ -1,5 +1,7 @@
 """`campaigns.regime_map`: cells and their borders on a system of known folds; a command whose runs may fail; cuts."""
 
+import tomllib
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,7 +16,7 @@ from campaigns.regime_map.tables import _cell
 from engine import load_scene
 from reports.parts.content import Notice
 from reports.regime_map.report import report
-from tables import FAILED, STATUS, Column, write_table
+from tables import STATUS, Column, write_table
 from tests.campaigns.conftest import finished, order_of, ran, rows_of, untimed
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
 from tests.campaigns.fake_engine import FakeEngine
@@ -99,45 +101,12 @@ def test_a_cell_has_the_largest_exponent_and_tension_of_its_motions():
     assert (cell["exponent_max_per_period"], cell["tension_top_max_N"], cell["share_of_largest"]) == (0.31, 9.0, 1 / 6)
 
 
-CELL = {"level": 0, "source": "computed", "motions": 2, "regime_rest": "period-1", "tension_over_static": 3.0}
-
-
 def test_the_answer_counts_cells_of_the_coarse_grid_and_names_the_largest_tension_with_its_kicks():
-    """Of four cells one is chaotic from rest, two are in some motion; parts of one of them are no further cells."""
-    cells, motions = [], []
-    for place, regimes in enumerate((("period-1",), ("chaotic",), ("period-2", "chaotic"), ("undecided",))):
-        key = {"waves.steepness": 0.1 * place}
-        counted = {"motions": 3 if place == 1 else 2}
-        cells.append(CELL | key | counted | {"regime_rest": regimes[0], "tension_top_max_N": 1e3 * place})
-        for number, regime in enumerate(regimes):
-            pull_N = 1e3 * place * (1 - 0.5 * number)
-            motions.append(key | {"level": 0, "regime": regime, "tension_top_max_N": pull_N, "share": 0.25, "kicks": 8})
-    for part in range(4):
-        motions.append({"waves.steepness": 0.21 + 0.01 * part, "level": 1, "regime": "chaotic"})
+    tables = tomllib.loads(Path(__file__).with_name("answers.toml").read_text(encoding="utf-8"))["map"]
     keys = grid("waves.steepness 0 0.3 4").columns
-    lines = list(sentences(cells, motions, keys, lambda row: load_scene("tethered_buoy")))
-    load, motions_of_map, starts = lines
-    pull = "largest tension 3 kN, 3 times that at rest, at kA = 0.3; 2 of 8 kicks there end in it."
-    assert load.startswith(f"LOAD     {pull}") and starts.startswith("STARTS")
-    assert (
-        "chaotic on 25 %, quasi-periodic on 0 % and periodic on 50 % of the map; 25 % is not decided" in motions_of_map
-    )
-    assert motions_of_map.endswith("Some motion is chaotic on 50 % of the map.")
-    assert "on 100 % of the map the start decides: up to 3 motions." in starts
-
-
-def test_the_answer_counts_cells_without_a_result_and_the_kicks_of_the_motion_that_pulls_hardest():
-    cells = [CELL | {"waves.steepness": 0.1, "tension_top_max_N": 2e3, "message": ""}]
-    for number in range(2):
-        cells.append({"level": 0, "waves.steepness": 0.2 + 0.1 * number, "source": FAILED, "regime_rest": ""})
-    motions = []
-    for pull_N, share in ((2e3, 0.5), (1e3, 0.25)):
-        motion = {"waves.steepness": 0.1, "level": 0, "regime": "period-1", "share": share, "kicks": 8}
-        motions.append(motion | {"tension_top_max_N": pull_N})
-    keys = grid("waves.steepness 0.1 0.3 3").columns
-    load, *_, failed = sentences(cells, motions, keys, lambda row: load_scene("tethered_buoy"))
-    assert "4 of 8 kicks there end in it" in load
-    assert failed.endswith("2 cells have no result; the column message of cells/table.csv says why.")
+    lines = sentences(tables["cells"], tables["motions"], keys, lambda row: load_scene("tethered_buoy"))
+    answer = "\n".join(lines)
+    assert all(words in answer for words in tables["words"]), answer
 
 
 @pytest.mark.parametrize(

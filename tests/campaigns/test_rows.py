@@ -30,6 +30,14 @@ def measured(scene, **run):
     return judged_row(sines(scene, PERIODS, **run), TRANSIENT)
 
 
+def row_from_rest(scene, **run):
+    """The row of a run that begins at rest, at its mean tension, which so is its static tension."""
+    trajectory = sines(scene, PERIODS, **run)
+    for name in ("radius_rate_mps", "angle_rate_radps"):
+        trajectory.columns[name][0] = 0.0
+    return judged_row(trajectory, TRANSIENT)
+
+
 def test_extremes_of_sines_and_those_of_tension_between_the_samples(scene):
     row = measured(scene)
     assert (row["radius_min_m"], row["radius_max_m"]) == pytest.approx((19.0, 21.0), abs=1e-12)
@@ -57,10 +65,7 @@ def test_the_rope_and_the_buoy_leave_the_plane_after_the_transient(scene):
 @pytest.mark.parametrize("mean", [2000.0, 500.0, 250.0, 0.0, -600.0])
 def test_slack_and_compression_of_a_sine(scene, mean):
     """500 sin lies below a level for acos(-level/500)/pi of the time; 100 samples a period, errors of second order."""
-    run = sines(scene, PERIODS, tension=(mean, 500.0))
-    for name in ("radius_rate_mps", "angle_rate_radps"):
-        run.columns[name][0] = 0.0  # it begins at rest, at the mean, which so is its static tension
-    row = judged_row(run, TRANSIENT)
+    row = row_from_rest(scene, tension=(mean, 500.0))
     for name, level in (("slack_fraction", max(0.05 * mean, 0.0)), ("compression_fraction", 0.0)):
         share = math.acos(max(-1.0, min((mean - level) / 500.0, 1.0))) / math.pi
         assert row[name] == pytest.approx(share, abs=1e-3)
@@ -68,10 +73,12 @@ def test_slack_and_compression_of_a_sine(scene, mean):
 
 @pytest.mark.parametrize(
     ("harmonic", "period"),
-    [(1.0, 1), (2.0, 1), (0.5, 2), (1.0 / 3.0, 3), (0.2, 5), (0.0, 1), ((math.sqrt(5.0) - 1.0) / 2.0, None)],
+    [(2.0, 1), (0.0, 1), ((math.sqrt(5.0) - 1.0) / 2.0, None)],
 )
-def test_a_subharmonic_of_the_wave_has_its_period_and_a_motion_that_never_repeats_none(scene, harmonic, period):
-    """A buoy at rest has period one; the golden ratio of frequencies never repeats."""
+def test_a_harmonic_of_the_wave_and_a_buoy_at_rest_have_period_1_and_a_motion_that_never_repeats_none(
+    scene, harmonic, period
+):
+    """The golden ratio of frequencies never repeats."""
     assert measured(scene, harmonic=harmonic)["strobed_period"] == period
 
 
@@ -137,10 +144,7 @@ def test_every_entry_has_a_column_and_the_public_ones_are_there(scene):
 @pytest.mark.parametrize(("harmonic", "period"), [(1.0, 1), (0.5, 2), (1.0 / 3.0, 3), (0.2, 5)])
 def test_snaps_a_wave_are_those_of_whole_periods_of_the_motion(scene, harmonic, period):
     """A sine of 1800 about 1000 N is slack once in its period, and then snaps to 2800 N."""
-    run = sines(scene, PERIODS, tension=(1000.0, 1800.0), harmonic=harmonic)
-    for name in ("radius_rate_mps", "angle_rate_radps"):
-        run.columns[name][0] = 0.0  # it begins at rest, at the mean, which so is its static tension
-    row = judged_row(run, TRANSIENT)
+    row = row_from_rest(scene, tension=(1000.0, 1800.0), harmonic=harmonic)
     assert row["strobed_period"] == period and row["snaps_per_wave"] == pytest.approx(1.0 / period, rel=1e-9)
     assert row["snap_peak_median_N"] == pytest.approx(2810.0, rel=1e-3)  # the steps of the fake see 10 N more
     assert row["snap_peak_max_N"] == pytest.approx(row["tension_top_max_N"], rel=1e-3)

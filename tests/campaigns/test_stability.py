@@ -3,7 +3,9 @@ statements of its report follow the tables, and a broken folder is refused."""
 
 import os
 import time
+import tomllib
 from functools import partial
+from pathlib import Path
 from types import SimpleNamespace
 
 import numba
@@ -183,16 +185,7 @@ def test_the_quick_campaign(tmp_path):
     assert stability.main(["--quick", "--no-report", "--out", str(tmp_path / "out")]) == 0
 
 
-OK = {"verdict": "ok", "run_status": "ok"}
-LIMIT = {"verdict": "known limit", "run_status": "newton-failed", "limit": "ill-posed in slack"}
-WAVE = {"group": "EA", "case": "EA = 50000 N, regular wave", **OK, "measured_tension": 1e-5, "stiffness_N": 5e4}
-CASES = [
-    {"group": "EI", "case": "soft", **OK, "measured": 1e-3, "bar": 0.02, "how": "refinement"},
-    {**WAVE, "how": "refinement", "newton_iterations": 800, "length_s": 15.0, "run_key": "wave"},
-    {"group": "EI", "case": "none", **LIMIT},
-    {"group": "input", "case": "two nodes", "verdict": "refused", "run_status": "refused", "message": "nodes: 2"},
-    {"group": "drift", "case": "1000 waves", **OK, "measured": 2e-9, "bar": 0.01, "wall_s": 3.0},
-]
+CASES = tomllib.loads(Path(__file__).with_name("judged_cases.toml").read_text(encoding="utf-8"))["cases"]
 
 
 def folder(place, judged=CASES):

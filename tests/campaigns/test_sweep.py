@@ -102,12 +102,6 @@ def test_a_sweep_of_steepness_has_the_rows_of_the_buoy_sweep(tmp_path, sweep):
         assert row.items() <= one.items()
 
 
-def test_whole_numbers_are_varied():
-    nodes = cases_of(*HELD, "--vary", "tether.nodes", 21, 30, 4)
-    assert [case.scene.tether.nodes for case in nodes] == [21, 24, 27, 30]
-    assert all(case.duration_s == 2.0 and case.periods is None for case in nodes)
-
-
 def test_a_long_sweep_of_a_buoy_carries_what_a_verdict_needs():
     (case, *_) = cases_of("--vary", "buoy.mass_kg", 1500, 1700, 2, "--periods", 210, "--transient", 70)
     assert case.scene.output.tangent_vectors == 1 and case.scene.output.lateral_growth

@@ -28,11 +28,11 @@ GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 def answered(tmp_path, values, step=None, *options):
     """answer.json of the command for a file of values, and of times where there is a step; it must end well."""
-    rows = ["x"] if step is None else ["t,x"]
-    rows += [f"{v:.15g}" if step is None else f"{k * step:.9g},{v:.15g}" for k, v in enumerate(values)]
+    table, time = pandas.DataFrame({"x": values}), []
+    if step is not None:
+        table["t"], time = step * np.arange(len(values)), ["--time", "t"]
     path, out = tmp_path / "series.csv", tmp_path / "out"
-    path.write_text("\n".join(rows) + "\n")
-    time = [] if step is None else ["--time", "t"]
+    table.to_csv(path, index=False)
     assert main([str(path), "--column", "x", *time, *options, "--out", str(out)]) == 0
     return json.loads((out / "answer.json").read_text())
 

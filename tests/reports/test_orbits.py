@@ -2,7 +2,9 @@
 
 import json
 import shutil
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +21,8 @@ from tests.reports.test_words_apart import crowded
 
 WORDS = ("branch", "kind", "motion", "begins", "ends", "leads_to", "found_by", "status", "message")
 SYMBOLS = {"steepness": "kA"}
-FOLD, FLIP = 0.06, 0.11  # at the fold the orbits are 21 m and the multiplier is 1
+TABLES = tomllib.loads(Path(__file__).with_name("orbits.toml").read_text(encoding="utf-8"))
+FOLD, FLIP = (event["steepness"] for event in TABLES["events"])  # at the fold orbits are 21 m, the multiplier is 1
 
 
 @pytest.fixture
@@ -42,26 +45,8 @@ def orbits(folder, tmp_path):
     place = folder_at(tmp_path / "orbits", rows=rows, columns=columns, **timing | {"campaign": "orbits", "vary": vary})
     (place / "answer.txt").write_text("Two branches.")
     (place / "strobes.csv").write_text("\n".join(strobes))
-    fold = usual | {
-        "branch": "1", "kind": "fold", "steepness": FOLD, "tension_top_max_N": 3000.0, "angle_rad": 0.0,
-        "error": 1e-4, "finer": FOLD, "leads_to": "",
-    }  # fmt: skip
-    flip = fold | {
-        "kind": "flip", "steepness": FLIP, "tension_top_max_N": 3000.0 + 5000.0 * np.sqrt(FLIP - FOLD),
-        "angle_rad": np.pi, "error": 9e-4, "finer": "", "leads_to": "2",
-    }  # fmt: skip
-    complete = usual | {
-        "branch": "1",
-        "begins": "reaches the end of the range, 0.15",
-        "ends": "meets the orbit of period 1",
-    }
-    failed = complete | {
-        "branch": "2",
-        "motion": "",
-        "ends": "at 0.15 no step above 0.001 succeeds: a loop is released",
-    }
     chosen = [rows[2], rows[11]]
-    for part, table in (("events", [fold, flip]), ("branches", [complete, failed]), ("orbits", chosen)):
+    for part, table in (TABLES | {"orbits": chosen}).items():
         write(place / part, table, columns_of(table, WORDS, SYMBOLS))
     for row in chosen:
         history = "time_s,radius_m,radius_rate_mps,tension_top_N\n0,21,0,100\n1,22,1,200\n2,21,0,100\n"

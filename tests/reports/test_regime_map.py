@@ -3,8 +3,10 @@
 import base64
 import json
 import re
+import tomllib
 import zlib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -34,12 +36,7 @@ SYMBOLS = {X: "kA", Y: "H", PAGE: "submergence"}
 NX, NY, WIDE, HIGH = 8, 6, 0.02, 0.7
 PERIOD_S = 5.0  # of the scene's waves
 BORDER = 0.116  # of chaos, in steepness: the cells on it are bisected
-# Machado, Oliveira and Fernandes, IEEE Trans. Vis. Comput. Graph. 15, 2009: linear RGB as three kinds of eyes see it
-BLIND = {
-    "protan": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
-    "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]],
-    "tritan": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
-}
+EYES = tomllib.loads(Path(__file__).with_name("eyes.toml").read_text(encoding="utf-8"))
 
 
 def cell(x, y, level, page=""):
@@ -149,12 +146,12 @@ def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
     assert picture.kind == "svg" and 0.0 < top < 1.0 - top - height, "numbers and a label stand below"
 
 
-@pytest.mark.parametrize("eyes", [*BLIND, None])
+@pytest.mark.parametrize("eyes", EYES)
 def test_regimes_are_told_apart_by_every_eye(eyes):
     """In CIELAB by 12 or more: five times what is just noticed."""
     colours = np.array([to_rgb(colour) for colour in {*MAP_PERIODS, *REGIME_COLOURS.values()}])
     linear = np.where(colours > 0.04045, ((colours + 0.055) / 1.055) ** 2.4, colours / 12.92)
-    seen = np.clip(linear @ np.transpose(BLIND.get(eyes, np.eye(3))), 0.0, 1.0)
+    seen = np.clip(linear @ np.transpose(EYES[eyes]), 0.0, 1.0)
     xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
     x, y, z = np.cbrt(seen @ np.transpose(xyz) / np.sum(xyz, axis=1)).T
     assert pdist(np.column_stack([116 * y, 500 * (x - y), 200 * (y - z)])).min() > 12.0

@@ -7,19 +7,9 @@ import pytest
 
 from campaigns import breaking_line
 from campaigns.breaking_line import CASES, LENGTHS_S
-from engine import load_scene, simulate
+from engine import Trajectory, load_scene
 from reports import build
 from tests.campaigns.conftest import built_twice, order_of, ran, rows_of
-
-
-def failing(scene, periods=None, duration_s=None):
-    """A simulation that fails in its own way in three of the cases."""
-    force = round(scene.end.force_N[0])
-    if force == 180_000:
-        raise ZeroDivisionError("a fault of the code")
-    if force == 315_000:
-        return replace(simulate(scene, duration_s=0.01), status="newton-failed", message="no convergence")
-    return simulate(scene, duration_s=duration_s)
 
 
 def made(place, *words, simulate=None):
@@ -27,6 +17,22 @@ def made(place, *words, simulate=None):
     coarse = ["tether.nodes=101"] if "--set" in words else ["--set", "tether.nodes=101"]
     ran(breaking_line, place, "--no-companions", "--cases", *words, *coarse, simulate=simulate)
     return place
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    return made(tmp_path_factory.mktemp("break"), "1", "4", "1p", "4p")
+
+
+@pytest.fixture(scope="module")
+def rows(study):
+    return {row["case"]: row for row in rows_of(study)}
+
+
+@pytest.fixture(scope="module")
+def run_1(study, rows):
+    """The run of case 1."""
+    return Trajectory.load(study / "trajectories" / f"{rows['1']['run_key']}.nc")
 
 
 def runs_of(*words):
@@ -52,12 +58,11 @@ def test_no_argument_is_the_papers_study():
 
 
 @pytest.mark.slow
-def test_both_ends_start_at_one_level():
-    scene = runs_of("--cases", "1", "--no-companions")[0].scene
+def test_both_ends_start_at_one_level(run_1):
     weight_N = 1140.0 * 1.964e-3 * 9.81 * 60.0
-    assert scene.end.force_N[2] == pytest.approx(0.5 * weight_N)
-    profiles = simulate(scene, duration_s=0.002).profiles
-    assert abs(profiles.z_m[0, -1]) < 1e-3 * abs(profiles.z_m[0]).max()
+    assert run_1.scene.end.force_N[2] == pytest.approx(0.5 * weight_N)
+    z_m = run_1.profiles.z_m[0]
+    assert abs(z_m[-1]) < 1e-3 * abs(z_m).max()
 
 
 def test_a_law_without_theory_has_no_straight_lines():
@@ -66,9 +71,8 @@ def test_a_law_without_theory_has_no_straight_lines():
 
 
 @pytest.mark.slow
-def test_rows(tmp_path):
-    rows = {row["case"]: row for row in rows_of(made(tmp_path, "1", "4p"))}
-    assert list(rows) == ["1", "4p"] and all(row["status"] == "ok" for row in rows.values())
+def test_rows(rows):
+    assert list(rows) == ["1", "4", "1p", "4p"] and all(row["status"] == "ok" for row in rows.values())
     assert float(rows["1"]["end_speed_mps"]) == pytest.approx(43.16, rel=0.003)
     assert float(rows["4p"]["shock_birth_theory_m"]) == pytest.approx(39.32, abs=0.01)
     assert rows["1"]["shock_birth_theory_m"] == rows["1"]["shock_birth_m"] == ""
@@ -81,7 +85,17 @@ def test_rows(tmp_path):
 
 
 @pytest.mark.slow
-def test_failures_are_rows_with_reasons(tmp_path, capsys):
+def test_failures_are_rows_with_reasons(run_1, tmp_path, capsys):
+    """Of three cases the first runs, the second breaks the code, and the third ends early."""
+
+    def failing(scene, periods=None, duration_s=None):
+        force_N = round(scene.end.force_N[0])
+        if force_N == 180_000:
+            raise ZeroDivisionError("a fault of the code")
+        if force_N == 315_000:
+            return replace(run_1, scene=scene, status="newton-failed", message="no convergence")
+        return run_1
+
     rows = {row["case"]: row for row in rows_of(made(tmp_path, "1", "2", "3", simulate=failing))}
     assert rows["1"]["status"] == "ok"
     assert rows["3"]["status"] == "newton-failed" and rows["3"]["message"] == "no convergence"
@@ -98,11 +112,6 @@ def test_the_shipped_scene_is_case_4():
     assert shipped.end.force_N[2] == pytest.approx(case.scene.end.force_N[2], rel=1e-6)
     assert shipped.end.force_decay_s == case.scene.end.force_decay_s
     assert shipped.tether == case.scene.tether and shipped.solver == case.scene.solver
-
-
-@pytest.fixture(scope="module")
-def study(tmp_path_factory):
-    return made(tmp_path_factory.mktemp("break"), "1", "4", "1p", "4p")
 
 
 def text_of(folder):
@@ -126,10 +135,13 @@ def test_the_papers_figures_its_statements_and_the_animation_are_there(study):
 
 
 @pytest.mark.slow
-def test_without_profiles_energies_or_theory_a_report_is_made(tmp_path):
+def test_without_profiles_energies_or_theory_a_report_is_made(run_1, tmp_path):
+    def bare_run(scene, periods=None, duration_s=None):
+        return replace(run_1, scene=scene, profiles=None, energy=None)
+
     bare = ["output.profiles=false", "output.profiles_step_s=none", "output.energy=false"]
     linear = "tether.tension={law='linear', stiffness_N=2e6}"
-    folder = made(tmp_path, "1", "--set", linear, *bare)
+    folder = made(tmp_path, "1", "--set", linear, *bare, simulate=bare_run)
     text = text_of(folder)
     assert "motion of a breaking line" not in text and "Energy at the end" not in text
     assert not (folder / "exact.nc").exists()
