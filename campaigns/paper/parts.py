@@ -80,7 +80,7 @@ _LONG = ("--periods", "8000", "--transient", "200", "--evidence", "full")  # the
 _GRIDS = ("--vary", "waves.steepness", "0.016", "0.13", "2", "--vary", "tether.nodes", "41", "81", "2")
 _SHORT = ("--periods", "60", "--transient", "10", "--no-accuracy")
 CAMPAIGNS = {  # part -> its command; the words of its command line, those of --quick
-    "breaking_line": ("campaigns.breaking_line", (), ("--no-companions", "--set", "tether.nodes=401")),
+    "breaking_line": ("campaigns.breaking_line", (), ("--no-companions", "--set", "tether.nodes=201")),
     "buoy": ("campaigns.buoy_sweep", (*_TWO, *_LONG), (*_TWO, *_SHORT)),
     "doubled": ("campaigns.sweep", (*_GRIDS, "--periods", "135"), (*_GRIDS, "--periods", "60")),
     "sweep": ("campaigns.buoy_sweep", ("--no-accuracy",), ("--steepness-range", "0.016", "0.13", "6", *_SHORT)),
