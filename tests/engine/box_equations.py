@@ -38,13 +38,8 @@ def tension(law, eps):
         p1, p2, p3, p4, p5 = law.p
         return p1 * np.tanh(p2 * eps + p3) + p4 + p5 * eps
     pieces = PchipInterpolator(law.strain, law.tension_N)
-    knots = np.asarray(law.strain)
-    inside = np.clip(eps.real, knots[0], knots[-1])
-    at = np.clip(np.searchsorted(knots, inside, side="right") - 1, 0, len(knots) - 2)
-    outside = eps.real != inside
-    d = np.where(outside, inside, eps) - knots[at]
-    value = sum(pieces.c[i, at] * d ** (3 - i) for i in range(4))
-    return np.where(outside, value + pieces.derivative()(inside) * (eps - inside), value)
+    at = np.clip(eps.real, law.strain[0], law.strain[-1])
+    return pieces(at) + pieces.derivative()(at) * (eps - at)  # a complex step, or the way along an end tangent
 
 
 def stretched(x):
@@ -108,8 +103,7 @@ def buoy_of(scene):
 def lifted(Y):
     """State (n, 13) of one in the plane (n, 6): t = (cos phi, 0, sin phi), n = (-sin phi, 0, cos phi)."""
     out = np.zeros((len(Y), 13), Y.dtype)
-    for column, at in ((0, 0), (1, 1), (2, 3), (3, 5), (5, 12)):
-        out[:, at] = Y[:, column]
+    out[:, [0, 1, 3, 5, 12]] = Y[:, [0, 1, 2, 3, 5]]
     upright = np.zeros((len(Y), 4), Y.dtype)
     upright[:, 0], upright[:, 2] = np.cos(Y[:, 4] / 2), -np.sin(Y[:, 4] / 2)
     quarter = np.tile([math.sqrt(0.5), math.sqrt(0.5), 0.0, 0.0], (len(Y), 1))  # about x, from y to z

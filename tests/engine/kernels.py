@@ -93,13 +93,32 @@ class Stage:
         return dC
 
 
+class SeaLine:
+    """The water of a sea at the nodes of a line in a plane; its series goes on from call to call."""
+
+    def __init__(self, scene, nodes):
+        self.p, self.tables = parameters_of(scene)
+        self.series = np.zeros((nodes + 1, sea_series.WIDTH))
+
+    @property
+    def summed_s(self):
+        """Time of the last sum over all waves."""
+        return self.series[-1, 0]
+
+    def water(self, t, X, F=None, slopes=None):
+        """F (nodes, 4) at places X (nodes, 2), added to F; slopes (nodes, 8) are filled in."""
+        F = np.zeros((len(X), 4)) if F is None else F
+        sea_series.sea_in_plane(self.p, self.tables, t, X, F, slopes, self.series)
+        return F
+
+
 def waves_at(scene, t, X, background=0.0):
     """F (m, 4) or (m, 6) of the waves of a scene, at places X (m, 2) or (m, 3), added to `background`."""
     p, tables = parameters_of(scene)
     X = np.ascontiguousarray(X, float)
     F = np.full((len(X), 2 * X.shape[1]), background)
     if p["sea_n"] and X.shape[1] == 2:
-        sea_series.sea_in_plane(p, tables, t, X, F, None, np.zeros((len(X) + 1, sea_series.WIDTH)))
+        SeaLine(scene, len(X)).water(t, X, F)
     elif p["sea_n"]:
         sea_sum.sea_field(p, tables, t, X, F, np.zeros((len(X) + 1, sea_sum.WIDTH)))
     else:

@@ -15,6 +15,7 @@ from tests.engine.rotations import frames
 
 DRY = {"water": None, "waves": None}
 STILL = {"waves": None}
+SEA = {"waves.steepness": None, "waves.jonswap.significant_height_m": 1.6, "waves.jonswap.components": 20}
 SPACE = {"motion.dimensions": 3}
 QUIET = {"solver.newton_tolerance": 1e-14, "solver.max_newton_iterations": 50}  # stages solved to rounding
 WHOLE_STARTER_S = 1e-6  # of a run from a state out of equilibrium: its rates come from steps this short
@@ -29,6 +30,26 @@ def held(*place, **keys):
 def free(x=0.0, z=0.0):
     """Overrides for an upper end that carries the force (x, z), N."""
     return {"end": {"kind": "free", "force_N": [float(x), 0.0, float(z)]}, "buoy": None}
+
+
+def harmonic(amplitude_m, period_s, **keys):
+    """The motion of a held end that oscillates."""
+    return {"law": "harmonic", "amplitude_m": amplitude_m, "period_s": period_s, **keys}
+
+
+def by_table(time_s, displacement_m):
+    """The motion of a held end that passes these displacements."""
+    return {"law": "table", "time_s": time_s, "displacement_m": displacement_m}
+
+
+def uniform(u=0.0, v=0.0, w=0.0):
+    """Overrides for a uniform current, m/s."""
+    return {"current": {"law": "uniform", "velocity_mps": [u, v, w]}}
+
+
+def kick(u=0.0, v=0.0, w=0.0):
+    """Overrides for the velocity (m/s) with which the buoy starts."""
+    return {"start.buoy_velocity_mps": [u, v, w]}
 
 
 def line(*parts, **tether):

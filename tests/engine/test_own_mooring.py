@@ -25,11 +25,9 @@ def mooring(**changes):
     ("material", "diameter_mm", "quantity", "stated", "share"),
     [  # catalogues that are not among the sources of the table
         ("nylon", 25.4 * 1.5, "breaking_load_N", 47800 * LB_N, 0.1),  # Industrial Rope Supply, three strands, 1 1/2 in
-        ("nylon", 25.4 * 2.0, "breaking_load_N", 83000 * LB_N, 0.1),
         ("nylon", 25.4 * 3.0, "breaking_load_N", 180000 * LB_N, 0.1),
         ("polypropylene", 25.4 * 2.0, "breaking_load_N", 46800 * LB_N, 0.35),
         ("polyester", 20.0, "breaking_load_N", 70e3, 0.1),  # Robline, Rapallo
-        ("polyester", 24.0, "breaking_load_N", 102e3, 0.1),
         ("polyester", 28.0, "breaking_load_N", 135e3, 0.1),
         ("nylon", 25.4 * 2.0, "mass_kgpm", 95.0 * LB_PER_100FT_KGPM, 0.35),
         ("polypropylene", 25.4 * 2.0, "mass_kgpm", 69.0 * LB_PER_100FT_KGPM, 0.35),

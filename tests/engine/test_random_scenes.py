@@ -15,7 +15,7 @@ from engine.scene import build_scene
 from tests.engine.random_scenes import faults_of, invalid_scene, valid_scene
 
 LIMIT_S = 60.0
-SAMPLES, STEPS = 40, 1e4  # of a run at most; longest steps that it lasts at most, because the time is limited
+SAMPLES, STEPS = 40, 3e3  # of a run at most; longest steps that it lasts at most, because the time is limited
 CLEAR = re.compile(r"^.+: .*(allowed|unknown key|which law = .* does not have)", re.DOTALL)
 LONGEST_LINE = 400
 

@@ -3,7 +3,7 @@
 import pytest
 
 from engine import simulate
-from tests.engine.lines import line
+from tests.engine.lines import kick, line
 
 USUAL = {"tether.nodes": 5, "water.depth_m": 22.5, "waves.period_s": 6.0, "buoy.submergence": "spherical-cap"}
 
@@ -14,7 +14,7 @@ def message(significant_height_m, periods=2, **changes):
     return simulate(scene, periods=periods).message
 
 
-KICKED = {"start.buoy_velocity_mps": [0.0, 0.0, 4.0]}
+KICKED = kick(w=4.0)
 
 
 @pytest.mark.parametrize(

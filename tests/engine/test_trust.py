@@ -10,11 +10,13 @@ from engine.parameters.scales import jumps_of
 from engine.run import Run, companions, trust
 from engine.run.trust import blows, errors_of_ringing, unresolved
 from engine.trajectory.columns import columns_of
-from tests.engine.lines import DRY, STILL, held, line, linear, ran
+from tests.engine.lines import DRY, STILL, by_table, harmonic, held, kick, line, linear, ran
+from tests.engine.physics.caps import CAP
 
 RINGING_N, LENGTH_M, EA = 500.0, 20.0, 1e8
 TIMES = np.linspace(0.0, 4.0, 101)
 SLACK = held(8.0, -3.0)
+DEEP = STILL | {"water.depth_m": 60.0}  # the slack line hangs clear of the bed
 
 
 def away(ringing_N, stiffness_N):
@@ -25,7 +27,7 @@ def away(ringing_N, stiffness_N):
 def moved(displacement_m, times=TIMES):
     """Overrides of a taut dry held line whose upper end goes that way (n,) along the line."""
     rows = [[0.0, 0.0, float(z - displacement_m[0])] for z in displacement_m]
-    return held(0.0, 20.1, motion={"law": "table", "time_s": list(times), "displacement_m": rows}) | DRY
+    return held(0.0, 20.1, motion=by_table(list(times), rows)) | DRY
 
 
 @pytest.mark.parametrize("drag", [0.0, 20.0])
@@ -139,7 +141,7 @@ def test_a_slack_line_that_nothing_calms_is_told(overrides, warned):
 @pytest.mark.parametrize("drag_normal", [0.0, 1.0])
 def test_a_held_slack_line_that_no_drag_across_it_calms_is_told(drag_normal):
     """A short rope is eased by a quarter and pulled taut again, in water, with drag along it."""
-    eased = {"law": "table", "time_s": [0.0, 1.0, 2.0], "displacement_m": [[0.0] * 3, [-0.5, 0.0, -0.5], [0.0] * 3]}
+    eased = by_table([0.0, 1.0, 2.0], [[0.0] * 3, [-0.5, 0.0, -0.5], [0.0] * 3])
     rope = {"tether.length_m": 3.0, "tether.drag_normal": drag_normal, "tether.drag_tangential": 0.2}
     scene = line(STILL, held(2.0, 2.25, motion=eased), rope, nodes=41, tension=linear(1e5))
     assert ("nor damping, so that its folds" in simulate(scene, duration_s=4.0).message) == (drag_normal == 0.0)
@@ -151,10 +153,10 @@ def test_a_buoy_that_does_not_carry_its_line_is_told(density_kgpm3, warned):
     assert (run.columns["tension_top_N"][0] < 0.0) == warned == ("does not carry the line" in run.message)
 
 
-LOWERED = {"law": "table", "time_s": [0.0, 3.0], "displacement_m": [[0.0, 0.0, 0.0], [-4.0, 0.0, -5.0]]}
+LOWERED = by_table([0.0, 3.0], [[0.0, 0.0, 0.0], [-4.0, 0.0, -5.0]])
 
 
-@pytest.mark.parametrize("water", [DRY, STILL | {"water.depth_m": 60.0}])
+@pytest.mark.parametrize("water", [DRY, DEEP])
 def test_compression_that_the_grid_cannot_buckle_is_told_where_no_drag_calms_the_line(water):
     """A line is lowered at one end; a finer grid has another largest tension, by no more than the compression."""
     lowered = held(12.0, 15.9, motion=LOWERED) | {"tether.bending_stiffness_Nm2": 4.0}
@@ -169,7 +171,7 @@ def test_compression_that_the_grid_cannot_buckle_is_told_where_no_drag_calms_the
 @pytest.mark.parametrize("amplitude_m, warned", [(0.1, False), (0.68, True)])
 def test_a_slack_fraction_that_the_grid_decides_is_told(amplitude_m, warned):
     """A long thin line is shaken along itself: where it goes slack, it does so for longer on a finer grid."""
-    motion = {"law": "harmonic", "amplitude_m": [0.0, 0.0, amplitude_m], "period_s": 1.4, "ramp_s": 1.4}
+    motion = harmonic([0.0, 0.0, amplitude_m], 1.4, ramp_s=1.4)
     deep = {"water.depth_m": 165.0, "anchor.position_m": [0.0, 0.0, 79.0]} | held(50.1, -43.05, motion=motion)
     keys = {"length_m": 66.0, "area_m2": 3.4e-5, "density_kgpm3": 3000.0, "bending_stiffness_Nm2": 0.017}
     runs = [ran(line(STILL, deep, tension=linear(1.24e5), nodes=nodes, **keys), duration_s=8.0) for nodes in (41, 161)]
@@ -182,26 +184,17 @@ def test_a_slack_fraction_that_the_grid_decides_is_told(amplitude_m, warned):
     assert (abs(shares[0] - shares[1]) > 0.05) == warned
 
 
-def kicked(speed_mps):
-    """A buoy on a stiff rope in still water, thrown downwards."""
-    sphere = {"diameter_m": 1.09, "mass_kg": 555.0, "added_mass_kg": 351.0}
-    keys = {
-        "tether.length_m": 29.5,
-        "tether.area_m2": 7.9e-4,
-        "tether.density_kgpm3": 1405.0,
-        "tether.tension.stiffness_N": 7.1e6,
-    }
-    keys |= {f"buoy.{name}": value for name, value in sphere.items()}
-    keys |= {"tether.bending_stiffness_Nm2": 300.0, "water.depth_m": 31.1, "waves": None}
-    return keys | {"start.buoy_velocity_mps": [-1.33 * speed_mps, 0.0, -speed_mps]}
+def kicked(speed_mps, nodes):
+    """The run of a buoy on a stiff rope in still water, thrown downwards."""
+    sphere = {"buoy.diameter_m": 1.09, "buoy.mass_kg": 555.0, "buoy.added_mass_kg": 351.0, "water.depth_m": 31.1}
+    thrown = kick(-1.33 * speed_mps, 0.0, -speed_mps)
+    rope = {"length_m": 29.5, "area_m2": 7.9e-4, "density_kgpm3": 1405.0, "bending_stiffness_Nm2": 300.0}
+    return ran(line(STILL, sphere, thrown, nodes=nodes, tension=linear(7.1e6), **rope), duration_s=4.0)
 
 
-@pytest.mark.parametrize("speed_mps, nodes, warned", [(0.01, 21, False), (0.4, 31, True), (0.4, 41, True)])
+@pytest.mark.parametrize("speed_mps, nodes, warned", [(0.01, 21, False), (0.4, 31, True)])
 def test_a_largest_tension_that_the_grid_decides_is_told(speed_mps, nodes, warned):
-    coarse, fine = (
-        simulate(line(kicked(speed_mps) | {"tether.nodes": count}), duration_s=4.0)
-        for count in (nodes, 4 * (nodes - 1) + 1)
-    )
+    coarse, fine = kicked(speed_mps, nodes), kicked(speed_mps, 4 * (nodes - 1) + 1)
     largest_N = [run.columns["tension_top_high_N"].max() for run in (coarse, fine)]
     stated = re.search(r"nodes at .* the largest tension is (\S+) N in place of (\S+) N", coarse.message)
     assert (stated is not None) == warned == (abs(largest_N[0] / largest_N[1] - 1.0) > 0.05)
@@ -212,82 +205,114 @@ def test_a_largest_tension_that_the_grid_decides_is_told(speed_mps, nodes, warne
 @pytest.mark.parametrize("steepness, nodes, warned", [(0.15, 41, True), (0.15, 81, False), (0.01, 41, False)])
 def test_the_first_waves_tell_of_a_grid_too_coarse_for_a_light_buoy(steepness, nodes, warned):
     """A thin rope carries a buoy of 27 kg; both go on for twelve waves, of which the first five are repeated."""
-    rope = {
-        "length_m": 44.5,
-        "area_m2": 8.4e-5,
-        "density_kgpm3": 2600.0,
-        "bending_stiffness_Nm2": 0.3,
-        "drag_normal": 0.53,
-    }
-    buoy = {"buoy.diameter_m": 0.404, "buoy.mass_kg": 27.0, "buoy.added_mass_kg": 17.7}
+    rope = {"length_m": 44.5, "area_m2": 8.4e-5, "density_kgpm3": 2600.0, "bending_stiffness_Nm2": 0.3}
+    buoy = CAP | {"buoy.diameter_m": 0.404, "buoy.mass_kg": 27.0, "buoy.added_mass_kg": 17.7}
     waves = {"waves.period_s": 4.0, "waves.steepness": steepness, "waves.ramp_s": 5.0, "water.depth_m": 44.54}
-    keys = buoy | waves | {"buoy.submergence": "spherical-cap"}
-    message = ran(line(keys, tension=linear(4.3e5), nodes=nodes, **rope), duration_s=48.0).message
+    scene = line(buoy, waves, tension=linear(4.3e5), nodes=nodes, drag_normal=0.53, **rope)
+    message = ran(scene, duration_s=48.0).message
     assert ("in the first 25 s," in message and "grid or tolerance decide" in message) == warned
 
 
 def test_a_run_from_a_kick_in_waves_is_not_repeated(monkeypatch):
     monkeypatch.setattr(companions, "_differences", None)  # to call it is an error
-    scene = line({"waves.steepness": 0.1, "start.buoy_velocity_mps": [1.0, 0.0, 0.0], "tether.nodes": 11})
+    scene = line({"waves.steepness": 0.1, **kick(1.0), "tether.nodes": 11})
     assert ran(scene, duration_s=1.0).message == ""
 
 
-def compared(others, water, pressed_N, told, monkeypatch):
-    """What `other_grids` says if the other runs, coarse or fine, have these differences, in per cent: of the largest
-    tension, of a slack fraction of 40 %, and of the tension when it is the largest. A run that is not listed is not to
-    be made."""
-    run = Run(line(water, SLACK, {"water.depth_m": 60.0} if water is STILL else {}), 0.1)
+def differing(grid, tension=0.0, slack=0.0, then=0.0):
+    """Of the run on another grid, in per cent: of the largest tension, of a slack fraction of 40 %, and of the tension
+    at the time of the largest."""
+    shares = tension / 100.0, then / 100.0
+    return companions._Differences(100.0, 100.0 + tension, *shares, 0.4, 0.4 + slack / 100.0, grid)
+
+
+ENDS_EARLY = "ends early"
+
+
+def outcome(monkeypatch, coarse, fine, water=DEEP, pressed_N=0.0, told="", depends=False):
+    """The grid of which `other_grids` speaks, "agree", or nothing; a run that is None is not to be made.
+
+    depends: the slack fraction depends on its threshold.
+    """
+    monkeypatch.setattr(companions, "_depends_on_threshold", lambda *_: depends)
+    run = Run(line(water, SLACK), 0.1)
     columns = {"tension_top_high_N": np.array([9.0, 100.0]), "tension_min_N": np.array([-pressed_N, 0.0])}
 
     def differences(run, columns, duration_s, grid):
-        name = "coarse" if grid is companions.COARSE else "fine"
-        share, slack, then = (*np.atleast_1d(others[name]), 0.0, 0.0)[:3]
-        return companions._Differences(
-            100.0, 100.0 + share, share / 100.0, then / 100.0, 0.4, 0.4 + slack / 100.0, name
-        )
+        made = coarse if grid is companions.COARSE else fine
+        assert made is not None
+        return None if made is ENDS_EARLY else made
 
     monkeypatch.setattr(companions, "_differences", differences)
-    return companions.other_grids(run, columns, bool(told), told == "bounded")
+    others = companions.other_grids(run, columns, bool(told), told == "bounded")
+    if others.agree:
+        assert not others.words
+        return "agree"
+    return others.words.partition(" ")[0]
 
 
-@pytest.mark.parametrize("coarse, fine, water, pressed_N, told, words", [
-    (1.0, None, STILL, 0.0, "", ""),  # no hint: no finer run
-    (1.0, 9.0, DRY, 0.0, "", "fine"),  # nothing calms waves across the line
-    (1.0, 2.0, DRY, 0.0, "", "fine"),  # the differences do not shrink
+@pytest.mark.parametrize("coarse, fine, water, pressed_N, told, expected", [
+    (1.0, None, DEEP, 0.0, "", ""),  # no hint: no finer run
+    (1.0, 2.0, DRY, 0.0, "", "fine"),  # nothing calms waves across the line
     (9.0, 2.0, DRY, 0.0, "", "fine"),
-    (1.0, 0.3, DRY, 0.0, "", ""),
-    (2.0, 4.0, STILL, 0.0, "", "fine"),
-    (9.0, 2.0, STILL, 0.0, "", ""),  # the finer run decides
-    (4.0, 2.0, STILL, 0.0, "", "fine"),  # the differences do not shrink
-    (9.0, None, STILL, 0.0, "measured", "coarse"),
-    (4.0, None, STILL, 0.0, "measured", ""),
-    (9.0, None, STILL, 0.0, "bounded", "coarse"),
-    (6.0, None, STILL, 0.0, "bounded", ""),  # too far from the run to refute a bound
-    (4.0, 5.0, STILL, 0.0, "bounded", "fine"),
+    (2.0, 4.0, DEEP, 0.0, "", "fine"),
+    (9.0, 2.0, DEEP, 0.0, "", ""),  # the finer run decides
+    (4.0, 2.0, DEEP, 0.0, "", "fine"),  # the differences do not shrink
+    (16.0, 2.0, DEEP, 0.0, "", "fine"),  # they are large
+    (9.0, None, DEEP, 0.0, "measured", "coarse"),
+    (4.0, None, DEEP, 0.0, "measured", ""),
+    (9.0, None, DEEP, 0.0, "bounded", "coarse"),
+    (6.0, None, DEEP, 0.0, "bounded", ""),  # too far from the run to refute a bound
+    (4.0, 5.0, DEEP, 0.0, "bounded", "fine"),
+    (4.0, 1.6, DEEP, 0.0, "bounded", ""),
+    (4.0, 1.0, DEEP, 0.0, "bounded", "agree"),  # the bound is refuted
+    (1.0, 1.0, DEEP, 0.0, "bounded", "agree"),
     (4.0, None, DRY, 20.0, "", "coarse"),  # folds that scatter
-    (4.0, 1.0, DRY, 5.0, "", ""),
-    (4.0, 1.0, STILL, 20.0, "", ""),  # drag calms the folds
-    ((0.0, 3.6), None, STILL, 0.0, "", "coarse"),  # of the slack fraction
-    ((0.0, 3.4), (0.0, 3.9), STILL, 0.0, "", ""),
-    ((0.0, 3.0), (0.0, 4.5), STILL, 0.0, "", "fine"),
-    ((0.0, 2.5), (0.0, 1.0), STILL, 0.0, "", ""),
-    ((0.0, 0.0, 9.0), 4.0, STILL, 0.0, "", "fine"),  # the same largest tension, but of another snap
+    (4.0, 1.0, DRY, 5.0, "", "agree"),
+    (4.0, 1.0, DEEP, 20.0, "", "agree"),  # drag calms the folds
 ])  # fmt: skip
-def test_which_other_grid_decides_by_how_much(coarse, fine, water, pressed_N, told, words, monkeypatch):
-    others = {"coarse": coarse} if fine is None else {"coarse": coarse, "fine": fine}
-    sentence = compared(others, water, pressed_N, told, monkeypatch).words
-    assert sentence.startswith(words) and bool(sentence) == bool(words)
+def test_which_other_grid_decides_by_its_largest_tension(coarse, fine, water, pressed_N, told, expected, monkeypatch):
+    finer = None if fine is None else differing("fine", fine)
+    assert outcome(monkeypatch, differing("coarse", coarse), finer, water, pressed_N, told) == expected
 
 
-@pytest.mark.parametrize("coarse, fine, told, agree", [
-    (1.0, 1.0, "bounded", True),
-    (4.0, 1.0, "bounded", True),
-    (4.0, 1.6, "bounded", False),
-    ((1.0, 1.0), (1.0, 2.1), "bounded", False),
-    (4.0, 1.0, "measured", False),  # another run has shown that it is not exact
+@pytest.mark.parametrize("coarse, fine, told, expected", [
+    (3.6, 9.0, "", "coarse"),
+    (3.4, 3.9, "", ""),
+    (3.0, 4.5, "", "fine"),
+    (1.0, 2.1, "bounded", ""),
+    (1.0, 1.9, "bounded", "agree"),
 ])  # fmt: skip
-def test_a_bound_is_refuted_where_both_others_have_the_same_tension(coarse, fine, told, agree, monkeypatch):
-    assert compared({"coarse": coarse, "fine": fine}, STILL, 0.0, told, monkeypatch).agree == agree
+def test_which_other_grid_decides_by_its_slack_fraction(coarse, fine, told, expected, monkeypatch):
+    pair = differing("coarse", slack=coarse), differing("fine", slack=fine)
+    assert outcome(monkeypatch, *pair, told=told) == expected
+
+
+def test_a_slack_fraction_that_depends_on_its_threshold_calls_for_a_finer_grid(monkeypatch):
+    assert outcome(monkeypatch, differing("coarse"), differing("fine", slack=4.1), depends=True) == "fine"
+
+
+@pytest.mark.parametrize(("load_N", "depends"), [(2.0, False), (8.0, True), (12.0, False)])
+def test_a_slack_fraction_depends_on_its_threshold_where_a_tension_lies_between_half_and_twice(
+    load_N, depends, monkeypatch
+):
+    """Threshold of 5 N; a tension of 100 N is load_N for a tenth of the time."""
+    monkeypatch.setattr(companions, "static_tension_N", lambda *_: 100.0)
+    tension_N = np.where(np.arange(100) < 10, load_N, 100.0)
+    assert companions._depends_on_threshold(None, {"tension_top_N": tension_N}) == depends
+
+
+@pytest.mark.parametrize("coarse, expected", [
+    (differing("coarse", 9.0), "coarse"),
+    (differing("coarse", 7.0), ""),
+    (ENDS_EARLY, companions.UNCOMPARED.partition(" ")[0]),
+])  # fmt: skip
+def test_where_the_finer_run_ends_early_the_coarser_one_speaks(coarse, expected, monkeypatch):
+    assert outcome(monkeypatch, coarse, ENDS_EARLY) == expected
+
+
+def test_the_same_largest_tension_of_another_snap_calls_for_a_finer_grid(monkeypatch):
+    assert outcome(monkeypatch, differing("coarse", then=9.0), differing("fine", 4.0)) == "fine"
 
 
 @pytest.mark.parametrize("agree", [False, True])
@@ -303,7 +328,7 @@ def test_a_refuted_bound_is_not_told_but_lost_ringing_is(agree, monkeypatch):
 
 def test_the_tension_of_another_run_is_also_that_at_the_time_of_the_largest(monkeypatch):
     """Two snaps, which bear 100 and 98 N; in the other run 60 and 101 N."""
-    run = Run(line(STILL, SLACK, {"water.depth_m": 60.0}), 0.5)
+    run = Run(line(DEEP, SLACK), 0.5)
     base, other = np.zeros(31), np.zeros(31)
     base[[10, 25]], other[[11, 25]] = (100.0, 98.0), (60.0, 101.0)
     made = {"tension_top_high_N": other, "tension_top_N": other, "time_s": np.arange(31.0)}
@@ -316,7 +341,7 @@ def test_the_tension_of_another_run_is_also_that_at_the_time_of_the_largest(monk
 @pytest.mark.parametrize(("step_s", "told"), [(0.05, True), (0.02, False), (0.01, False)])
 def test_a_slack_fraction_that_is_read_off_too_few_samples_is_told(step_s, told, monkeypatch):
     """The tension is above the threshold for 0.07 of each 0.17 s, for 5 s."""
-    run = Run(line(STILL, SLACK, {"water.depth_m": 60.0}), 0.5)
+    run = Run(line(DEEP, SLACK), 0.5)
     time_s = np.arange(0.0, 5.0, step_s)
     monkeypatch.setattr(companions, "static_tension_N", lambda *_: 100.0)
     words = trust._few_samples(run, {"time_s": time_s, "tension_top_N": np.where(time_s % 0.17 < 0.07, 1000.0, 0.0)})

@@ -12,12 +12,12 @@ import pytest
 
 from engine import simulate
 from engine.paper_box.driver import run as run_boxed
-from tests.engine.lines import held, line, linear, orders
+from tests.engine.lines import harmonic, held, line, linear, orders
 
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
 AIR = {"water": None, "waves": None, "tether.bending_stiffness_Nm2": 24.0}
 SOFT = {"tether.tension": linear(500.0)}
-SHAKEN = {"law": "harmonic", "amplitude_m": [0.8, 0.0, -0.6], "period_s": 1.5, "phase_rad": 0.3, "ramp_s": 1.0}
+SHAKEN = harmonic([0.8, 0.0, -0.6], 1.5, phase_rad=0.3, ramp_s=1.0)
 MOVED = {  # from rest: the slope of the first piece is zero
     "law": "table",
     "time_s": [0.0, 0.1, 1.3, 3.0],

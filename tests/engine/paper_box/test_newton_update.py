@@ -11,12 +11,11 @@ the paper's fixed axes is up.
 import numpy as np
 import pytest
 
-from engine import load_scene
 from engine.paper_box.line import PLANE, SPACE, line_of
 from engine.paper_box.newton import newton_update
 from engine.paper_box.nodal import Level, P
 from tests.engine.box_equations import LAWS, buoy_of, tension, water_on_line, wet_weight
-from tests.engine.lines import free, held
+from tests.engine.lines import free, held, line
 from tests.engine.rotations import conjugate, product
 
 TO_XYZ, FROM_XYZ = [1, 2, 0], [2, 0, 1]  # x, y, z from the paper's axes, and back
@@ -25,19 +24,10 @@ SLOPE_STEP = 1e-40
 
 
 def scene_of(law="linear", dimensions=3, **overrides):
-    return load_scene(
-        "tethered_buoy",
-        {
-            "motion.dimensions": dimensions,
-            "solver.scheme": "paper-box",
-            "tether.tension": LAWS[law],
-            "tether.nodes": 5,
-            "tether.diameter_m": 0.05,
-            "tether.bending_stiffness_Nm2": 24.0,
-            "tether.torsion_stiffness_Nm2": 9.0,
-            **overrides,
-        },
-    )
+    return line(
+        {"motion.dimensions": dimensions, "solver.scheme": "paper-box"}, overrides, tension=LAWS[law], nodes=5,
+        diameter_m=0.05, bending_stiffness_Nm2=24.0, torsion_stiffness_Nm2=9.0,
+    )  # fmt: skip
 
 
 def states(seed, n, unit=True):
@@ -153,7 +143,7 @@ def rows_of_plane(n):
 @pytest.mark.parametrize("law", LAWS)
 def test_update_solves_the_printed_equations(law, end, dimensions):
     scene = scene_of(law, dimensions, **{"tether.grid_stretching": 1.0, **ENDS[end][3 - dimensions]})
-    line = line_of(scene)
+    paper_line = line_of(scene)
     n = scene.tether.nodes
     (Y, water), (Y_old, water_old) = states(1, n), states(2, n)
     Y_old = Y + 0.05 * (Y_old - Y)
@@ -163,7 +153,7 @@ def test_update_solves_the_printed_equations(law, end, dimensions):
         water[[2, 5]] = water_old[[2, 5]] = 0.0
 
     def residual(Y):
-        return printed_28(scene, line.h, Y, water, Y_old, water_old)[list(keep)]
+        return printed_28(scene, paper_line.h, Y, water, Y_old, water_old)[list(keep)]
 
     columns = []
     for k in range(n):
@@ -172,7 +162,8 @@ def test_update_solves_the_printed_equations(law, end, dimensions):
             moved[i, k] += 1j * STEP
             columns.append(residual(moved).imag / STEP)
     J, r = np.array(columns).T, residual(Y).real
-    code, computed, _ = newton_update(line, Y, water, 1.0 + DT, Level(1.0, Y_old, water_old, P(line, Y_old, water_old)))
+    before = Level(1.0, Y_old, water_old, P(paper_line, Y_old, water_old))
+    code, computed, _ = newton_update(paper_line, Y, water, 1.0 + DT, before)
     assert code == 0
     update, exact = computed[0].T[:, active].ravel(), np.linalg.solve(J, -r)
     size = np.abs(exact.reshape(n, -1)).max(0)

@@ -18,7 +18,7 @@ import pytest
 from engine.scene import build_scene
 from tests.engine.box_equations import LAWS, across, lifted, response, state_of
 from tests.engine.kernels import Stage
-from tests.engine.lines import DRY, STILL, free, held, line
+from tests.engine.lines import DRY, STILL, free, held, kick, line, uniform
 from tests.engine.perturbations.test_tangent_vectors import Carried, Run
 from tests.engine.physics.caps import CAP
 
@@ -83,26 +83,18 @@ def test_a_turn_of_pi_is_like_its_neighbours():
     assert np.all(np.abs(computed[2] - computed[0]) < 1e-4 * scale)
 
 
-def current(w):
-    return {"current": {"law": "uniform", "velocity_mps": [0.0, 0.0, w]}}
-
-
-def bounce(w):
-    return {"start.buoy_velocity_mps": [0.0, 0.0, w]}
-
-
 IN_THE_SURFACE = CAP | {"water.depth_m": 20.9, "tether.submergence": "free-surface", "tether.diameter_m": 0.6}
 BED = {"stiffness_Npm3": 1.0, "damping_Nspm3": 2.0, "friction": 0.5, "friction_speed_mps": 0.1}
 RUNS = {
-    "rising current": (STILL | current(0.6), 10.0),
-    "bounce in water": (STILL | bounce(0.8), 20.0),
-    "hanging dry, bouncing": (DRY | bounce(2.0), 10.0),
-    "held in a current": (STILL | current(0.5) | held(0.0, 21.0), 5.0),
-    "free, pulled": (STILL | current(0.5) | free(0.0, 300.0), 2.0),
-    "damped bounce": (STILL | bounce(0.8) | {"tether.damping_Ns": 2e3}, 10.0),
-    "bounce in the surface": (STILL | bounce(0.8) | IN_THE_SURFACE, 10.0),
-    "hanging in a soft bed, bouncing": (DRY | bounce(2.0) | {"floor": BED}, 10.0),
-    "bounce, backward-euler": (STILL | bounce(0.8) | {"solver.integrator": "backward-euler"}, 10.0),
+    "rising current": (STILL | uniform(w=0.6), 10.0),
+    "bounce in water": (STILL | kick(w=0.8), 20.0),
+    "hanging dry, bouncing": (DRY | kick(w=2.0), 10.0),
+    "held in a current": (STILL | uniform(w=0.5) | held(0.0, 21.0), 5.0),
+    "free, pulled": (STILL | uniform(w=0.5) | free(0.0, 300.0), 2.0),
+    "damped bounce": (STILL | kick(w=0.8) | {"tether.damping_Ns": 2e3}, 10.0),
+    "bounce in the surface": (STILL | kick(w=0.8) | IN_THE_SURFACE, 10.0),
+    "hanging in a soft bed, bouncing": (DRY | kick(w=2.0) | {"floor": BED}, 10.0),
+    "bounce, backward-euler": (STILL | kick(w=0.8) | {"solver.integrator": "backward-euler"}, 10.0),
 }
 
 

@@ -87,13 +87,18 @@ def potential(scene, z):
     return buoy.mass_kg * g * z + rho * g * below
 
 
-def direct(k, A, depth, t, X, direction=1.0, phase=0.0, omega=2 * np.pi / 5.0):
-    """Water velocity and local acceleration (n, 4) at X (n, 2) of a wave along `direction`, 1 or -1, in long doubles;
-    quotients as they stand, so kH below some 10000."""
-    x, z = np.asarray(X, np.longdouble).T
-    k = np.longdouble(k)
-    psi = direction * k * x - np.longdouble(omega) * t + phase
-    c, s = (f(k * z) / np.sinh(k * depth) * A * omega for f in (np.cosh, np.sinh))
-    return np.column_stack(
-        [direction * c * np.cos(psi), s * np.sin(psi), direction * omega * c * np.sin(psi), -omega * s * np.cos(psi)]
-    )
+def linear_waves(rows, depth, t, X):
+    """Water velocity and local acceleration (n, 4) or (n, 6) at X (n, 2) or (n, 3) of the sum of linear waves, in long
+    doubles; below the bed as on it. rows: k, omega, amplitude, phase, cosine and sine of the direction; quotients as
+    they stand, so kH below some 10000."""
+    if X.shape[1] == 2:
+        return linear_waves(rows, depth, t, np.insert(X, 1, 0.0, axis=1))[:, [0, 2, 3, 5]]
+    x, y, z = np.asarray(X, np.longdouble).T
+    z, total = np.maximum(z, 0.0), np.zeros((6, len(X)), np.longdouble)
+    for k, omega, amplitude, phase, cosine, sine in np.asarray(rows, np.longdouble):
+        psi = k * (cosine * x + sine * y) - omega * t + phase
+        speed = amplitude * omega / np.sinh(k * depth)
+        along, up = speed * np.cosh(k * z), speed * np.sinh(k * z)
+        level, rate = along * np.cos(psi), omega * along * np.sin(psi)
+        total += [level * cosine, level * sine, up * np.sin(psi), rate * cosine, rate * sine, -omega * up * np.cos(psi)]
+    return total.T

@@ -9,7 +9,7 @@ import pytest
 
 from engine import simulate
 from engine.physics.waves import wave_number
-from tests.engine.lines import STILL, held, line, ran
+from tests.engine.lines import STILL, held, kick, line, ran
 from tests.engine.physics.caps import CAP
 
 WAVES = {"waves.steepness": 0.05, "waves.ramp_s": 5.0}
@@ -34,7 +34,7 @@ def test_along_the_waves_it_is_a_phase(dimensions, end):
 def test_above_the_bed_it_meets_what_flows_there(dimensions):
     common = {"waves": None, **TIGHT, "motion.dimensions": dimensions}
     shifts = [{"anchor.position_m": [0.0, 0.0, 12.0], "water.depth_m": 33.0, "current": PROFILE}, {"current": LOWER}]
-    high, low = (tensions(line(common, shift, {"start.buoy_velocity_mps": [1.0, 0, 0]}, nodes=9)) for shift in shifts)
+    high, low = (tensions(line(common, shift, kick(1.0), nodes=9)) for shift in shifts)
     np.testing.assert_allclose(high, low, rtol=1e-6, atol=1e-6)
 
 

@@ -13,7 +13,7 @@ import pytest
 from engine import simulate
 from engine.run.rest import rest_of
 from engine.time.status import OK
-from tests.engine.lines import DRY, STILL, Motion, equilibrium, held, line, linear, ran
+from tests.engine.lines import DRY, STILL, Motion, by_table, equilibrium, harmonic, held, line, linear, ran
 from tests.engine.physics.test_bed import CHAIN, EA, WEIGHT, G
 
 MU, V_S = 0.4, 0.01
@@ -68,7 +68,7 @@ def test_a_line_laid_down_again_comes_to_rest(floor):
     """Lifted by 0.4 m and laid down within 8 s: no landing makes energy, also where steps are long for the bed."""
     times = np.linspace(0.0, 8.0, 81)
     way = np.sin(math.pi * times / 8.0) ** 2
-    motion = {"law": "table", "time_s": times.tolist(), "displacement_m": [[0.2 * f, 0.0, 0.4 * f] for f in way]}
+    motion = by_table(times.tolist(), [[0.2 * f, 0.0, 0.4 * f] for f in way])
     slack = {"law": "tabulated", "strain": [-0.5, 0.0, 1e-5, 0.1], "tension_N": [0.0, 0.0, 1.0, 1e4]}
     changes = {"floor": floor, "tether.tension": slack, "output.profiles": True}
     run = ran(line(STILL, held(18.6, 5.0, motion=motion), changes, nodes=41, **CHAIN), duration_s=16.0)
@@ -86,7 +86,7 @@ def test_a_line_laid_down_again_comes_to_rest(floor):
 )
 def test_a_line_that_folds_back_on_itself_is_no_rest(place, law, rho, stiffness):
     """Pressed by a kilonewton such a line is in balance too; what lies and hangs is pulled by less than its weight."""
-    motion = {"law": "harmonic", "amplitude_m": [0.0, 0.0, 0.5], "period_s": 3.0}
+    motion = harmonic([0.0, 0.0, 0.5], 3.0)
     changes = {"output.profiles": True, "floor.stiffness_Npm3": stiffness, "floor.friction": 0.3}
     scene = line(STILL, held(*place, motion=motion), changes, density_kgpm3=rho, tension=linear(law))
     weight = (rho - scene.water.density_kgpm3) * scene.tether.area_m2 * scene.gravity_mps2 * scene.tether.length_m

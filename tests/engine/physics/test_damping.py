@@ -14,11 +14,11 @@ import pytest
 
 from engine import simulate
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, line, ran
+from tests.engine.lines import DRY, kick, line, ran
 
 EA, C, L, M = 5e4, 4e3, 20.0, 1611.0
 LINE_M = 1140.0 * 7.85e-5
-RINGING = {**DRY, "start.buoy_velocity_mps": [0.0, 0.0, 0.01], "solver.rtol": 1e-5, "solver.newton_tolerance": 1e-12}
+RINGING = {**DRY, **kick(w=0.01), "solver.rtol": 1e-5, "solver.newton_tolerance": 1e-12}
 RINGING |= {"output.step_s": 0.05, "solver.max_step_s": 0.02}
 
 
@@ -51,7 +51,7 @@ def test_the_budget_has_what_the_damping_takes(dimensions):
     budgets = []
     for step_s in (0.02, 0.01):
         more = {"solver.integrator": "midpoint", "solver.step_s": step_s, "output.energy": True}
-        more |= {"start.buoy_velocity_mps": [0.3, 0.0, 1.0], "motion.dimensions": dimensions}
+        more |= {**kick(0.3, 0.0, 1.0), "motion.dimensions": dimensions}
         scene = line(DRY, more, nodes=9, damping_Ns=C)
         budgets.append(simulate(scene, duration_s=10.0).energy)
     assert budgets[1].viscous_J[-1] > 100.0
@@ -65,7 +65,7 @@ def test_the_budget_has_what_the_damping_takes(dimensions):
 @pytest.mark.parametrize("integrator", ["esdirk43", "midpoint"])
 def test_what_is_told_as_tension_has_the_damping(dimensions, integrator):
     more = {"motion.dimensions": dimensions, "solver.integrator": integrator, "solver.step_s": 0.005}
-    more |= {"start.buoy_velocity_mps": [0.0, 0.0, 0.3], "output.profiles": True}
+    more |= {**kick(w=0.3), "output.profiles": True}
     run = simulate(line(RINGING, more, nodes=9, damping_Ns=5 * C), duration_s=2.0)
     strain, tension_N = run.profiles.strain[:, -1], run.columns["tension_top_N"]
     viscous = 5 * C * np.gradient(strain, 0.05, edge_order=2)

@@ -38,13 +38,13 @@ def velocity(changes, t, dimensions=2):
 HARMONIC = {"amplitude_m": [1.0, 0.3, 0.5], "period_s": 5.0}
 
 
-@pytest.mark.parametrize("phase, ramp", [(0.0, 0.0), (0.7, 0.0), (0.0, 6.0), (0.7, 6.0)])
+@pytest.mark.parametrize("ramp", [0.0, 6.0])
 @pytest.mark.parametrize("t", [0.3, 2.2, 5.9, 6.1, 123.4])
-def test_the_velocity_is_the_rate_of_the_stated_oscillation(phase, ramp, t):
-    changes = moved(law="harmonic", **HARMONIC, phase_rad=phase, ramp_s=ramp)
-    ahead, behind = (harmonic(at, [1.0, 0.3, 0.5], 5.0, phase, ramp) for at in (t + 1e-4, t - 1e-4))
+def test_the_velocity_is_the_rate_of_the_stated_oscillation(ramp, t):
+    changes = moved(law="harmonic", **HARMONIC, phase_rad=0.7, ramp_s=ramp)
+    ahead, behind = (harmonic(at, [1.0, 0.3, 0.5], 5.0, 0.7, ramp) for at in (t + 1e-4, t - 1e-4))
     assert velocity(changes, t, 3) == pytest.approx((ahead - behind) / 2e-4, abs=1e-6)
-    assert not harmonic(0.0, [1.0, 0.3, 0.5], 5.0, phase, ramp).any()
+    assert not harmonic(0.0, [1.0, 0.3, 0.5], 5.0, 0.7, ramp).any()
 
 
 @pytest.mark.parametrize("t", [0.3, 2.2, 5.9, 123.4])

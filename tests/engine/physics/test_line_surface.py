@@ -8,15 +8,15 @@ import math
 import numpy as np
 import pytest
 
+from engine import load_scene
 from engine.physics.extras import surface_load, wetting
 from engine.physics.strains import tension_at
-from engine.scene import build_scene
 from tests.engine.kernels import parameters_of
-from tests.engine.lines import DRY, STILL, equilibrium, held, line, ran
+from tests.engine.lines import DRY, STILL, equilibrium, harmonic, held, line, ran
 
 FREE = {"tether.submergence": "free-surface", "tether.diameter_m": 0.04, "tether.area_m2": math.pi * 0.02**2}
 TIGHT = {"solver.step_s": 0.01, "solver.newton_tolerance": 1e-12, "solver.max_newton_iterations": 40}
-SHAKEN = {"law": "harmonic", "amplitude_m": [0.3, 0.0, 0.5], "period_s": 2.0}
+SHAKEN = harmonic([0.3, 0.0, 0.5], 2.0)
 
 
 def tensions(*changes):
@@ -58,22 +58,8 @@ def test_what_the_force_does_is_what_the_water_has():
     assert power == pytest.approx((energy(rate) - energy(-rate)) / (2 * rate), rel=1e-6)
 
 
-def jumper(**tether):
-    """Lowe and Langley's flexible jumper; z from the bed, 100 m below the surface."""
-    d = 0.396
-    area = math.pi * d**2 / 4
-    return build_scene({
-        "name": "jumper", "gravity_mps2": 9.807,
-        "tether": {"length_m": 170.0, "diameter_m": d, "area_m2": area, "density_kgpm3": 165.0 / area, "nodes": 137,
-                   "bending_stiffness_Nm2": 120.8e3, "drag_normal": 1.0, "drag_tangential": 0.0, "added_mass": 1.0,
-                   "tension": {"law": "linear", "stiffness_N": 5e8}, "submergence": "free-surface", **tether},
-        "anchor": {"position_m": [-100.0, 0.0, 45.0]}, "end": {"kind": "held", "position_m": [100.0, 0.0, 50.0]},
-        "water": {"depth_m": 100.0, "density_kgpm3": 1000.0},
-    })  # fmt: skip
-
-
 def test_the_jumper_at_rest():
-    scene = jumper()
+    scene = load_scene("lowe_langley")
     top = tension_at(float(equilibrium(scene).Y[-1, 0]), scene.tether.tension)
     assert top == pytest.approx(47.11e3, abs=5.0)
 

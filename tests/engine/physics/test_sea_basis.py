@@ -7,10 +7,11 @@ import pytest
 
 from engine.physics.sea import elevation_m
 from engine.physics.sea_basis import LEFT_OVER, combinations, few_waves
-from engine.physics.sea_series import WIDTH, sea_in_plane, surface_of_series
-from tests.engine.kernels import parameters_of, waves_at
+from engine.physics.sea_series import surface_of_series
+from tests.engine.kernels import SeaLine, waves_at
 from tests.engine.lines import line
-from tests.engine.physics.test_sea_sum import CAP, DEPTH, plain_sum
+from tests.engine.physics.caps import CAP
+from tests.engine.physics.test_sea_sum import DEPTH, plain_sum
 
 
 def long_sea(components=320, **changes):
@@ -34,17 +35,11 @@ def test_few_waves_are_the_plain_sum(components, farthest_m):
 
 def test_few_waves_serve_only_where_they_are_taken():
     """With other shares the field near the anchor is another one; the field beyond the reach is not."""
-    p, tables = parameters_of(long_sea())
-    wrong = tables.copy()
-    wrong[p["sea_few_at"] :] = 0.0
+    own, wrong = SeaLine(long_sea(), 5), SeaLine(long_sea(), 5)
+    wrong.tables[wrong.p["sea_few_at"] :] = 0.0
     for farthest_m, served in ((19.0, True), (21.0, False)):
         X = np.column_stack([np.linspace(0.0, farthest_m, 5), np.linspace(0.0, DEPTH, 5)])
-        fields = []
-        for own in (tables, wrong):
-            F = np.zeros((5, 4))
-            sea_in_plane(p, own, 3.0, X, F, None, np.zeros((6, WIDTH)))
-            fields.append(F)
-        assert np.array_equal(*fields) != served
+        assert np.array_equal(own.water(3.0, X), wrong.water(3.0, X)) != served
 
 
 @pytest.mark.parametrize(
@@ -71,10 +66,9 @@ def test_columns_are_combinations_of_the_chosen_ones():
 def test_the_surface_at_the_buoy_is_that_of_the_sea():
     """Its derivatives by central differences of step h, about the place and time of the series, within a ramp."""
     scene = long_sea(64, **CAP, **{"waves.ramp_s": 20.0})
-    p, tables = parameters_of(scene)
     t, x, h = 7.0, 1.3, 1e-3
-    sea = np.zeros((3, WIDTH))
-    sea_in_plane(p, tables, t, np.array([[0.0, 0.0], [x, DEPTH]]), np.zeros((2, 4)), None, sea)
+    upper = SeaLine(scene, 2)
+    upper.water(t, np.array([[0.0, 0.0], [x, DEPTH]]))
 
     def eta(steps, later=0.0):
         return float(elevation_m(scene, t + later, x + steps * h))
@@ -82,19 +76,18 @@ def test_the_surface_at_the_buoy_is_that_of_the_sea():
     by_x, by_t = (eta(1) - eta(-1)) / (2 * h), (eta(0, h) - eta(0, -h)) / (2 * h)
     curve = (eta(1) - 2 * eta(0) + eta(-1)) / h**2
     mixed = (eta(1, h) - eta(-1, h) - eta(1, -h) + eta(-1, -h)) / (4 * h**2)
-    assert surface_of_series(sea) == pytest.approx((eta(0), by_x, curve, by_t, mixed), rel=1e-5, abs=1e-7)
+    assert surface_of_series(upper.series) == pytest.approx((eta(0), by_x, curve, by_t, mixed), rel=1e-5, abs=1e-7)
 
 
 @pytest.mark.parametrize("share", [-0.99, 0.5])
 def test_the_surface_holds_as_long_as_the_series_does(share):
     """To the error of the water's speed that the series may have, over the frequency of the peak."""
     scene = long_sea(64, **CAP)
-    p, tables = parameters_of(scene)
-    sea, X = np.zeros((3, WIDTH)), np.array([[0.0, 0.0], [1.3, DEPTH]])
-    sea_in_plane(p, tables, 50.0, X, np.zeros((2, 4)), None, sea)
-    t, moved = 50.0 + share * p["sea_span"], X.copy()
-    moved[1, 0] += (0.99 - abs(share)) * p["sea_reach"]
-    sea_in_plane(p, tables, t, moved, np.zeros((2, 4)), None, sea)
-    assert sea[2, 0] == 50.0
-    error_m = abs(surface_of_series(sea)[0] - float(elevation_m(scene, t, moved[1, 0])))
-    assert 0.0 < error_m < 3.0 * p["newton_tolerance"] / p["per_speed"] / p["omega"]
+    upper, X = SeaLine(scene, 2), np.array([[0.0, 0.0], [1.3, DEPTH]])
+    upper.water(50.0, X)
+    t, moved = 50.0 + share * upper.p["sea_span"], X.copy()
+    moved[1, 0] += (0.99 - abs(share)) * upper.p["sea_reach"]
+    upper.water(t, moved)
+    assert upper.summed_s == 50.0
+    error_m = abs(surface_of_series(upper.series)[0] - float(elevation_m(scene, t, moved[1, 0])))
+    assert 0.0 < error_m < 3.0 * upper.p["newton_tolerance"] / upper.p["per_speed"] / upper.p["omega"]

@@ -1,22 +1,21 @@
 """Law: the water of a sea is the plain sum of its linear waves, in a plane and in space, also far above waves that are
 short beside an element; its slopes are those of the sum. In a plane it is a series about the last sum, whose error over
-random phases is the stated one. Two halves of one wave move a line as the whole wave does. A
-run in a lane is the run alone, a run that goes on is the whole run, and a sea in a plane is the same in space.
+random phases is the stated one. Two halves of one wave move a line as the whole wave does, and a sea in a plane is the
+same in space.
 """
 
 import numpy as np
 import pytest
 
 from engine import load_scene, simulate
-from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, K, elevation_m, enough_waves, envelope_m, rows_of
-from engine.physics.sea_series import LEFT_OUT, ORDER, WIDTH, sea_in_plane
-from engine.run.simulation import simulate_batch
-from tests.engine.kernels import parameters_of, waves_at
+from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, SINE, K, elevation_m, enough_waves, envelope_m, rows_of
+from engine.physics.sea_series import LEFT_OUT, ORDER
+from tests.engine.kernels import SeaLine, waves_at
 from tests.engine.lines import line
+from tests.engine.physics.caps import CAP, linear_waves
 
 RNG = np.random.default_rng(7)
 DEPTH = 22.5
-CAP = {"buoy.submergence": "spherical-cap"}
 
 
 def sea(seed, dimensions=2, **changes):
@@ -27,15 +26,7 @@ def sea(seed, dimensions=2, **changes):
 
 def plain_sum(scene, t, X):
     """Velocity and its rate at X (n, 2) or (n, 3) in long doubles."""
-    k, omega, phase, cosine, sine, speed, _ = rows_of(scene).astype(np.longdouble).T
-    distance = X[:, :1] * cosine + (X[:, 1:2] * sine if X.shape[1] == 3 else 0.0)
-    psi, z = k * distance - omega * np.longdouble(t) + phase, np.maximum(X[:, -1:], 0.0)
-    up, down = speed * np.exp(k * (z - DEPTH)), speed * np.exp(-k * (z + DEPTH))
-    level, rate = (up + down) * np.cos(psi), omega * (up + down) * np.sin(psi)
-    ahead = [cosine, sine] if X.shape[1] == 3 else [cosine]
-    velocity = [*(level * part for part in ahead), (up - down) * np.sin(psi)]
-    rates = [*(rate * part for part in ahead), -omega * (up - down) * np.cos(psi)]
-    return np.stack([part.sum(axis=1) for part in (*velocity, *rates)], axis=1)
+    return linear_waves(rows_of(scene)[:, [K, OMEGA, AMPLITUDE, PHASE, COSINE, SINE]], DEPTH, t, X)
 
 
 def random_sea(number):
@@ -84,12 +75,12 @@ def errors_of_series(seed, by_time, by_place):
     """Errors (4,) of a node at still water, of a series that is used at shares of its span and of its reach; the
     stated error of a velocity, the span."""
     scene = sea(seed, **{"waves.above_still_water": "extrapolate", "waves.jonswap": jonswap(seed)})
-    p, tables = parameters_of(scene)
-    places, series = np.array([[0.0, 0.0], [1.0, DEPTH]]), np.zeros((3, WIDTH))
-    sea_in_plane(p, tables, 50.0, places, np.zeros((2, 4)), None, series)
-    t, moved, F = 50.0 + by_time * p["sea_span"], places - [0.0, by_place * p["sea_reach"]], np.zeros((2, 4))
-    sea_in_plane(p, tables, t, moved, F, None, series)
-    assert series[2, 0] == 50.0  # the sums were not taken anew
+    upper, places = SeaLine(scene, 2), np.array([[0.0, 0.0], [1.0, DEPTH]])
+    p = upper.p
+    upper.water(50.0, places)
+    t, moved = 50.0 + by_time * p["sea_span"], places - [0.0, by_place * p["sea_reach"]]
+    F = upper.water(t, moved)
+    assert upper.summed_s == 50.0  # the sums were not taken anew
     stated = LEFT_OUT * p["newton_tolerance"] / p["per_speed"]
     return F[1] - plain_sum(scene, t, moved)[1].astype(float), stated, p["sea_span"]
 
@@ -105,28 +96,25 @@ def test_a_series_has_its_stated_error_where_it_ends(by_time, by_place):
 
 def test_a_series_is_left_where_it_does_not_hold():
     scene = sea(0, **{"waves.jonswap": jonswap(0), "waves.above_still_water": "wheeler"})
-    p, tables = parameters_of(scene)
-    X, series = np.column_stack([np.zeros(5), np.linspace(0.0, DEPTH, 5)]), np.zeros((6, WIDTH))
-    sea_in_plane(p, tables, 3.0, X, np.zeros((5, 4)), None, series)
-    sea_in_plane(p, tables, 3.0 + 0.9 * p["sea_span"], X, np.zeros((5, 4)), None, series)
-    assert series[5, 0] == 3.0
-    sea_in_plane(p, tables, 3.0, X + np.array([0.99 * p["sea_reach"], 0.0]), np.zeros((5, 4)), None, series)
-    assert series[5, 0] == 3.0
-    moved, far, F = X.copy(), 3.0 + 0.5 * p["sea_span"], np.zeros((5, 4))
-    moved[2, 0] += 0.6 * p["sea_reach"]
-    sea_in_plane(p, tables, far, moved, F, None, series)
-    assert series[5, 0] == far and np.array_equal(F, waves_at(scene, far, moved))
+    upright, X = SeaLine(scene, 5), np.column_stack([np.zeros(5), np.linspace(0.0, DEPTH, 5)])
+    span, reach = upright.p["sea_span"], upright.p["sea_reach"]
+    upright.water(3.0, X)
+    upright.water(3.0 + 0.9 * span, X)
+    upright.water(3.0, X + np.array([0.99 * reach, 0.0]))
+    assert upright.summed_s == 3.0
+    moved, far = X.copy(), 3.0 + 0.5 * span
+    moved[2, 0] += 0.6 * reach
+    F = upright.water(far, moved)
+    assert upright.summed_s == far and np.array_equal(F, waves_at(scene, far, moved))
 
 
 @pytest.mark.parametrize("above", ["extrapolate", "zero", "wheeler"])
 def test_the_slopes_are_those_of_the_field(above):
     """By central differences of step 1e-4 m, within a ramp."""
     scene = sea(1, **{"waves.above_still_water": above, "waves.ramp_s": 20.0})
-    p, tables = parameters_of(scene)
     X = np.column_stack([np.linspace(-2.0, 2.0, 9), np.linspace(1.0, DEPTH + 0.6, 9)])
     J, d = np.zeros((9, 8)), 1e-4
-    series = np.zeros((10, WIDTH))
-    sea_in_plane(p, tables, 7.0, X, np.zeros((9, 4)), J, series)
+    SeaLine(scene, 9).water(7.0, X, slopes=J)
     for axis in range(2):
         step = d * np.eye(2)[axis]
         slope = (waves_at(scene, 7.0, X + step) - waves_at(scene, 7.0, X - step)) / (2 * d)
@@ -137,31 +125,18 @@ def test_the_slopes_are_those_of_the_field(above):
 @pytest.mark.parametrize("angle", [0.0, np.pi])
 def test_two_halves_of_a_wave_are_the_wave(capped, angle):
     tight = {"solver.newton_tolerance": 1e-11, "waves.above_still_water": "extrapolate", "water.depth_m": 21.3}
-    full_wave = sea(
-        0, **tight, **capped, **{"waves.jonswap": None, "waves.amplitude_m": 0.6, "waves.direction_rad": angle}
-    )
     half = {"period_s": 5.0, "amplitude_m": 0.3, "direction_rad": angle}
-    halves = sea(0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half, half]})
-    single_component = sea(
-        0, **tight, **capped, **{"waves.jonswap": None, "waves.components": [half | {"amplitude_m": 0.6}]}
-    )
-    expected, field, single = (simulate(scene, periods=2).columns for scene in (full_wave, halves, single_component))
+
+    def columns_of(**waves):
+        changes = {f"waves.{key}": value for key, value in {"jonswap": None, **waves}.items()}
+        return simulate(sea(0, **tight, **capped, **changes), periods=2).columns
+
+    expected = columns_of(amplitude_m=0.6, direction_rad=angle)
+    field = columns_of(components=[half, half])
+    single = columns_of(components=[half | {"amplitude_m": 0.6}])
     for name in ("x_m", "z_m"):
         assert np.abs(field[name] - expected[name]).max() < 1e-9
         assert np.array_equal(single[name], expected[name])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("capped", [{}, CAP | {"output.tangent_vectors": 1}], ids=["whole", "cap and tangent"])
-def test_a_run_in_a_lane_is_the_run_alone_and_goes_on_as_if_it_had_not_stopped(capped):
-    scenes = [sea(seed, **capped, **{"waves.jonswap": jonswap(seed)}) for seed in range(3)]
-    batch = list(simulate_batch(scenes, periods=4))
-    uninterrupted = simulate(scenes[1], periods=4)
-    later = simulate(scenes[1], periods=2, start=simulate(scenes[1], periods=2))
-    for name in ("x_m", "z_m", "tension_top_N"):
-        assert np.array_equal(batch[1].columns[name], uninterrupted.columns[name])
-        assert np.array_equal(later.columns[name][1:], uninterrupted.columns[name][-len(later.columns[name]) + 1 :])
-    assert not np.array_equal(batch[0].columns["x_m"], batch[2].columns["x_m"])
 
 
 def jonswap(seed):

@@ -15,7 +15,7 @@ from engine.arrays import Stage
 from engine.physics.sea_series import WIDTH, sea_in_plane
 from engine.physics.submergence import cap_across, cap_end, cap_end_3d
 from tests.engine.kernels import parameters_of, upper_end_of
-from tests.engine.lines import STILL, Motion, equilibrium, forces, line, mean, positions
+from tests.engine.lines import STILL, Motion, equilibrium, forces, kick, line, mean, positions
 from tests.engine.physics.caps import CAP, afloat, condition, potential, volume
 
 RNG = np.random.default_rng(11)
@@ -142,7 +142,7 @@ def drift(rtol):
     water, is thrown up so that it leaves it by two diameters, falls back, goes under by three, and so on; the line,
     twice its length, is so soft that it ties the sphere down with 100 N and is never slack."""
     scene = afloat(
-        {"start.buoy_velocity_mps": [2.5, 0.0, 7.0], "output.step_s": 0.02, "tether.added_mass": 0.0,
+        {**kick(2.5, 0.0, 7.0), "output.step_s": 0.02, "tether.added_mass": 0.0,
          "water.depth_m": 40.0, "buoy.mass_kg": 900.0, "solver.rtol": rtol, "solver.newton_tolerance": 3e-4 * rtol},
         area_m2=1e-6, **{"tension.stiffness_N": 100.0},
     )  # fmt: skip

@@ -4,7 +4,7 @@ import pytest
 
 from engine import parameters, simulate
 from engine.record import PLAIN, RECORD
-from tests.engine.lines import assert_same, line
+from tests.engine.lines import assert_same, line, uniform
 
 
 @pytest.mark.parametrize(
@@ -12,7 +12,7 @@ from tests.engine.lines import assert_same, line
 )
 def test_a_plain_scene_runs_the_same_by_the_kernels_of_all_scenes(changes, monkeypatch):
     carried = {"output.tangent_vectors": 1, "output.lateral_growth": True}
-    current = {"current": {"law": "uniform", "velocity_mps": [0.3, 0.0, 0.0]}}
+    current = uniform(0.3)
     scene = line(carried, current, changes, nodes=9)
     runs, kinds = [], []
     for answer in (True, False):

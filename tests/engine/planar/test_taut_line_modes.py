@@ -24,8 +24,8 @@ from tests.engine.modes import box, distance, frequencies, rates
 LENGTH, NODES, MASS, EA = 10.0, 21, 0.5, 1e4
 H = LENGTH / (NODES - 1)
 K = np.arange(1, 7) * np.pi / LENGTH
-ALONG_X, UP, LEANING, ASKEW = [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [-0.8, 0.0, 0.6], [0.4, -0.7, 0.3]
-WATERS = {"dry": 0.0, "wet, no added mass": 0.0, "wet": 1.0, "wet, much added mass": 2.5}
+ALONG_X, LEANING, ASKEW = [1.0, 0.0, 0.0], [-0.8, 0.0, 0.6], [0.4, -0.7, 0.3]
+WATERS = {"dry": 0.0, "wet": 2.5}  # coefficients of added mass
 
 
 def taut(strain, EI, water="dry", direction=ALONG_X, dimensions=2, nodes=NODES):
@@ -52,12 +52,9 @@ def transverse(k, strain, EI, mass=MASS):
     "dimensions, direction, water",
     [
         (2, ALONG_X, "dry"),
-        (2, UP, "wet, no added mass"),
-        (2, LEANING, "wet, much added mass"),
-        (3, ALONG_X, "wet"),
-        (3, [0.0, 1.0, 0.0], "dry"),
+        (2, LEANING, "wet"),
         (3, [0.0, 0.0, -1.0], "dry"),
-        (3, ASKEW, "wet, much added mass"),
+        (3, ASKEW, "wet"),
     ],
 )
 def test_a_line_vibrates_as_a_tensioned_pinned_beam(strain, EI, dimensions, direction, water):

@@ -23,7 +23,7 @@ import pytest
 from scipy.integrate import quad
 
 from engine import load_scene, simulate
-from tests.engine.lines import DRY, STILL, equilibrium, held, line, linear, positions, ran
+from tests.engine.lines import DRY, STILL, by_table, equilibrium, harmonic, held, line, linear, positions, ran
 
 LENGTH, G = 1.022, 9.81
 TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5], [1.5, -1.0, 0.5], [0.5, 0.0, 0.0]])
@@ -31,7 +31,7 @@ TABLE_S, TABLE_M = [0.0, 4.0, 12.0, 20.0], np.array([[0, 0, 0], [1.0, 0.5, -0.5]
 
 def test_an_end_moved_by_a_table_passes_its_rows(dimensions):
     way = TABLE_M * [1, dimensions - 2, 1]
-    end = held(10.0, 0.0, 16.0, motion={"law": "table", "time_s": TABLE_S, "displacement_m": way.tolist()})
+    end = held(10.0, 0.0, 16.0, motion=by_table(TABLE_S, way.tolist()))
     changes = {"motion.dimensions": dimensions, "waves.steepness": 0.05, "output.step_s": 1.0}
     table = simulate(line(end, changes, {"solver.newton_tolerance": 1e-8}), duration_s=50.0).table()
     rows = table.set_index("time_s").loc[[*TABLE_S, 50.0], ["x_m", "y_m", "z_m"]].to_numpy()
@@ -113,7 +113,7 @@ C = np.sqrt(EA / MASS)
 
 def test_the_force_of_a_jerk(dimensions):
     stretch, amplitude, period = 1e-3, 0.1, 1.0
-    motion = {"law": "harmonic", "amplitude_m": [amplitude, 0.0, 0.0], "period_s": period}
+    motion = harmonic([amplitude, 0.0, 0.0], period)
     scene = line(
         DRY, held(JERKED * (1 + stretch), 0.0, motion=motion), {"motion.dimensions": dimensions, "gravity_mps2": 0.0},
         {"solver.rtol": 1e-2, "output.step_s": JERKED / C / 20},
@@ -127,11 +127,10 @@ def test_the_force_of_a_jerk(dimensions):
     assert np.abs(run.columns["tension_top_N"] - expected)[1:].max() < 0.01 * jump
 
 
-@pytest.mark.parametrize("EI, period_s", [(0.4, 2.0), (50.0, 0.5)])
-@pytest.mark.parametrize("position", [[15.0, 0.0, 8.0], [5.0, 0.0, 18.0]])
-def test_a_slack_line_stands_a_jerk(dimensions, EI, position, period_s):
+@pytest.mark.parametrize("EI, period_s, position", [(0.4, 2.0, [15.0, 0.0, 8.0]), (50.0, 0.5, [5.0, 0.0, 18.0])])
+def test_a_slack_line_stands_a_jerk(dimensions, EI, period_s, position):
     """It weighs 2 N in water, and the jerk at its end is of 40 N and more."""
-    motion = {"law": "harmonic", "amplitude_m": [0.3, 0.0, 0.3], "period_s": period_s}
+    motion = harmonic([0.3, 0.0, 0.3], period_s)
     end = held(*position, motion=motion)
     scene = line(STILL, end, {"motion.dimensions": dimensions}, bending_stiffness_Nm2=EI)
     run = ran(scene, duration_s=2.0)

@@ -11,7 +11,7 @@ CHAIN = {"length_m": 91.24, "area_m2": 2.34e-5, "density_kgpm3": 7800.0, "bendin
 WATER = STILL | {"water.depth_m": 228.0, "anchor.position_m": [0.0, 0.0, 109.5]}
 
 
-@pytest.mark.parametrize("nodes", [121, 221, 241])
+@pytest.mark.parametrize("nodes", [121, 241])
 def test_a_chain_in_space_rests_as_in_the_plane(nodes):
     """On 241 nodes one node stayed folded after four turns: 125.8 N at the top for 124.9."""
     ends = held(43.961, 62.499)

@@ -37,11 +37,14 @@ from tests.engine.lines import (
     equilibrium,
     forces,
     free,
+    harmonic,
+    kick,
     line,
     linear,
     mean,
     orders,
     positions,
+    uniform,
 )
 
 DURATION = 10.0
@@ -170,35 +173,33 @@ def test_nothing_rises_but_by_the_error_in_space():
 
 
 @pytest.mark.parametrize("integrator", ["esdirk43", "trbdf2", "generalized-alpha", "backward-euler"])
-@pytest.mark.parametrize("step_s", [0.004, 0.001])
-def test_damping_methods_gain_nothing(integrator, step_s):
+def test_damping_methods_gain_nothing(integrator):
     in_space = balance(21, "esdirk43", 0.002).max()
-    computed = balance(21, integrator, step_s)
+    computed = balance(21, integrator, 0.004)
     assert computed.max() <= 1.02 * in_space
     if integrator == "backward-euler":
         assert computed.max() <= 1e-12 and np.all(np.diff(computed) < 1e-4)
 
 
-@pytest.mark.parametrize("step_s", [0.004, 0.001])
-def test_midpoint_keeps_the_energy(step_s):
-    in_space = balance(21, "esdirk43", 0.0005)
-    assert np.max(np.abs(balance(21, "midpoint", step_s))) <= 1.02 * np.max(np.abs(in_space))
+def test_midpoint_keeps_the_energy():
+    in_space = balance(21, "esdirk43", 0.002)
+    assert np.max(np.abs(balance(21, "midpoint", 0.004))) <= 1.02 * np.max(np.abs(in_space))
 
 
-SLANTED = {"waves.direction_rad": 0.5, "current": {"law": "uniform", "velocity_mps": [0.2, -0.4, 0.0]}}
-BLOW = {"start.buoy_velocity_mps": [0.0, 0.3, 0.0]}
+SLANTED = {"waves.direction_rad": 0.5, **uniform(0.2, -0.4)}
+BLOW = kick(v=0.3)
 SHAKEN = {
     "buoy": None, "waves.steepness": 0.05,
     "end": {
         "kind": "held", "position_m": [8.0, 0.0, 18.5],
-        "motion": {"law": "harmonic", "amplitude_m": [0.5, 0.0, 0.5], "period_s": 4.0, "ramp_s": 2.0},
+        "motion": harmonic([0.5, 0.0, 0.5], 4.0, ramp_s=2.0),
     },
 }  # fmt: skip
 ACROSS = {**SHAKEN["end"]["motion"], "amplitude_m": [0.3, 0.6, 0.5]}
 CASES = {  # overrides, run length (s), nodes; the first loop comes at 53 s
     "moderate, in space": ({"waves.steepness": 0.05, "water.depth_m": 22.5, **SPACE, **SLANTED, **BLOW}, 20.0, 41),
     "snapping, in a plane": ({"waves.steepness": 0.13, "water.depth_m": 22.5}, 30.0, 41),
-    "loops that leave the plane": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 80.0, 41),
+    "loops that leave the plane": ({"waves.steepness": 0.13, "water.depth_m": 21.6, **SPACE, **BLOW}, 65.0, 41),
     "moved end, in space": ({**SHAKEN, **SPACE, "end": {**SHAKEN["end"], "motion": ACROSS}}, 8.0, 81),
 }
 

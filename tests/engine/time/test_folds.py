@@ -8,7 +8,7 @@ import re
 import pytest
 
 from engine.time.folds import FOLD
-from tests.engine.lines import STILL, held, line, ran
+from tests.engine.lines import STILL, by_table, harmonic, held, line, ran
 
 FINE = {"tether.nodes": 161, "solver.rtol": 0.005}
 WRONG, RIGHT = 0.05, 0.02  # of the largest tension: beyond the first it is off, below the second it is not
@@ -18,7 +18,7 @@ def moved(share, tilt, length, period_s, along_m, across_m, stiffness_Nm2, **key
     """A line in still water, its ends a share of its length apart; the upper one shaken along the chord and across."""
     x, z = math.cos(tilt), math.sin(tilt)
     amplitude = [along_m * x - across_m * z, 0.0, along_m * z + across_m * x]
-    motion = {"law": "harmonic", "amplitude_m": amplitude, "period_s": period_s, "ramp_s": period_s}
+    motion = harmonic(amplitude, period_s, ramp_s=period_s)
     rope = {"tether.length_m": length, "tether.bending_stiffness_Nm2": stiffness_Nm2, "water.depth_m": 3 * length}
     return STILL | held(share * length * x, share * length * z, motion=motion) | rope | keys
 
@@ -32,13 +32,13 @@ def test_the_chord_of_a_fold_is_five_per_cent_too_short():
     assert math.cos(FOLD / 2) / (math.sin(FOLD / 2) / (FOLD / 2)) == pytest.approx(0.95, abs=1e-3)
 
 
-@pytest.mark.parametrize(("wrong", "scene"), [
-    (True, moved(0.64, 0.5, 20.0, 2.0, 0.6, -0.3, 0.01)),
-    (True, moved(0.75, 0.2, 50.0, 4.0, 1.0, 4.0, 0.4)),
-    (False, moved(0.80, 0.0, 20.0, 6.0, 0.3, 0.5, 0.4)),
-    (False, moved(0.93, 1.2, 10.0, 3.0, 0.2, 0.3, 4.0)),
+@pytest.mark.parametrize(("wrong", "dimensions", "scene"), [
+    (True, 3, moved(0.64, 0.5, 20.0, 2.0, 0.6, -0.3, 0.01)),
+    (True, 2, moved(0.75, 0.2, 50.0, 4.0, 1.0, 4.0, 0.4)),
+    (False, 2, moved(0.80, 0.0, 20.0, 6.0, 0.3, 0.5, 0.4)),
+    (False, 3, moved(0.93, 1.2, 10.0, 3.0, 0.2, 0.3, 4.0)),
 ])  # fmt: skip
-def test_a_run_tells_of_folds_where_they_move_its_largest_tension(wrong, scene, dimensions):
+def test_a_run_tells_of_folds_where_they_move_its_largest_tension(wrong, dimensions, scene):
     run, fine = (run_of(scene, **{"motion.dimensions": dimensions}, **more) for more in ({}, FINE))
     largest, right = (float(each_run.columns["tension_top_high_N"].max()) for each_run in (run, fine))
     off = abs(largest / right - 1.0)
@@ -49,7 +49,7 @@ def test_a_run_tells_of_folds_where_they_move_its_largest_tension(wrong, scene, 
 
 def test_folds_after_the_largest_tension_and_those_of_a_buoys_line_are_not_told():
     """A taut line is let hang: what folds later cannot have changed its largest tension."""
-    slackens = {"law": "table", "time_s": [0.0, 8.0], "displacement_m": [[0.0, 0.0, 0.0], [-8.0, 0.0, -8.0]]}
+    slackens = by_table([0.0, 8.0], [[0.0, 0.0, 0.0], [-8.0, 0.0, -8.0]])
     scene = STILL | held(14.2, 14.2, motion=slackens) | {"tether.bending_stiffness_Nm2": 0.01}
     for keys in (scene, {}):
         run = ran(line(keys), duration_s=15.0)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from engine import Trajectory, simulate, simulate_each
-from tests.engine.lines import assert_same, line
+from tests.engine.lines import SEA, assert_same, kick, line
+from tests.engine.physics.caps import CAP
 
 SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5}
 CARRIED = {"output.tangent_vectors": 2, "output.lateral_growth": True}
@@ -12,10 +13,16 @@ RELEASES = {"tether.nodes": 21, "waves.steepness": 0.13, "water.depth_m": 21.0} 
 KINDS = {
     "plane": SMALL,
     "carried": {**SMALL, **CARRIED},
-    "profiles": {**SMALL, "output.profiles": True, "output.profiles_step_s": 0.7},
-    "space": {**SMALL, "motion.dimensions": 3, "start.buoy_velocity_mps": [0.0, 1e-3, 0.0]},
+    "profiles, samples closer than steps": {
+        **SMALL,
+        "output.profiles": True,
+        "output.profiles_step_s": 0.7,
+        "output.step_s": 0.0125,
+    },
+    "space": {**SMALL, "motion.dimensions": 3, **kick(v=1e-3)},
     "fixed steps": {**SMALL, "solver.integrator": "generalized-alpha", "solver.step_s": 0.02},
-    "samples closer than steps": {**SMALL, "output.step_s": 0.0125},
+    "a sea": {**SMALL, **SEA},
+    "a sea, in and out of the water": {**SMALL, **SEA, **CAP, "output.tangent_vectors": 1},
     "loop releases": {**RELEASES, **CARRIED},
     "loop releases in space": {**RELEASES, "motion.dimensions": 3},
 }
@@ -69,8 +76,9 @@ def test_in_lanes_too_and_through_files(tmp_path, of, lengths):
             parts[i].append(Trajectory.load(tmp_path / f"{i}{number}.nc"))
         starts = [tmp_path / f"{i}{number}.nc" for i in range(3)]
     for scene, pieces in zip(scenes, parts, strict=True):
-        assert_continues(simulate(scene, periods=sum(lengths)), pieces)
-        assert pieces[-1].final_state.digest() == simulate(scene, periods=sum(lengths)).final_state.digest()
+        uninterrupted = simulate(scene, periods=sum(lengths))
+        assert_continues(uninterrupted, pieces)
+        assert pieces[-1].final_state.digest() == uninterrupted.final_state.digest()
 
 
 def test_a_run_that_ends_goes_on_among_the_others_as_long_as_somebody_says():

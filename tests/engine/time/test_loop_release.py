@@ -9,7 +9,7 @@ import pytest
 from engine.planar import columns as col
 from engine.planar.state import largest_turn
 from tests.engine.kernels import Steps, new_state, parameters_of
-from tests.engine.lines import in_space, line, ran
+from tests.engine.lines import in_space, kick, line, ran
 
 PER_PERIOD = 100  # samples
 
@@ -31,7 +31,7 @@ def test_a_release_compresses_the_line_less_than_the_rest_of_the_run(nodes):
 @pytest.mark.parametrize("steepness", [0.109, 0.136])
 def test_the_least_tension_of_41_nodes_is_that_of_81_and_of_space(steepness):
     waves = {"waves.steepness": steepness}
-    push = {"start.buoy_velocity_mps": [0.0, 1e-5, 0.0]}
+    push = kick(v=1e-5)
     plane, fine, space = (
         least_of(ran(scene, 200).columns)[0].min()
         for scene in (line(waves), line(waves, nodes=81), in_space(waves, push))

@@ -14,7 +14,7 @@ import pytest
 
 from tests.engine.box_equations import LAWS, equations, jacobian, state_of, unknowns
 from tests.engine.kernels import Stage
-from tests.engine.lines import Motion, line
+from tests.engine.lines import DRY, Motion, kick, line
 from tests.engine.physics.caps import CAP
 from tests.engine.rotations import frames, product, turned_by
 
@@ -42,27 +42,18 @@ TURNS = [1e-4, 0.15, 1.0]  # rad between neighbours: both branches of the kernel
 def scene_of(dimensions, law, end, wet, EI, stretching=0.0, tangents=None, **changes):
     """A scene of few nodes; clamps point along the tangents (2, 3) of the first and the last node."""
     across = 1.0 if dimensions == 3 else 0.0
-    places = {
-        "held": {"end.position_m": [3.0, -2.0 * across, 18.0]},
-        "free": {"end.force_N": [300, -200 * across, 900]},
-    }
-    overrides = {
-        "motion.dimensions": dimensions,
-        "tether.tension": LAWS[law],
-        "tether.nodes": NODES,
-        "tether.bending_stiffness_Nm2": EI,
-        "tether.torsion_stiffness_Nm2": 0.7 * EI,
-        "tether.grid_stretching": stretching,
-        "tether.diameter_m": 0.05,
-        **ENDS[end],
-        **places.get(ENDS[end].get("end.kind"), {}),
-        **({} if wet else {"water": None, "waves": None}),
-        **changes,
-    }
+    changes = {"motion.dimensions": dimensions, **ENDS[end], **changes}
+    if changes.get("end.kind") == "held":
+        changes["end.position_m"] = [3.0, -2.0 * across, 18.0]
+    if changes.get("end.kind") == "free":
+        changes["end.force_N"] = [300, -200 * across, 900]
     for i, part in enumerate(("anchor", "end")):
-        if overrides.get(f"{part}.rotation") == "clamped":
-            overrides[f"{part}.direction"] = tangents[i].tolist()
-    return line(overrides)
+        if changes.get(f"{part}.rotation") == "clamped":
+            changes[f"{part}.direction"] = tangents[i].tolist()
+    return line(
+        {} if wet else DRY, changes, tension=LAWS[law], nodes=NODES, bending_stiffness_Nm2=EI, diameter_m=0.05,
+        torsion_stiffness_Nm2=0.7 * EI, grid_stretching=stretching,
+    )  # fmt: skip
 
 
 def directions(rng, turn, dimensions):
@@ -125,7 +116,7 @@ BED = {"stiffness_Npm3": 3e5, "damping_Nspm3": 2e4, "friction": 0.6, "friction_s
 LOW = {"end.kind": "held", "end.position_m": [18.0, 0.0, 0.4], "buoy": None, "waves": None, "floor": BED}
 
 
-FALLING = {"waves": None, "water.depth_m": 21.0, "buoy.impact_loss": 0.3, "start.buoy_velocity_mps": [2.0, 0.0, -3.0]}
+FALLING = {"waves": None, "water.depth_m": 21.0, "buoy.impact_loss": 0.3, **kick(2.0, 0.0, -3.0)}
 EXTRAS = {  # scene, and what its record has for the stage: the line is lifted, the bed soft, the buoy at the surface
     "damping": ({"water": None, "waves": None, "tether.damping_Ns": 3e3}, {}),
     "surface": ({"waves": None, "tether.submergence": "free-surface", "tether.diameter_m": 8.0}, {"anchor_z": 8.0}),

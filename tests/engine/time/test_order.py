@@ -26,7 +26,7 @@ import pytest
 
 from engine import simulate
 from engine.time.integrators import backward_euler, esdirk43, generalized_alpha, midpoint, trbdf2
-from tests.engine.lines import DRY, STILL, held, line, linear, orders
+from tests.engine.lines import DRY, STILL, held, line, linear, orders, uniform
 
 WAVES = {"waves.steepness": 0.02, "water.depth_m": 30.0, "tether.tension": linear(5e3)}
 STRUCK = {**DRY, "buoy.mass_kg": 10.0, "tether.tension": linear(500.0)}
@@ -36,8 +36,8 @@ SCENES = {  # overrides, run length (s)
     "struck dry line": (STRUCK, 2.0),
 }
 ASIDE = {
-    2: ({"current": {"law": "uniform", "velocity_mps": [1.0, 0.0, 0.8]}}, [1.0, 0.0, 0.0]),
-    3: ({"current": {"law": "uniform", "velocity_mps": [1.0, -0.7, 0.8]}, "waves.direction_rad": 0.6}, [1.0, 0.6, 0.0]),
+    2: (uniform(1.0, 0.0, 0.8), [1.0, 0.0, 0.0]),
+    3: ({**uniform(1.0, -0.7, 0.8), "waves.direction_rad": 0.6}, [1.0, 0.6, 0.0]),
 }
 SHEAR = {"law": "profile", "height_m": [0.0, 30.0], "velocity_mps": [[0.2, 0.0, 0.0], [1.5, 0.0, 0.0]]}
 SMALL_WAVES = {"waves.steepness": 0.016, "water.depth_m": 22.5, "waves.ramp_s": 5.0}
@@ -48,7 +48,6 @@ GRIDS = {  # overrides, run length (s), largest difference of positions between 
     "static line in a sheared current": ({**CURRENT, **UNBENT}, 0.0, 1e-3),
     "the same, stiff in bending": ({**CURRENT, **STIFF}, 0.0, 1e-3),
     "slack line between two points": (SLACK, 0.0, 0.1),
-    "small waves": (SMALL_WAVES, 10.0, 1e-3),
     "small waves in a sheared current, without bending": ({**SMALL_WAVES, "current": SHEAR, **UNBENT}, 10.0, 1e-3),
 }
 
@@ -70,7 +69,6 @@ def run_of(*parts, duration_s, **solver):
         ("ramped waves", "trbdf2", 0.5, 2, 80),
         ("ramped waves", "midpoint", 0.5, 2, 80),
         ("ramped waves", "generalized-alpha", 1.0, 2, 80),
-        ("ramped waves", "generalized-alpha", 0.5, 2, 80),
         ("ramped waves", "generalized-alpha", 0.0, 2, 80),
         ("ramped waves", "backward-euler", 0.5, 1, 80),
         pytest.param("ramped waves", "paper-box", 0.5, 2, 80, marks=pytest.mark.slow),

@@ -8,7 +8,7 @@ drag keep their directions.
 import numpy as np
 import pytest
 
-from tests.engine.lines import DRY, QUIET, held, line, orders, ran
+from tests.engine.lines import DRY, QUIET, harmonic, held, line, orders, ran
 
 SOFT = {
     "tether.tension.stiffness_N": 2e3,
@@ -16,7 +16,7 @@ SOFT = {
     "tether.bending_stiffness_Nm2": 0.0,
     "tether.density_kgpm3": 5e4,
 }
-MOVED = {"law": "harmonic", "amplitude_m": [0.4, 0.0, 0.05], "period_s": 4.0, "phase_rad": 0.0, "ramp_s": 4.0}
+MOVED = harmonic([0.4, 0.0, 0.05], 4.0, phase_rad=0.0, ramp_s=4.0)
 BED = {"stiffness_Npm3": 1e3, "damping_Nspm3": 100.0, "friction": 0.3, "friction_speed_mps": 0.5}
 DRIFT = {"law": "uniform", "velocity_mps": [2.0, 0.0, 2.0]}
 WITHIN = {"tether.submergence": "free-surface", "tether.diameter_m": 60.0, "tether.drag_normal": 1e-5}

@@ -7,7 +7,7 @@ Free heave of the buoy above its anchor, without drag: omega^2 = EA/(L (M + M_a 
 import numpy as np
 import pytest
 
-from tests.engine.lines import STILL, held, line, linear, ran
+from tests.engine.lines import STILL, harmonic, held, line, linear, ran
 
 FRICTIONLESS = STILL | {"buoy.drag": 0.0, "tether.drag_normal": 0.0, "tether.drag_tangential": 0.0}
 SMALL_WAVES = {"waves.steepness": 0.016, "water.depth_m": 22.5}
@@ -73,7 +73,7 @@ def test_the_control_does_not_touch_a_line_whose_ringing_is_slow():
         np.testing.assert_array_equal(column, runs[1].columns[name], name)
 
 
-SHAKEN = {"end.motion": {"law": "harmonic", "amplitude_m": [0, 0, 1e-4], "period_s": 0.5}}
+SHAKEN = {"end.motion": harmonic([0, 0, 1e-4], 0.5)}
 
 
 @pytest.mark.parametrize(

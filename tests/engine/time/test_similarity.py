@@ -12,7 +12,7 @@ import pytest
 from engine import simulate
 from engine.scene import build_scene
 from engine.scene.reference import keys
-from tests.engine.lines import SPACE, STILL, held, line
+from tests.engine.lines import SPACE, STILL, harmonic, held, line
 from tests.engine.physics.caps import CAP
 
 LENGTH, TIME, MASS = 4.0, 4.0, 32.0  # new numbers over old ones
@@ -22,7 +22,7 @@ POWERS = {  # of length, time and mass
     "N/m3": (-2, -2, 1), "N s/m3": (-2, -1, 1), "N s": (1, -1, 1), "rad/s": (0, -1, 0),
 }  # fmt: skip
 COLUMNS = {"m": "m", "N": "N", "s": "s", "rad": "rad", "mps": "m/s", "radps": "rad/s"}
-SHAKEN = {"law": "harmonic", "amplitude_m": [0.4, 0.0, 0.6], "period_s": 2.0, "ramp_s": 1.0}
+SHAKEN = harmonic([0.4, 0.0, 0.6], 2.0, ramp_s=1.0)
 BED = {"stiffness_Npm3": 1e5, "damping_Nspm3": 3e3, "friction": 0.3, "friction_speed_mps": 0.2}
 CASES = {
     "buoy through the surface": CAP | {"waves.steepness": 0.1, "water.depth_m": 20.8, "waves.ramp_s": 2.0,

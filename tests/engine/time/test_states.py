@@ -12,7 +12,7 @@ from engine.run.going_on import between
 from engine.run.start import taken_over
 from engine.spatial import lift
 from engine.trajectory.final_state import NONE
-from tests.engine.lines import held, line
+from tests.engine.lines import held, kick, line
 
 SMALL = {"tether.nodes": 9, "waves.steepness": 0.06, "water.depth_m": 22.5, "solver.rtol": 1e-3}
 SLACK = {"tether.nodes": 21, "waves.steepness": 0.13, "water.depth_m": 21.0}  # folded after 12.6 periods
@@ -102,7 +102,7 @@ def test_the_grid_may_change_in_slack():
 
 
 def test_between_two_states(dimensions):
-    scenes = [line({**SMALL, "motion.dimensions": dimensions, "start.buoy_velocity_mps": [u, 0, 0]}) for u in (0, 2)]
+    scenes = [line({**SMALL, "motion.dimensions": dimensions, **kick(u)}) for u in (0, 2)]
     a, b = (simulate(scene, periods=2).final_state for scene in scenes)
     released = b.Y.copy()
     if dimensions == 2:

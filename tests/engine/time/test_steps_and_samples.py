@@ -15,7 +15,7 @@ from engine.time.integrators import esdirk43, trbdf2
 from engine.time.steps import embedded_error
 from engine.time.time_loop import weights_within
 from tests.engine.kernels import Stage
-from tests.engine.lines import STILL, Motion, held, line, orders, ran
+from tests.engine.lines import STILL, Motion, by_table, held, line, orders, ran, uniform
 from tests.engine.time.test_order import ASIDE, SCENES
 
 REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
@@ -24,7 +24,7 @@ REGULAR = {  # small waves, with a current that keeps |v| v away from its kink
     "waves.ramp_s": 10.0,
     "solver.max_step_s": 1.0,
     "solver.shortest_period_s": 1e9,  # the tolerance alone chooses the steps, not the heave of the line
-    "current": {"law": "uniform", "velocity_mps": [1.0, 0.0, 0.8]},
+    **uniform(1.0, 0.0, 0.8),
 }
 
 
@@ -116,7 +116,6 @@ STEEP = {"waves.steepness": 0.13, "water.depth_m": 22.5}
 @pytest.mark.parametrize(
     "overrides, length, step_s, count",
     [
-        ({}, {"periods": 3}, 0.05, 301),
         ({"waves.period_s": 7.3}, {"periods": 2}, 0.073, 201),
         ({"output.step_s": 0.7}, {"duration_s": 10.0}, 0.7, 15),
         ({"output.step_s": 0.1}, {"duration_s": 0.3}, 0.1, 4),  # 0.3/0.1 is below 3 in binary
@@ -234,11 +233,7 @@ def test_between_steps_that_damp_the_waves_of_a_held_line_its_tension_swings_no_
 
     A cubic through them went to 14.5 N instead of 6.3.
     """
-    motion = {
-        "law": "table",
-        "time_s": [0.0, 1.0, 5.0],
-        "displacement_m": [[0.0] * 3, [0.0, 0.0, -2.0], [0.0, 0.0, -2.0]],
-    }
+    motion = by_table([0.0, 1.0, 5.0], [[0.0] * 3, [0.0, 0.0, -2.0], [0.0, 0.0, -2.0]])
     changes = {"floor": {"stiffness_Npm3": 1e4, "damping_Nspm3": 1e3, "friction": 0.3}, "output.profiles": True}
     changes |= STILL | held(16.0, 4.0, motion=motion) | {"output.step_s": 0.01}
     loose, tight = (ran(line(changes, {"solver.rtol": rtol}), duration_s=2.0) for rtol in (0.03, 1e-4))

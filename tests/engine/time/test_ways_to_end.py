@@ -11,7 +11,7 @@ import pytest
 
 from engine import load_scene, simulate
 from engine.time.status import WORDS
-from tests.engine.lines import SPACE, STILL, held, line
+from tests.engine.lines import SPACE, STILL, harmonic, held, kick, line
 
 NO_COMPRESSION = {"law": "tabulated", "strain": [-0.5, 0.0, 0.1], "tension_N": [0.0, 0.0, 5000.0]}
 PAPER = {"solver.scheme": "paper-box", "tether.nodes": 11, "water.depth_m": 21.6}
@@ -30,12 +30,12 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
     "more loops than allowed": (FEW_RELEASES, 200.0, {"turn-unresolved"}),
     "no stiffness in compression": ({"tether.tension": NO_COMPRESSION}, 200.0, {"strain-below-minus-one"}),
     "a blow along a line without stiffness in compression": (
-        {**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -60.0], "tether.tension": NO_COMPRESSION},
+        {**STILL, **kick(w=-60.0), "tether.tension": NO_COMPRESSION},
         5.0,
         {"strain-below-minus-one"},
     ),
     "a blow along an unbent line": (
-        {**STILL, "start.buoy_velocity_mps": [0.0, 0.0, -300.0], "tether.bending_stiffness_Nm2": 0.0},
+        {**STILL, **kick(w=-300.0), "tether.bending_stiffness_Nm2": 0.0},
         5.0,
         {"newton-failed", "strain-below-minus-one", "step-limit"},  # ill-posed: how it breaks is not the point
     ),
@@ -60,7 +60,7 @@ ENDS = {  # name: (overrides, run length in s, status words allowed)
     ),
 }
 IN_A_PLANE = ["loops without release", "more loops than allowed"]  # struck across, a loop leaves the plane
-STRUCK = {"start.buoy_velocity_mps": [0.0, 1e-3, 0.0]}
+STRUCK = kick(v=1e-3)
 
 
 def cases():
@@ -124,7 +124,7 @@ def test_a_twist_that_is_too_much_ends_as_a_row_too(turns):
 @pytest.mark.slow
 def test_a_run_that_newton_s_failures_hold_ends_with_its_reason():
     """A bent chain in space without stiffness in torsion: without the rule ten minutes of steps of a microsecond."""
-    shaken = {"law": "harmonic", "amplitude_m": [0.1, 0.0, 0.1], "period_s": 2.0, "ramp_s": 1.0}
+    shaken = harmonic([0.1, 0.0, 0.1], 2.0, ramp_s=1.0)
     bent = {"tether.bending_stiffness_Nm2": 0.1, "tether.torsion_stiffness_Nm2": 0.0, "tether.nodes": 25}
     run = simulate(
         load_scene("falling_chain", {"motion.dimensions": 3, "end.motion": shaken, "solver.rtol": 0.003, **bent}),
