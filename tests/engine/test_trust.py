@@ -258,7 +258,8 @@ def outcome(monkeypatch, coarse, fine, water=DEEP, pressed_N=0.0, told="", depen
     (2.0, 4.0, DEEP, 0.0, "", "fine"),
     (9.0, 2.0, DEEP, 0.0, "", ""),  # the finer run decides
     (4.0, 2.0, DEEP, 0.0, "", "fine"),  # the differences do not shrink
-    (16.0, 2.0, DEEP, 0.0, "", "fine"),  # they are large
+    (16.0, None, DEEP, 0.0, "", "coarse"),  # too large for a finer run to refute
+    (14.0, 2.0, DEEP, 0.0, "", ""),
     (9.0, None, DEEP, 0.0, "measured", "coarse"),
     (4.0, None, DEEP, 0.0, "measured", ""),
     (9.0, None, DEEP, 0.0, "bounded", "coarse"),
