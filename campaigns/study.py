@@ -147,6 +147,21 @@ class Order:
         return Job(labels, scene, self.periods)
 
 
+def no_parameters(order: Order) -> Mapping[str, object]:
+    """Nothing beside the scene, its changes and the lengths."""
+    return {}
+
+
+def nothing_after(order: Order) -> Iterable[Callable[[Plan, Summary], float]]:
+    """Nothing is done after the runs."""
+    return ()
+
+
+def usual_runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
+    """`runner.run`: every run of the order, as its scene begins."""
+    return run(plan, jobs)
+
+
 @dataclass(frozen=True)
 class Study:
     """A campaign: either runs of scenes (`cases` and `measures`), or tasks of its own (`perform`)."""
@@ -157,7 +172,7 @@ class Study:
     options: type[cli.Options] = cli.Options  # that it adds
     places: tuple[str, ...] = tuple(cli.PLACES)  # options that say where its runs are done
     strict: bool = False  # whether a row that is not ok is exit code 1
-    parameters: Callable[[Order], Mapping[str, object]] = lambda order: {}  # in its provenance, beside those of scenes
+    parameters: Callable[[Order], Mapping[str, object]] = no_parameters  # in its provenance, beside those of scenes
     answer: Callable[[Order, Rows], Iterable[str]] | None = None  # the rows of table.csv, in eight sentences
 
     # tasks
@@ -170,11 +185,10 @@ class Study:
     lengths: Lengths | None = None  # None: its cases have lengths of their own
     cases: Callable[[Order], Iterable[Job | None]] | None = None  # None for a run that cannot be
     measures: Callable[[Order], Measures] | None = None
-    # what does the runs; without it each of them is done as its scene begins
-    runs: Callable[[Order, Plan, Jobs], Summary] = lambda order, plan, jobs: run(plan, jobs)
+    runs: Callable = usual_runs  # what does the runs, as of `usual_runs`
     together: bool = True  # whether runs may share a worker, side by side in the lanes
     # done after the runs: functions of (plan, summary) that return seconds of analysis
-    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = lambda order: ()
+    beside: Callable[[Order], Iterable[Callable[[Plan, Summary], float]]] = nothing_after
 
     def main(self, argv: list[str] | None = None, simulate: Callable | None = None) -> int:
         """The command. simulate: in place of engine.simulate, same signature. Returns the exit code (0, 1, 2, 130)."""
