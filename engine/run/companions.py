@@ -21,7 +21,9 @@ SAMPLES_AROUND_PEAK = 2  # before and after the largest tension, in which anothe
 EARLY_WAVES = 5  # of a buoy that are repeated
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
-FACTOR, DEPENDS = 2.0, 0.06  # change of this threshold, and of the slack fraction by it that calls for FINE
+THRESHOLD_FACTOR = 2.0  # by which this threshold is changed, to see whether the slack fraction depends on it
+FRACTION_DEPENDS = 0.06  # change of the slack fraction by that; a larger one calls for FINE
+UNCOMPARED = "no other grid brings this run to its end, so that nothing is known of its errors"
 
 
 class _Grid(NamedTuple):
@@ -67,9 +69,6 @@ def steps_too_long(run: "Run", columns: Columns) -> str:
     )
 
 
-UNCOMPARED = "no other grid brings this run to its end, so that nothing is known of its errors"
-
-
 class OtherGrids(NamedTuple):
     """What other grids and tolerances say of a run: a sentence or nothing, and whether both have its numbers.
 
@@ -112,8 +111,10 @@ def other_grids(run: "Run", columns: Columns, told: bool, bounded: bool) -> Othe
         if limits is not None:
             return OtherGrids(coarse.words(limits))
     fine = _differences(run, columns, duration_s, FINE)
+    if fine is None and coarse is None:
+        return OtherGrids(UNCOMPARED)
     if fine is None:
-        return OtherGrids(coarse.words(COARSE_DIFFERS) if coarse is not None else UNCOMPARED)
+        return OtherGrids(coarse.words(COARSE_DIFFERS))
     words = fine.words(_limits_of_fine(fine, coarse, undragged))
     return OtherGrids(words, agree=coarse is not None and not words and fine.within(HINT))
 
@@ -137,10 +138,13 @@ def _compared_s(run):
 def _limits_of_coarse(coarse, told, bounded, pressed):
     """What COARSE has to differ by to be told, where it decides alone; None where FINE decides.
 
-    It decides alone where other sentences have said that tensions are not exact; where it differs MUCH, or its slack
-    fraction differs, because FINE may agree by luck (41/29 bears 1733 N, 2863 N in COARSE, 1754 N in FINE, 1897 N
-    refined); and of a line without drag across it that is pressed together, because its folds
-    scatter (scene 8/27 of benchmarks.random_scenes bears 2307 to 2833 N on ten grids and tolerances).
+    It decides alone
+
+    - where other sentences have said that tensions are not exact;
+    - where it differs MUCH, or its slack fraction differs, because FINE may agree by luck (scene 41/29 of
+      benchmarks.random_scenes bears 1733 N, 2863 N in COARSE, 1754 N in FINE, 1897 N refined);
+    - of a line without drag across it that is pressed together, because its folds scatter (scene 8/27 bears 2307 to
+      2833 N on ten grids and tolerances).
     """
     refutes = bounded and coarse.within(NEAR)
     if (told and not refutes) or coarse.tension > MUCH or coarse.slack_change > COARSE_DIFFERS.slack:
@@ -162,10 +166,10 @@ def _limits_of_fine(fine, coarse, undragged):
 
 
 def _depends_on_threshold(scene, columns):
-    """Whether the slack fraction changes by more than DEPENDS if its threshold is FACTOR times larger or smaller."""
+    """Whether the slack fraction changes by more than FRACTION_DEPENDS with a larger or smaller threshold."""
     fraction = slack_samples(scene, columns).mean()
-    for share in (SLACK / FACTOR, SLACK * FACTOR):
-        if abs(slack_samples(scene, columns, share).mean() - fraction) > DEPENDS:
+    for share in (SLACK / THRESHOLD_FACTOR, SLACK * THRESHOLD_FACTOR):
+        if abs(slack_samples(scene, columns, share).mean() - fraction) > FRACTION_DEPENDS:
             return True
     return False
 
