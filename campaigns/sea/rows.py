@@ -89,7 +89,8 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
 
     transient: peak periods left out. window, slack_share, snap_share, slope: options of the campaign.
     """
-    (row, columns), scene = begun_row(trajectory), trajectory.scene
+    row, columns = begun_row(trajectory)
+    scene = trajectory.scene
     period_s, step_s = scene.waves.period_s, scene.sample_step_s()
     if carried(trajectory):
         growth = trajectory.tangent.growth_nats[:, 0]

@@ -17,7 +17,14 @@ USUAL = ANSWERS.pop("usual")
 
 def known(rows, usual):
     """Rows with their usual entries; what is none is None, as in a table."""
-    return [{name: None if entry == "none" else entry for name, entry in (usual | row).items()} for row in rows]
+    entries_of_rows = []
+    for row in rows:
+        entries = usual | row
+        for name, entry in entries.items():
+            if entry == "none":
+                entries[name] = None
+        entries_of_rows.append(entries)
+    return entries_of_rows
 
 
 def answer(rows=(), companions=(), ends=()) -> dict[str, str]:
