@@ -46,10 +46,14 @@ def doubts_of(run: "Run", columns: Columns) -> str:
         steps_too_long(run, columns),
         blows(record, scene, columns),
         unresolved(record, run.tables, scene, columns),
-        _unsteady_at_rest(run),
     ]
-    bounds = [_undamped(run, columns), _pressed_together(run, columns), _folded(run, columns)]
-    others = other_grids(run, columns, told=any(inexact + bounds), bounded=any(bounds))
+    bounds = [
+        _unsteady_at_rest(run),
+        _undamped(run, columns),
+        _pressed_together(run, columns),
+        _folded(run, columns),
+    ]
+    others = other_grids(run, columns, doubted=any(inexact), bounded=any(bounds))
     if not others.agree:
         inexact += bounds
     doubtful = (
