@@ -5,13 +5,12 @@ prints them and keeps them as answer.txt, where its report finds them.
 """
 
 import math
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from functools import partial
 from operator import itemgetter
 from pathlib import Path
 
-from tables import FAILS, PEAK, STATEMENTS, VERDICTS, Row, Rows, any_rows, listed, number_of
+from tables import FAILS, PEAK, STATEMENTS, Row, Rows, any_rows, listed, number_of, verdict_counts
 
 NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
 
@@ -56,9 +55,7 @@ def verdicts(folder: Path, quoted: int) -> Iterator[str]:
     statements = any_rows(folder / STATEMENTS)
     if not statements:  # as where no run ended
         return
-    counts = Counter(map(itemgetter("verdict"), statements))
-    parts = [f"{words} {counts[verdict]}" for verdict, words in VERDICTS.items() if counts[verdict]]
-    yield f"Of {len(statements)} statements of the paper {listed(parts)}."
+    yield f"Of {len(statements)} statements of the paper: {verdict_counts(statements)}."
     failing = [row for row in statements if row["verdict"] == FAILS]
     for row in failing[:quoted]:
         yield f"Does not hold: {row['statement']}"

@@ -2,7 +2,8 @@
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from operator import itemgetter
 
@@ -18,7 +19,7 @@ VERDICTS = {
     HOLDS: "hold",
     HOLDS_IF: "hold under a condition",
     FAILS: "do not hold",
-    NOT_JUDGED: "are not decided",
+    NOT_JUDGED: "not decided",
 }
 
 SETTLED, JOINED, UNSETTLED = OUTCOMES = "settled", "joined", "unsettled"  # of a start
@@ -50,6 +51,12 @@ def number(value: float | None, digits: int = 4) -> str:
     if "e" in text and 1e-4 <= abs(value) < 1e7:
         text = f"{value:.0f}"
     return _minus(text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e"))
+
+
+def verdict_counts(statements: Iterable[Mapping[str, object]]) -> str:
+    """How many statements of the paper have each verdict: "3 hold, 1 not decided"; "none" of none."""
+    counts = Counter(map(itemgetter("verdict"), statements))
+    return ", ".join(f"{counts[verdict]} {words}" for verdict, words in VERDICTS.items() if counts[verdict]) or "none"
 
 
 def decimals(value: float | None, places: int) -> str:

@@ -93,9 +93,7 @@ def parameters(order: Order) -> dict:
 
 def answer(order: Order, rows: Rows) -> Iterator[str]:
     """The error of the shipped setting on every work where it is timed, its median time, and what ended early."""
-
     shipped = {"kind": "point", "method": BEST, "status": "ok"} | SHIPPED
-    sentences = []
     for name in order.options.effort.works:
         work, errors, times_s = BY_NAME[name], [], []
         for row in rows:
@@ -106,9 +104,8 @@ def answer(order: Order, rows: Rows) -> Iterator[str]:
                     errors.append(error)
         if errors:
             wall_ms = 1e3 * median(times_s) * work.period_s / work.duration_s
-            sentences.append(f"{name} {median(errors):.2g} {UNITS[work.measure]} in {wall_ms:.2g} ms")
-    if sentences:
-        yield f"Error of the shipped setting, and its time for a wave period: {'; '.join(sentences)}."
+            error = f"{median(errors):.2g} {UNITS[work.measure]}"
+            yield f"{work.title}: the shipped setting errs by {error} and takes {wall_ms:.2g} ms a wave period."
     early = sum(row["status"] != "ok" for row in rows if row["kind"] == "point")
     if early:
         yield f"{early} of our timed runs ended early, so their errors are not known."

@@ -81,7 +81,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     if PHASE in across:
         if across[0] == "vz":
             ahead = ("upwards", "downwards")[first < 0.0]
-        return f"{ahead}, {_phase(shock):.2f} T before a crest,"
+        return f"{ahead}, {_phase(shock):.2f} T before a crest"
     second = number_of(shock, COLUMNS[across[1]])
     upright = ("downwards", "upwards")[second > 0.0]
     angle = math.degrees(math.atan2(abs(second), abs(first)))
@@ -100,7 +100,7 @@ def _shock(rows: Rows, across: Sequence[str]) -> str:
     first, *finer = good
     if first["size"] == 0.0:
         return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
-    words = f"{first['size']:.2g} {unit} {_way(first, across)} is the smallest that leads to {first['motion']}"
+    words = f"The smallest start that leads to {first['motion']} is {first['size']:.2g} {unit} {_way(first, across)}"
     for row in finer:
         words += f"; on {row['nodes']:.0f} nodes {row['size']:.2g} {unit} {_way(row, across)}"
     if not finer:

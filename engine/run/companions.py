@@ -202,9 +202,10 @@ class _Differences(NamedTuple):
             parts.append(f"the largest tension is {self.other_N:.4g} N in place of {self.largest_N:.4g} N")
         if self.slack_change > limits.slack:
             most = int(np.abs(self.other_slack - self.slack).argmax())
+            threshold, slack, other_slack = THRESHOLDS[most], self.slack[most], self.other_slack[most]
             parts.append(
-                f"the top bears at most {100 * THRESHOLDS[most]:g} % of its tension at rest for {self.other_slack[most]:.2g} "
-                f"of the time in place of {self.slack[most]:.2g}"
+                f"the top bears at most {100 * threshold:g} % of its tension at rest for {other_slack:.2g} of the time "
+                f"in place of {slack:.2g}"
             )
         if not parts:
             return ""

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import xarray
 
-from tables import count, decimals, listed, number, percent
+from tables import count, decimals, listed, number, percent, verdict_counts
 
 from ..figures.line_panels import named
 from ..parts import (
@@ -15,7 +15,6 @@ from ..parts import (
     Notice,
     Report,
     Text,
-    counted,
     flat,
     picture_first,
     read_folder,
@@ -52,7 +51,7 @@ def report(directory: Path) -> Report:
     folder = read_folder(directory)
     lines, judged = read_lines(folder), read_statements(folder.directory)
     table = partial(table_of_runs, lines, folder.columns)
-    verdicts = f"The paper's statements on the breaking line: {counted(judged)}. From `statements.csv`."
+    verdicts = f"The paper's statements on the breaking line: {verdict_counts(judged)}. From `statements.csv`."
     of_cases = sum(line["kind"] == "case" for line in lines)
     ended = f"{len(of_kind(lines, 'case'))} of {count(of_cases, 'case')} ended as asked."
     exact = read_exact(folder)

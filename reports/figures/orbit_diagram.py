@@ -194,8 +194,11 @@ class OrbitDiagram(NamedTuple):
             axes.tick_params(labelbottom=axes is lowest)
             for value, _ in self.marks:
                 axes.axvline(value, color=SOFT, linewidth=0.7, linestyle=(0, (3, 2)))
+        middle = np.mean(lowest.get_xlim())
         for value, text in self.marks:
-            lowest.annotate(text, (value, 0.05), (2, 0), ("data", "axes fraction"), "offset points", fontsize=7)
+            away, side = (2, "left") if value < middle else (-2, "right")
+            at = (value, 0.05), (away, 0), ("data", "axes fraction"), "offset points"
+            lowest.annotate(text, *at, ha=side, fontsize=7)
         lowest.set_xlabel(self.labels[0])
 
 
@@ -257,6 +260,7 @@ def _range_bar(axes, spans: Sequence[Span], inch: float) -> None:
         return
     text, low, high = max(spans, key=lambda span: span[2] - span[1])
     x_min, x_max = axes.get_xlim()
+    low, high = max(low, x_min), min(high, x_max)
     wide = _LETTER_IN * len(text) / inch
     place, side = x_min, "left"
     if high - low > wide:

@@ -10,7 +10,20 @@ from pathlib import Path
 import numpy as np
 
 from engine.views import strobed_radius
-from tables import BODIES, COST, PAIRS, PLANE, RUNS, any_rows, count, errors_of, listed, number, number_of
+from tables import (
+    BODIES,
+    COST,
+    PAIRS,
+    PLANE,
+    RUNS,
+    any_rows,
+    count,
+    errors_of,
+    listed,
+    number,
+    number_of,
+    verdict_counts,
+)
 
 from ..figures.curves import COLOURS, Curve, Panel, curves, dots
 from ..figures.offplane_history import History, lateral_histories
@@ -25,7 +38,6 @@ from ..parts import (
     Row,
     Text,
     batched,
-    counted,
     entries,
     having,
     limits,
@@ -69,7 +81,7 @@ def report(directory: Path) -> Report:
 def statement_items(study: Study) -> Items:
     """The verdicts on the paper's statements and on planar runs; buoy and rope in the two runs of figure 20."""
     judged, pairs = read_statements(study.folder.directory), any_rows(study.folder.directory / _PAIRS)
-    sentences = [f"The paper's statements on figure 20: {counted(judged)}."]
+    sentences = [f"The paper's statements on figure 20: {verdict_counts(judged)}."]
     if pairs:
         sentences.append(_agreement(pairs))
     yield Heading("The paper's statements on figure 20")

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tables import FAILS, HOLDS, HOLDS_IF, count, decimals
+from tables import FAILS, HOLDS, HOLDS_IF, count, decimals, verdict_counts
 
 from ..figures.verdict_grid import verdict_grid
 from ..parts import (
@@ -15,7 +15,6 @@ from ..parts import (
     Notice,
     Report,
     Text,
-    counted,
     entries,
     read_folder,
     read_statements,
@@ -119,7 +118,7 @@ def short_answer(judged: list[Judged]) -> list[str]:
         if row["statement"] not in statements:
             statements.add(row["statement"])
             first_told.append(row)
-    lines = [f"Of {count(len(judged), 'statement')}: {counted(judged)}."]
+    lines = [f"Of {count(len(judged), 'statement')}: {verdict_counts(judged)}."]
     for verdict in (FAILS, HOLDS_IF):
         for row in first_told:
             if row["verdict"] == verdict:
@@ -170,5 +169,5 @@ def _statements(judged: list[Judged]) -> Items:
     yield Heading("The statements of the paper")
     yield Text(VERDICTS)
     for heading, topic in _by_topic(judged).items():
-        yield [Heading(heading, 2), statements_table(topic, f"{heading}: {counted(topic)}.")]
+        yield [Heading(heading, 2), statements_table(topic, f"{heading}: {verdict_counts(topic)}.")]
     yield [Heading("Not judged", 2), written("not_judged")]

@@ -4,11 +4,10 @@ from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 
-from tables import STATEMENT_COLUMNS, STATEMENTS, VERDICTS, read_rows
+from tables import STATEMENT_COLUMNS, STATEMENTS, read_rows
 
 from .content import Head, Table, heads
 from .folder import read_files
-from .selecting import entries
 
 Judged = dict[str, str]
 
@@ -17,16 +16,6 @@ def read_statements(directory: Path) -> list[Judged]:
     """The rows of statements.csv. Raises FolderError where they cannot be read."""
     reader = {".csv": partial(read_rows, needed=STATEMENT_COLUMNS)}
     return read_files(directory, {STATEMENTS: "the statements of the paper as judged"}, reader)[STATEMENTS]
-
-
-def counted(rows: Iterable[Judged]) -> str:
-    """How many hold, and so on: "3 hold, 1 do not hold"."""
-    verdicts = entries(rows, "verdict")
-    counts = []
-    for word, phrase in VERDICTS.items():
-        if word in verdicts:
-            counts.append(f"{verdicts.count(word)} {phrase}")
-    return ", ".join(counts) or "none"
 
 
 def statements_table(rows: Iterable[Judged], caption: str) -> Table:

@@ -51,19 +51,24 @@ def report(directory: Path) -> Report:
     judged = read_judged(directory)
     answer, source = judged["answer.json"], judged["provenance.json"]
     figures = _figures(judged, answer["unit_of_time"], source["column"])
-    items = [_verdict(answer), picture_first(figures), _evidence(answer), _origin(source, judged["answer.txt"])]
+    record, *further = picture_first(figures)
+    items = [_verdict(answer), record, _measures(answer), *further, _evidence(answer)]
+    items.append(_origin(source, judged["answer.txt"]))
     title, under = f"Regular or chaotic: {source['column']}", f"column {source['column']} of {source['file']}"
     return Report(title, under, flat(items))
 
 
 def _verdict(answer: dict) -> Items:
-    rows = [list(map(printed, row)) for row in answer["measures"]]
-    caption = "Measures with one standard error; none: no value, for the reason beside it."
     return [
         Text(f"The motion is {answer['regime']}: {answer['reason']}."),
         Text(f"{answer['record']}. The section has {answer['section']['how']}."),
-        Table(heads("measure", ("value", ""), "unit", "from"), rows, caption, small=False),
     ]
+
+
+def _measures(answer: dict) -> Table:
+    rows = [list(map(printed, row)) for row in answer["measures"]]
+    caption = "Measures with one standard error; none: no value, for the reason beside it."
+    return Table(heads("measure", ("value", ""), "unit", "from"), rows, caption, small=False)
 
 
 def _figures(judged: dict, unit: str, column: str) -> Items:

@@ -62,8 +62,8 @@ def test_the_smallest_start_is_the_nearest_point_of_a_disc(centre):
 @pytest.mark.parametrize(
     ("across", "shock", "way"),
     [
-        ("vx phase", {"kick_x_mps": -2.0, "phase_rad": 0.5 * math.pi}, "against the waves, 0.25 T before a crest,"),
-        ("vz phase", {"kick_z_mps": 2.0, "phase_rad": math.pi}, "upwards, 0.50 T before a crest,"),
+        ("vx phase", {"kick_x_mps": -2.0, "phase_rad": 0.5 * math.pi}, "against the waves, 0.25 T before a crest"),
+        ("vz phase", {"kick_z_mps": 2.0, "phase_rad": math.pi}, "upwards, 0.50 T before a crest"),
         ("vx vz", {"kick_x_mps": -1.0, "kick_z_mps": -1.0}, "against the waves, 45 degrees downwards"),
         ("x z", {"displacement_x_m": 0.01, "displacement_z_m": 1.0}, "upwards"),
     ],
@@ -72,7 +72,7 @@ def test_the_smallest_start_is_told_with_its_way(across, shock, way):
     row = shock | {"status": "ok", "size": 2.0, "motion": "B", "nodes": 81}
     unit = "m" if "x" in across.split() else "m/s"
     sentence = _shock([row, row | {"size": 2.1}], across.split())
-    assert sentence == f"2 {unit} {way} is the smallest that leads to B; on 81 nodes 2.1 {unit} {way}."
+    assert sentence == f"The smallest start that leads to B is 2 {unit} {way}; on 81 nodes 2.1 {unit} {way}."
 
 
 def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(tmp_path, monkeypatch):

@@ -223,12 +223,11 @@ def test_a_run_from_a_kick_in_waves_is_not_repeated(monkeypatch):
 
 
 def differing(grid, tension=0.0, slack=0.0, then=0.0):
-    """Of the run on another grid, in per cent: of the largest tension, of the slack fraction for the last threshold, and
-    of the tension at the time of the largest."""
+    """Of the run on another grid, in per cent: of the largest tension, of a slack fraction of 40 %, and of the tension
+    at the time of the largest."""
     shares = tension / 100.0, then / 100.0
-    fractions = np.array([0.3, 0.4, 0.5])
-    others = fractions + [0.0, 0.0, slack / 100.0]
-    return companions._Differences(100.0, 100.0 + tension, *shares, fractions, others, grid)
+    fractions = np.array([0.3, 0.4]), np.array([0.3, 0.4 + slack / 100.0])
+    return companions._Differences(100.0, 100.0 + tension, *shares, *fractions, grid)
 
 
 ENDS_EARLY = "ends early"
