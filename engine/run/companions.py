@@ -21,7 +21,7 @@ SAMPLES_AROUND_PEAK = 2  # before and after the largest tension, in which anothe
 EARLY_WAVES = 5  # of a buoy that are repeated
 ROUNDING = 1e-3  # of the weight of the line: a smaller difference of tensions says nothing
 SLACK = 0.05  # of the tension at rest: the line is slack
-THRESHOLDS = SLACK / 2, SLACK, 2 * SLACK  # for which slack fractions are compared
+THRESHOLDS, USUAL = (SLACK / 2, SLACK, 2 * SLACK), 1  # for which slack fractions are compared; SLACK among them
 FRACTION_DEPENDS = 0.06  # change of the slack fraction from threshold to threshold; a larger one calls for FINE
 UNCOMPARED = "no other grid brings this run to its end, so that nothing is known of its errors"
 
@@ -43,8 +43,8 @@ class _Limits(NamedTuple):
 
 COARSE, FINE = _Grid(0.5, 10, 2), _Grid(2, 30, 4)
 HINT = _Limits(0.015, 0.02)  # in COARSE: it calls for FINE
-NEAR = _Limits(0.02, 0.05)  # in COARSE: FINE may refute a bound that was told
-COARSE_DIFFERS = _Limits(0.08, 0.08)  # is told where FINE is not run
+NEAR = _Limits(0.05, 0.05)  # in COARSE: FINE may refute a bound that was told
+COARSE_DIFFERS = _Limits(0.08, 0.035)  # is told where FINE is not run
 FINE_DIFFERS = _Limits(0.03, 0.04)  # is told
 MUCH = 3 * NOTED  # of the largest tension in COARSE: an error of second order is a third of that difference
 SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
@@ -90,7 +90,8 @@ def other_grids(run: "Run", columns: Columns, doubted: bool, bounded: bool) -> O
       19/15 of benchmarks.random_scenes bears 944 N, 949 N in COARSE, 874 N in FINE);
     - where the slack fraction depends on its threshold, for the same reason (37/59 is slack for .24 of the time, .24 in
       COARSE, .30 in FINE, .31 refined; for .16 and .35 with half and twice the threshold);
-    - where nothing but bounds was told and COARSE is NEAR: if FINE is nearer still, the bounds are too wide.
+    - where nothing but bounds was told, COARSE is NEAR, and drag acts across the line: if FINE is nearer still, the
+      bounds are too wide.
 
     Where FINE ends early COARSE decides.
     """
@@ -103,7 +104,8 @@ def other_grids(run: "Run", columns: Columns, doubted: bool, bounded: bool) -> O
     undragged = run.record["cn"] == 0.0
     refutable = False
     if coarse is not None:
-        refutable = bounded and not doubted and duration_s == run.duration_s and coarse.within(NEAR)
+        bounds_alone = bounded and not doubted and duration_s == run.duration_s
+        refutable = bounds_alone and not undragged and coarse.within(NEAR)
         if coarse.within(HINT) and coarse.tension_at_peak <= HINT.tension:
             if not (undragged or refutable or _depends_on_threshold(run.scene, columns)):
                 return OtherGrids()
@@ -142,12 +144,13 @@ def _limits_of_coarse(coarse, told, pressed):
     It decides alone
 
     - where other sentences have said that tensions are not exact;
-    - where it differs MUCH, or its slack fractions do, because FINE may agree by luck (scene 41/29 of
+    - where it differs MUCH, or its slack fraction does, because FINE may agree by luck (scene 41/29 of
       benchmarks.random_scenes bears 1733 N, 2863 N in COARSE, 1754 N in FINE, 1897 N refined);
     - of a line without drag across it that is pressed together, because its folds scatter (scene 8/27 bears 2307 to
       2833 N on ten grids and tolerances).
     """
-    if told or coarse.tension > MUCH or coarse.slack_change > COARSE_DIFFERS.slack:
+    slack_change = abs(coarse.other_slack[USUAL] - coarse.slack[USUAL])
+    if told or coarse.tension > MUCH or slack_change > COARSE_DIFFERS.slack:
         return COARSE_DIFFERS
     if pressed and coarse.tension > FINE_DIFFERS.tension:
         return FINE_DIFFERS
