@@ -26,7 +26,7 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
-from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, run_of
+from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, print_line, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
 from tables import Rows, number_of, read_table
@@ -182,6 +182,8 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
         from campaigns.explore.motions import Search
 
         folder = plan.how.out / "motions"
+        if options.motion is not None:
+            print_line(f"the motions are found first; then it is known whether {options.motion} is one of them")
         with claimed(folder):
             without_kicks = Search(order, 0, motions.SPEED_MPS, 1)
             times = motions.every_motion(plan.within(folder), jobs, without_kicks).times
