@@ -29,8 +29,8 @@ TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 12  # a bight that the grid does not resolve keeps a folded node
-LEAST_NODES = 5  # of a grid whose rest is a guess for a finer one
-LEANING = 1.0
+LEANING, HANGING = 1.0, 0.0  # in place of a share of its length: a straight line; a held one as a catenary
+NARROWEST = 1e-3  # of its length: the ends of a catenary are not nearer to each other
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
 SINKING = 0.01, 0.1, 1.0, 0.03, 0.3  # into the softest bed, of the length of the line, tried in turn
@@ -79,25 +79,29 @@ def _least_pressed(record, scene, tables):
 
 
 def _rest(record, scene, tables, span, sinking):
-    """A status code and the rest to which the first guess leads.
+    """A status code and the first rest without a fold within an element to which a guess leads, or the last rest.
 
-    Where a line without bending stiffness keeps folds in space, or finds no rest, the guess is its rest in a plane;
-    where it finds none in a plane, its rest on half the elements.
+    A rest that is folded so seldom lasts.
     """
-    h = lengths_of(record, tables)
-    Y = first_guess(record, scene, h, span)
-    code = _settle_on_bed(record, scene, tables, Y, sinking)
-    if record["bent"]:
-        return code, Y
-    other = None
+    code, best = STATICS_FAILED, None
+    for Y in _guesses(record, scene, lengths_of(record, tables), span, sinking):
+        found = _settle_on_bed(record, scene, tables, Y, sinking)
+        if found == OK or best is None:
+            code, best = found, Y
+        if found == OK and not _folded(Y):
+            break
+    return code, best
+
+
+def _guesses(record, scene, h, span, sinking):
+    """States from which a rest is looked for: the first guess, a catenary, of a line in space its rest in a plane."""
+    yield first_guess(record, scene, h, span)
+    if record["end"] == HELD and record["w0"] != 0.0:
+        yield first_guess(record, scene, h, HANGING)
     if is_spatial(record):
-        if code != OK or _folded(Y):
-            other = _rest_in_plane(record, scene, h, span, sinking)
-    elif code != OK:
-        other = _rest_on_half(record, scene, h, span, sinking)
-    if other is not None and _settle_on_bed(record, scene, tables, other, sinking) == OK:
-        return OK, other
-    return code, Y
+        flat = _rest_in_plane(record, scene, h, span, sinking)
+        if flat is not None:
+            yield flat
 
 
 def _rest_in_plane(record, scene, h, span, sinking):
@@ -106,30 +110,11 @@ def _rest_in_plane(record, scene, h, span, sinking):
     if record["end"] == HELD:
         x, y, z = scene.end.position_m
         flat = flat.with_values("end", position_m=(math.hypot(x, y), 0.0, z))
-    code, Y = _rest(*_numbered(flat), span, sinking)
+    flat_record, tables = numbers_of(flat)
+    code, Y = _rest(flat_record, flat, tables, span, sinking)
     if code != OK:
         return None
     return lift.state_in_space(record, h, Y, _azimuth(scene, record))
-
-
-def _rest_on_half(record, scene, h, span, sinking):
-    """The state (n, 6) of a line that rests on half the elements, between them linear; None if it does not."""
-    nodes = (scene.tether.nodes + 1) // 2
-    if nodes < LEAST_NODES:
-        return None
-    coarse_record, coarse_scene, tables = _numbered(scene.with_values("tether", nodes=nodes))
-    code, coarse = _rest(coarse_record, coarse_scene, tables, span, sinking)
-    if code != OK:
-        return None
-    coarse[:, col.PHI] = np.unwrap(coarse[:, col.PHI])  # nodes may have been turned by whole turns
-    s, coarse_s = np.append(0.0, np.cumsum(h)), arc_lengths(coarse_record, tables)
-    return np.column_stack([np.interp(s, coarse_s, column) for column in coarse.T])
-
-
-def _numbered(scene):
-    """Record, scene and tables of a scene, as `settle` takes them."""
-    record, tables = numbers_of(scene)
-    return record, scene, tables
 
 
 def _folded(Y):
@@ -211,7 +196,8 @@ def first_guess(record: np.void, scene: Scene, h: np.ndarray, span: float = SPAN
     """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
 
     In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
-    length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats.
+    length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats;
+    HANGING: a slack line between held ends is a catenary in place of an arc.
     """
     if not is_spatial(record):
         return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
@@ -231,6 +217,8 @@ def _in_plane(record, scene, h, force, span):
     if record["end"] == HELD:
         x, y, z = scene.end.position_m
         x = math.hypot(x, y) if is_spatial(record) else x  # along its azimuth
+        if span == HANGING and math.hypot(x, z) < length:
+            return _catenary(Y, s, x, z, record["w0"], scene.tether.tension)
         return _to_a_place(Y, s, x, z, record["w0"])
     up, height = afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
     if height is not None:
@@ -262,6 +250,26 @@ def _to_a_place(Y, s, x, z, w0):
         sag = 1.0 if (w0 >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
         Y[:, col.PHI] = direction + sag * half * (2 * s / length - 1)
         Y[:, col.KAPPA] = 2 * sag * half / length
+    return Y
+
+
+def _catenary(Y, s, x, z, w0, law):
+    """A line from the anchor to (x, z), m, as it hangs, or rises where it is light; its strain does not lengthen it.
+
+    Its angle has the tangent (s - s_low)/a, a = H/w of the horizontal force H (Irvine, Cable Structures, 1981).
+    """
+    from scipy.optimize import brentq
+
+    length, down = s[-1], math.copysign(1.0, w0)
+    span_m, rise_m = max(abs(x), NARROWEST * length), down * z
+    shape = math.sqrt(max(length**2 - rise_m**2, span_m**2)) / span_m
+    half = brentq(lambda u: math.sinh(u) - shape * u, 1e-9, 20.0) if shape > 1.0 + NARROWEST**2 else 1e-3
+    a = 0.5 * span_m / half
+    along = s + 0.5 * (rise_m / math.tanh(half) - length)  # from the lowest point
+    ahead = math.copysign(1.0, x)
+    Y[:, col.PHI] = np.arctan2(down * along, ahead * a)
+    Y[:, col.KAPPA] = down * ahead * a / (a**2 + along**2)
+    Y[:, col.EPS] = [strain_at(abs(w0) * height_m, law) for height_m in np.hypot(a, along)]
     return Y
 
 

@@ -1,7 +1,10 @@
-"""Law: a line without bending stiffness rests in space as in the plane, and what its grid does not resolve is told."""
+"""Law: a slack line rests as a catenary, in space as in the plane, and what its grid does not resolve is told."""
+
+import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from engine.run.rest import rest_of
 from engine.spatial import lift
@@ -28,6 +31,28 @@ def test_a_stiff_chain_rests_on_any_grid(nodes):
     chain = CHAIN | {"length_m": 4.796, "area_m2": 1.7e-3}
     rest = rest_of(line(DRY, held(1.619, -4.419), tension=linear(2.2e7), nodes=nodes, **chain))
     assert rest.status == 0 and rest.top_N == pytest.approx(138.9, abs=0.1)
+
+
+def top_of_catenary(length_m, x, z, weight_Npm):
+    """Tension at the upper of two ends, x and z apart, of a heavy line that does not stretch (Irvine 1981)."""
+    shape = math.sqrt(length_m**2 - z**2) / x
+    half = brentq(lambda u: math.sinh(u) - shape * u, 1e-6, 20.0)
+    return 0.5 * weight_Npm * (length_m / math.tanh(half) + abs(z))
+
+
+@pytest.mark.parametrize("space", [{}, SPACE])
+@pytest.mark.parametrize(("nodes", "density_kgpm3", "bending_Nm2"), [
+    (41, 7800.0, 0.0068), (241, 7800.0, 0.0068), (321, 7800.0, 0.0), (121, 150.0, 0.0),
+])  # fmt: skip
+def test_a_line_between_near_ends_rests_as_a_catenary(nodes, density_kgpm3, bending_Nm2, space):
+    """On 41, 241 and 321 nodes it stayed folded within an element, pressed by up to 150 N. A light line rises."""
+    area_m2, x, z = 6.77e-4, 0.483, 1.538
+    weight_Npm = (density_kgpm3 - 1027.0) * area_m2 * 9.81
+    keys = {"length_m": 5.2356, "area_m2": area_m2, "density_kgpm3": density_kgpm3, "nodes": nodes}
+    water = STILL | {"water.depth_m": 13.0, "anchor.position_m": [0.0, 0.0, 6.3]}
+    up = math.copysign(z, weight_Npm)  # the end that bears most is the top of a heavy line, of a light one the other
+    chain = line(water, space, held(x, up), tension=linear(1.4e6), bending_stiffness_Nm2=bending_Nm2, **keys)
+    assert rest_of(chain).top_N == pytest.approx(top_of_catenary(5.2356, x, z, abs(weight_Npm)), rel=2e-3)
 
 
 def test_whole_turns_are_taken_out_of_the_elements():
