@@ -258,6 +258,8 @@ def outcome(monkeypatch, coarse, fine, water=DEEP, pressed_N=0.0, told="", depen
 @pytest.mark.parametrize("coarse, fine, water, pressed_N, told, expected", [
     (1.0, None, DEEP, 0.0, "", ""),  # no hint: no finer run
     (1.0, 2.0, DRY, 0.0, "", "fine"),  # nothing calms waves across the line
+    (1.0, 4.0, DEEP, 20.0, "", "fine"),  # pressed together before its largest tension
+    (1.0, None, DEEP, 5.0, "", ""),
     (9.0, 2.0, DRY, 0.0, "", "fine"),
     (2.0, 4.0, DEEP, 0.0, "", "fine"),
     (9.0, 2.0, DEEP, 0.0, "", ""),  # the finer run decides
