@@ -56,7 +56,8 @@ def number(value: float | None, digits: int = 4) -> str:
 def verdict_counts(statements: Iterable[Mapping[str, object]]) -> str:
     """How many statements of the paper have each verdict: "3 hold, 1 not decided"; "none" of none."""
     counts = Counter(map(itemgetter("verdict"), statements))
-    return ", ".join(f"{counts[verdict]} {words}" for verdict, words in VERDICTS.items() if counts[verdict]) or "none"
+    parts = [f"{counts[verdict]} {words}" for verdict, words in VERDICTS.items() if counts[verdict]]
+    return ", ".join(parts) or "none"
 
 
 def decimals(value: float | None, places: int) -> str:

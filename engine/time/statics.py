@@ -263,7 +263,9 @@ def _catenary(Y, s, x, z, w0, law):
     length, down = s[-1], math.copysign(1.0, w0)
     span_m, rise_m = max(abs(x), NARROWEST * length), down * z
     shape = math.sqrt(max(length**2 - rise_m**2, span_m**2)) / span_m
-    half = brentq(lambda u: math.sinh(u) - shape * u, 1e-9, 20.0) if shape > 1.0 + NARROWEST**2 else 1e-3
+    half = 1e-3  # of a line that is nearly straight
+    if shape > 1.0 + NARROWEST**2:
+        half = brentq(lambda u: math.sinh(u) - shape * u, 1e-9, 20.0)
     a = 0.5 * span_m / half
     along = s + 0.5 * (rise_m / math.tanh(half) - length)  # from the lowest point
     ahead = math.copysign(1.0, x)

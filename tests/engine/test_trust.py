@@ -292,8 +292,8 @@ def test_which_other_grid_decides_by_its_largest_tension(coarse, fine, water, pr
     (1.0, 1.9, "bounded", "agree"),
 ])  # fmt: skip
 def test_which_other_grid_decides_by_its_slack_fraction(coarse, fine, told, expected, monkeypatch):
-    finer = None if fine is None else differing("fine", slack=fine)
-    assert outcome(monkeypatch, differing("coarse", slack=coarse), finer, told=told) == expected
+    pair = differing("coarse", slack=coarse), differing("fine", slack=fine)
+    assert outcome(monkeypatch, *pair, told=told) == expected
 
 
 def test_a_slack_fraction_that_depends_on_its_threshold_calls_for_a_finer_grid(monkeypatch):
