@@ -222,12 +222,14 @@ def test_a_run_from_a_kick_in_waves_is_not_repeated(monkeypatch):
     assert ran(scene, duration_s=1.0).message == ""
 
 
-def differing(grid, tension=0.0, slack=0.0, then=0.0):
-    """Of the run on another grid, in per cent: of the largest tension, of a slack fraction of 40 %, and of the tension
-    at the time of the largest."""
-    shares = tension / 100.0, then / 100.0
-    fractions = np.array([0.3, 0.4, 0.5]), np.array([0.3, 0.4 + slack / 100.0, 0.5])
-    return companions._Differences(100.0, 100.0 + tension, *shares, *fractions, grid)
+def differing(grid, tension=0.0, slack=0.0, then=0.0, half=0.0):
+    """Of the run on another grid, in per cent: of the largest tension, of a slack fraction of 40 %, of the tension at
+    the time of the largest, and of the slack fraction for half the threshold."""
+    fractions = np.array([0.3, 0.4, 0.5]), np.array([0.3 + half / 100.0, 0.4 + slack / 100.0, 0.5])
+    tensions = {"tension": tension / 100.0, "at_peak_N": 100.0 - then, "at_peak": then / 100.0}
+    return companions._Differences(
+        100.0, 100.0 + tension, **tensions, slack=fractions[0], other_slack=fractions[1], settings=grid
+    )
 
 
 ENDS_EARLY = "ends early"
@@ -260,7 +262,8 @@ def outcome(monkeypatch, coarse, fine, water=DEEP, pressed_N=0.0, told="", depen
     (1.0, 2.0, DRY, 0.0, "", "fine"),  # nothing calms waves across the line
     (1.0, 4.0, DEEP, 20.0, "", "fine"),  # pressed together before its largest tension
     (1.0, None, DEEP, 5.0, "", ""),
-    (9.0, 2.0, DRY, 0.0, "", "fine"),
+    (2.9, 1.6, DRY, 0.0, "", "fine"),
+    (2.9, 1.4, DRY, 0.0, "", ""),
     (2.0, 4.0, DEEP, 0.0, "", "fine"),
     (9.0, 2.0, DEEP, 0.0, "", ""),  # the finer run decides
     (4.0, 2.0, DEEP, 0.0, "", "fine"),  # the differences do not shrink
@@ -275,8 +278,7 @@ def outcome(monkeypatch, coarse, fine, water=DEEP, pressed_N=0.0, told="", depen
     (4.0, 1.4, DEEP, 0.0, "bounded", "agree"),  # the bound is refuted
     (1.0, 1.0, DEEP, 0.0, "bounded", "agree"),
     (4.0, None, DRY, 0.0, "bounded", ""),  # nothing calms waves across the line
-    (4.0, None, DRY, 20.0, "", "coarse"),  # folds that scatter
-    (4.0, 1.0, DRY, 5.0, "", ""),
+    (4.0, None, DRY, 0.0, "", "coarse"),  # folds and waves that scatter
     (4.0, 1.0, DEEP, 20.0, "", ""),  # drag calms the folds
 ])  # fmt: skip
 def test_which_other_grid_decides_by_its_largest_tension(coarse, fine, water, pressed_N, told, expected, monkeypatch):
@@ -294,6 +296,22 @@ def test_which_other_grid_decides_by_its_largest_tension(coarse, fine, water, pr
 def test_which_other_grid_decides_by_its_slack_fraction(coarse, fine, told, expected, monkeypatch):
     pair = differing("coarse", slack=coarse), differing("fine", slack=fine)
     assert outcome(monkeypatch, *pair, told=told) == expected
+
+
+@pytest.mark.parametrize("half, expected", [(5.6, "coarse"), (5.4, "")])
+def test_half_the_elements_tell_a_slack_fraction_for_half_the_threshold(half, expected, monkeypatch):
+    assert outcome(monkeypatch, differing("coarse", half=half), differing("fine")) == expected
+
+
+@pytest.mark.parametrize("fine, expected", [
+    (differing("fine", slack=2.1), "fine"),
+    (differing("fine", slack=1.9), ""),
+    (differing("fine", then=1.6), "fine"),
+    (differing("fine", then=1.4), ""),
+])  # fmt: skip
+def test_a_hint_on_twice_the_elements_is_told_without_drag(fine, expected, monkeypatch):
+    assert outcome(monkeypatch, differing("coarse"), fine, DRY) == expected
+    assert outcome(monkeypatch, differing("coarse", slack=2.1), fine, DEEP) == ""
 
 
 def test_a_slack_fraction_that_depends_on_its_threshold_calls_for_a_finer_grid(monkeypatch):
@@ -343,7 +361,7 @@ def test_the_tension_of_another_run_is_also_that_at_the_time_of_the_largest(monk
     monkeypatch.setattr(companions, "_columns_of_companion", lambda *_: made)
     monkeypatch.setattr(companions, "static_tension_N", lambda *_: np.nan)
     differences = companions._differences(run, {**made, "tension_top_high_N": base}, 0.5, companions.COARSE)
-    assert (differences.tension, differences.tension_at_peak) == pytest.approx((0.01, 0.4))
+    assert (differences.tension, differences.at_peak) == pytest.approx((0.01, 0.4))
 
 
 @pytest.mark.parametrize(("step_s", "told"), [(0.05, True), (0.02, False), (0.01, False)])
