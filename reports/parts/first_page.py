@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tables import ANSWER, any_rows, count, number, number_of, printed
 
-from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong
+from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong, with_subscripts
 from .provenance import APPENDIX
 
 
@@ -46,10 +46,11 @@ def symbols(items: Items) -> Items:
 
 def _with_its_word(line: str) -> str:
     """A line of the answer as print wants it, the word that it begins with in bold type."""
+    line = with_subscripts(printed(line))
     word, _, text = line.partition(" ")
     if word.isupper() and text.startswith(" "):
-        return f"{strong(word)} {printed(text.lstrip())}"
-    return printed(line)
+        return f"{strong(word)} {text.lstrip()}"
+    return line
 
 
 def how_long(provenance: Mapping, rows: list[dict[str, str]]) -> str:
