@@ -35,10 +35,10 @@ class _Grid(NamedTuple):
 
 
 class _Limits(NamedTuple):
-    """Differences of two runs: of largest tensions, over the first one, and of slack fractions for any threshold.
+    """Differences of two runs, tensions over the largest of the first run.
 
-    at_peak: of tensions when the first run has its largest one, because two runs may have the same largest tension at
-    two snaps.
+    tension: of the largest tensions; slack: of slack fractions for any threshold; at_peak: of the tensions at the time
+    of the first run's largest, because two runs may have the same largest tension at two snaps.
     """
 
     tension: float
@@ -47,11 +47,11 @@ class _Limits(NamedTuple):
 
 
 COARSE, FINE = _Grid(0.5, 10, 2), _Grid(2, 30, 4)
-HINT = _Limits(0.015, 0.02, at_peak=0.015)  # in COARSE: it calls for FINE
+HINT = _Limits(0.015, 0.02, at_peak=0.015)  # in COARSE: it calls for FINE; in FINE: told without drag
 NEAR = _Limits(0.05, 0.05)  # in COARSE: FINE may refute a bound that was told
 COARSE_DIFFERS = _Limits(0.08, 0.035)  # is told where FINE is not run
 FINE_DIFFERS = _Limits(0.03, 0.04)  # is told
-# In COARSE is told whatever FINE says. An error of second order is a third of the difference of tensions.
+# A larger difference in COARSE is told whatever FINE says. A third of that of tensions is an error of second order.
 MUCH = _Limits(3 * NOTED, 0.055)
 SHRINKS = 0.4  # of the difference in COARSE: errors shrink at least to this in FINE; where they do not, HINT is told
 
@@ -153,9 +153,9 @@ def _limits_of_coarse(coarse, told, undragged):
     It decides alone
 
     - where other sentences have said that tensions are not exact;
-    - where it differs MUCH, or its slack fraction for the usual threshold by that of COARSE_DIFFERS, because FINE may
-      agree by luck (scene 41/29 of benchmarks.random_scenes bears 1733 N, 2863 N in COARSE, 1754 N in FINE, 1897 N
-      refined);
+    - where it differs MUCH, or where the slack fraction for the usual threshold differs by more than COARSE_DIFFERS
+      allows, because FINE may agree by luck (scene 41/29 of benchmarks.random_scenes bears 1733 N, 2863 N in COARSE,
+      1754 N in FINE, 1897 N refined);
     - of a line without drag across it, because its folds and waves scatter (8/27 bears 2307 to 2833 N on ten grids and
       tolerances; 62/98 bears 175.1 N, 157.1 N in COARSE, 173.2 N in FINE, 185.9 N refined).
     """
@@ -170,9 +170,9 @@ def _limits_of_coarse(coarse, told, undragged):
 def _limits_of_fine(fine, coarse, undragged):
     """What FINE has to differ by to be told: a HINT is enough where errors do not shrink as they should.
 
-    Without drag across the line they shrink slowly (31/57: 23.1 N, 20.4 N in COARSE, 23.6 N in FINE, 24.9 N refined),
-    and its slack fraction or its other snaps in FINE may be the first to say so (61/81: 134.1 N and .056, 134.9 N and
-    .025 in FINE, 141.7 N refined).
+    Without drag across the line they shrink slowly (31/57: 23.1 N, 20.4 N in COARSE, 23.6 N in FINE, 24.9 N refined).
+    Then the slack fraction, or another snap that is the largest, may show it before the largest tension does (61/81:
+    134.1 N, slack for .056 of the time; in FINE 134.9 N and .025; refined 141.7 N).
     """
     if undragged:
         return HINT
