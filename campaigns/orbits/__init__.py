@@ -17,7 +17,7 @@ or ends, its branch ends. Nothing is random.
 import re
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -26,13 +26,14 @@ from campaigns.explore import sweep as motions
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.multipliers import TOLERANCE
 from campaigns.judge import job_from
-from campaigns.machinery import BadInput, Job, Plan, Summary, claimed, cli, print_line, run_of
+from campaigns.machinery import Job, Plan, Summary, claimed, cli, run_of
 from campaigns.study import Measures, Order, Study
 from engine.views import LONGEST_PERIOD
-from tables import Rows, number_of, read_table
+from tables import Rows, any_rows, number_of, read_table
 
 USUAL, VALUES, BUDGET = "waves.steepness 0.05 0.16", 9, 700
 ORBITS, BRANCHES = 60, 8
+MOTIONS = "motions"  # the folder of the sweep that finds them
 
 
 @dataclass
@@ -61,6 +62,7 @@ class Options(cli.Options):
     no_accuracy: bool = cli.flag("do not find folds, flips and torus points again on a finer grid of the line")
     second: object = None  # the key of --curves
     grid: Grid = field(default_factory=Grid)  # the key with its values, read from --vary and --values
+    out: Path = Path()  # the folder of the campaign
 
     def read(self, faults: list[str]) -> None:
         """The key with its values in the words of --vary."""
@@ -69,6 +71,8 @@ class Options(cli.Options):
         elif self.motion is not None and not re.fullmatch(r"[A-Z](1\d|[2-9])?", self.motion):
             allowed = "a capital letter, or A2 to Z19, as motions/table.csv has them"
             faults.append(f"--motion: given {self.motion!r}; allowed: {allowed}")
+        elif self.motion is not None:
+            faults += self.unknown_letter()
         words = self.vary or USUAL.split()
         if faults and words == USUAL.split():
             return
@@ -87,6 +91,19 @@ class Options(cli.Options):
         if key is not None and self.second is not None and self.second.key == key.key:
             faults.append(f"--curves {key.key}: is the key of --vary; allowed: another one")
 
+    def unknown_letter(self, jobs: Sequence[Job] = ()) -> Iterator[str]:
+        """Why no motion has the letter of --motion: a search gives letters, so they are those of the last one here.
+
+        jobs: the runs from rest with which that search has to have begun.
+        """
+        table = self.out / MOTIONS / "table.csv"
+        rows = any_rows(table)
+        letters = sorted({row["motion"] for row in rows if row["motion"]})
+        if self.motion not in letters or not {job.key for job in jobs} <= {row["run_key"] for row in rows}:
+            found = ", ".join(letters) or "none"
+            allowed = f"a letter in {table}, which the same command without --motion writes; there now: {found}"
+            yield f"--motion: given {self.motion}; allowed: {allowed}"
+
 
 def cases(order: Order) -> Iterator[Job]:
     """The runs from rest at the values of the key; of --start-from a run that goes on for a period."""
@@ -99,6 +116,8 @@ def cases(order: Order) -> Iterator[Job]:
     jobs = list(filter(None, jobs_of(order)))
     if not jobs:
         return
+    if order.options.motion is not None:
+        order.tell(*order.options.unknown_letter(jobs))
     from engine.run.period_map import why_no_map
 
     grids = {job.scene.tether.nodes for job in jobs}
@@ -181,13 +200,10 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
     else:
         from campaigns.explore.motions import Search
 
-        folder = plan.how.out / "motions"
-        if options.motion is not None:
-            print_line(f"the motions are found first; then it is known whether {options.motion} is one of them")
+        folder = plan.how.out / MOTIONS
         with claimed(folder):
             without_kicks = Search(order, 0, motions.SPEED_MPS, 1)
             times = motions.every_motion(plan.within(folder), jobs, without_kicks).times
-        _check_letter(options.motion, folder)
         starts = [*_under_motions(order, folder)]
     began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
@@ -207,17 +223,6 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
         write_curves(tree, Plane(line, options.second, options.second.of(line.scenes.base), points))
     times["run_s"] += time.perf_counter() - began
     return Summary(rows, tree.there, tree.computed, times)
-
-
-def _check_letter(letter: str | None, folder: Path) -> None:
-    """Raises BadInput where no motion in a folder has this letter: a sweep finds them, so it is known late."""
-    if letter is None:
-        return
-    (rows,) = motions.tables_of(folder, "").values()
-    letters = sorted({str(row["motion"]) for row in rows if row["motion"]})
-    if letter not in letters:
-        allowed = f"a motion of {folder / 'table.csv'}: {', '.join(letters) or 'there is none'}"
-        raise BadInput(f"--motion: given {letter!r}; allowed: {allowed}")
 
 
 def _under_motions(order: Order, folder) -> Iterator[tuple]:

@@ -7,6 +7,7 @@ import pytest
 
 from campaigns import orbits
 from campaigns.explore.grid import varied
+from campaigns.explore.motions import MOTION
 from campaigns.explore.tracing import Line, Scenes, line_task, work
 from campaigns.finer import finer
 from campaigns.machinery.cli import Running
@@ -16,6 +17,7 @@ from campaigns.orbits.tree import _on, _same
 from engine import load_scene, simulate
 from reports.orbits.report import report
 from reports.parts.content import Figure, Table
+from tables import RUN_KEY, write_table
 from tests.campaigns.conftest import finished, order_of, rows_of
 from tests.reports.conftest import of_kind
 
@@ -78,6 +80,29 @@ def test_an_orbit_lies_on_a_branch_begun_at_any_strobe():
     assert _same(seen, begin + 0.5) and not _same(seen, begin) and not _same(seen, seen[:1])
 
 
+def test_a_letter_is_refused_that_no_search_of_the_same_runs_gave_a_motion(tmp_path):
+    words = [*QUICK, "--out", tmp_path]
+    jobs = order_of(orbits, *words).cases
+
+    def found(*run_keys):
+        (tmp_path / "motions").mkdir(exist_ok=True)
+        rows = [{"run_key": key, "motion": letter} for key, letter in zip(run_keys, "CA", strict=True)]
+        write_table(tmp_path / "motions" / "table.csv", (RUN_KEY, MOTION), rows)
+
+    def faults_of(letter):
+        orbits.read_order([*map(str, words), "--motion", letter], faults := [])
+        return faults
+
+    (fault,) = faults_of("C")
+    assert fault.endswith("there now: none")
+    found(*(job.key for job in jobs))
+    assert faults_of("C") == []
+    (fault,) = faults_of("B")
+    assert fault.endswith("there now: A, C")
+    found(jobs[0].key, "of another scene")
+    assert len(faults_of("C")) == 1
+
+
 @pytest.mark.slow
 def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(tmp_path, capsys):
     """41 nodes give |μ| = .92 and .91 at kA = 0.10 and 0.12, with the pair that the runs' exponents show."""
@@ -99,6 +124,8 @@ def test_the_orbits_of_a_small_range_are_found_followed_and_not_computed_again(t
     capsys.readouterr()
     assert main(words) == 0 and finished(tmp_path, "branches/*.json") == files
     assert rows_of(tmp_path) == rows and "0 computed" in capsys.readouterr().out
+    assert main([*words, "--motion", "B"]) == 2 and "there now: A\n" in capsys.readouterr().err
+    assert main([*words, "--motion", "A"]) == 0 and rows_of(tmp_path) == rows
     items = report(tmp_path).items
     assert of_kind(items, Figure) and of_kind(items, Table)
     run = next((tmp_path / "motions" / "trajectories").glob("*.nc"))
