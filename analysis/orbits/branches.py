@@ -163,7 +163,8 @@ class _Follower:
         points = place.orbit.points + step * place.change
         parameter = place.orbit.parameter + step * place.rate * size if end is None else end
         across, directions = tangent if end is None else None, real_span(place.orbit.vectors)
-        solved = solved_near(self.system, points, parameter, NEAR_ORBITS, across, directions, place.slopes)
+        newton = NEAR_ORBITS._replace(tolerance=self.system.tolerance)
+        solved = solved_near(self.system, points, parameter, newton, across, directions, place.slopes)
         if self.system.length(solved.points[0] - points[0], (solved.parameter - parameter) / size) > NEAR * step:
             raise NoImage("the branch turns too sharply: the map is not smooth there, or steps scatter the orbit")
         if not self.low <= solved.parameter <= self.high:

@@ -22,6 +22,7 @@ from scipy.optimize import brentq
 
 from analysis.orbits.finding import (
     KEPT,
+    ROUGH,
     Newton,
     Orbit,
     corrected,
@@ -37,7 +38,7 @@ CLOSE = 2e-3  # of a multiplier on both sides of an event to what it is there; `
 ACCURACY = 1e-9  # of a chord, to which an event is located
 CLOSER, LEAST = 1e-2, 1e-9  # an event is located this much better, to so much at best, until its multiplier is CLOSE
 ROUNDING = 1e-10  # of a test function; a map that conserves area has 1 - mu_1 mu_2 = 0 everywhere
-WIDE = 0.1, 0.2, 0.4  # chords: so near to an event one set of steps of the system suits the orbits on both sides
+WIDE = 0.1, 0.2, 0.4, 0.8  # chords: so near to an event one set of steps of the system suits the orbits on both sides
 # From one orbit to the next: where Newton's method is slow, a shorter step is better.
 NEAR_ORBITS = Newton(iterations=8, halvings=2, kept=KEPT)
 # An orbit of a branch; change (N, n) and rate: the tangent, of the points and of the parameter; slopes (N, n)
@@ -119,15 +120,17 @@ class _Chord:
         points = lower.points + part * (upper.points - lower.points)
         return points, lower.parameter + part * (upper.parameter - lower.parameter)
 
+    def solved(self, maps, share, tolerance):
+        """The points at a share of the way: what Newton's method finds there."""
+        newton = NEAR_ORBITS._replace(tolerance=tolerance)
+        further = newton, self.across, real_span(self.orbits[0.0].vectors), self.slopes
+        if maps is None:
+            return solved_near(self.system, *self.between(share), *further)
+        return corrected(maps, *self.between(share), *further)
+
     def look(self, maps, share):
         """The orbit at a share of the way."""
-        guess = self.between(share)
-        directions = real_span(self.orbits[0.0].vectors)
-        if maps is None:
-            solved = solved_near(self.system, *guess, NEAR_ORBITS, self.across, directions, self.slopes)
-        else:
-            solved = corrected(maps, *guess, NEAR_ORBITS, self.across, directions, self.slopes)
-        return described(solved, self.count)[0]
+        return described(self.solved(maps, share, self.system.tolerance), self.count)[0]
 
     def value(self, share):
         """The test function."""
@@ -166,21 +169,30 @@ class _Chord:
             parameter = f"{orbit.parameter:.6g}, where the map is not smooth"
             raise NoImage(f"the largest multiplier leaps from {leap} in modulus at {parameter}")
         angle = angle_of(kind, orbit.multipliers)
-        if angle is None or not orbit.settled or (kind == "fold" and not self.turns(orbit)):
+        if angle is None or not orbit.settled:
             return None
         if self.maps is None:
             search = self.system.parameter_size * max(ROUNDING, orbit.gap)
-            return Event(kind, orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search, orbit, angle)
+            middle, error = orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search
+        else:
+            middle, error = self.on_meshes(orbit, share)
+        if kind == "fold" and not self.turns(orbit, error):
+            return None
+        return Event(kind, middle, error, orbit, angle)
+
+    def on_meshes(self, orbit, share):
+        """The parameter of the event in the middle of those of all meshes, and its error."""
         try:
             parameters = np.array([self.elsewhere(mesh, share) for mesh in range(self.system.meshes)])
         except ArithmeticError:
-            return Event(kind, orbit.parameter, np.inf, orbit, angle)
+            return orbit.parameter, np.inf
         middle = float(np.median(parameters))
-        return Event(kind, middle, float(np.abs(middle - parameters).max()), orbit, angle)
+        return middle, float(np.abs(middle - parameters).max())
 
-    def turns(self, orbit):
-        """Whether the parameter turns back at an orbit. Where steps scatter it, it is compared a chord away on both
-        sides, and an orbit whose halves are as near as that is no fold, but the flip of half its period."""
+    def turns(self, orbit, error):
+        """Whether the parameter turns back at an orbit. Where steps scatter it by more than it changes along the chord,
+        it is compared a chord away on both sides. An orbit whose halves are as near as that is no fold, but the flip of
+        half its period."""
         ends = self.orbits[0.0], self.orbits[1.0]
         if self.maps is not None:
             half, odd = divmod(orbit.period, 2)
@@ -188,8 +200,9 @@ class _Chord:
             chord, halves_distance = (self.system.length(way, 0.0) for way in ways)
             if half and not odd and halves_distance < chord:
                 return False
-            with suppress(ArithmeticError):
-                ends = self.look(None, -1.0), self.look(None, 2.0)
+            if min(abs(end.parameter - orbit.parameter) for end in ends) <= error:
+                with suppress(ArithmeticError):
+                    ends = self.solved(None, -1.0, ROUGH), self.solved(None, 2.0, ROUGH)
         return np.prod([end.parameter - orbit.parameter for end in ends]) > 0.0
 
     def elsewhere(self, mesh, share):

@@ -7,11 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, Shots, shoot, slopes_of
+from analysis.orbits.maps import TOLERANCE, NoImage, NotSolved, OrbitMap, Shots, shoot, slopes_of
 from analysis.orbits.spaces import Space
 from analysis.sampling import checked_count, checked_series
 
-TOLERANCE = 1e-9  # of the gaps, relative to the largest coordinate of the guess or 1
 ROUGH, KEPT = 1e-4, 0.05  # tolerance before steps are chosen again; share of a gap that a derivative nearby may leave
 SHARE_LEFT = 0.03  # of the gaps that another mesh makes of an orbit, where it is found again for its error only
 MOVED = 1e-3  # from a guess, beyond which its steps do not suit an orbit
@@ -108,7 +107,7 @@ def find_orbit(
     period: int = 1,
     *,
     count: int = 6,
-    tolerance: float = TOLERANCE,
+    tolerance: float | None = None,
     iterations: int = 20,
     halvings: int = 6,
 ) -> Orbit:
@@ -116,7 +115,7 @@ def find_orbit(
 
     start        (n,) a state, whose images are the first guess, or (period, n): a guess of every point
     count        multipliers wanted, the largest
-    tolerance    of the gaps, relative to the largest coordinate of the start or 1
+    tolerance    of the gaps, relative to the largest coordinate of the start or 1; None: that of the system
     iterations   of Newton's method
     halvings     of a step that does not shorten the gaps
     Returns an Orbit: `period` is the least one, a divisor of the one asked for. Where none was found, `reason` says
@@ -129,7 +128,8 @@ def find_orbit(
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
         while True:
-            solved = solved_near(system, points, parameter, Newton(tolerance, iterations, halvings))
+            newton = Newton(tolerance or system.tolerance, iterations, halvings)
+            solved = solved_near(system, points, parameter, newton)
             least = _least_period(system, solved.points)
             if least == len(points):
                 return described(solved, count)[0]
@@ -141,7 +141,7 @@ def find_orbit(
 def scatter_of(system: OrbitMap, orbit: Orbit, share_left: float = SHARE_LEFT) -> Scatter:
     """The errors of an orbit: it is found again with every other mesh of the system, at the same parameter.
 
-    share_left: of the gaps that the other mesh makes of the orbit; 0: they are closed to TOLERANCE.
+    share_left: of the gaps that the other mesh makes of the orbit; 0: they are closed to the tolerance of the system.
     """
     points, rivals, directions = np.zeros_like(orbit.points), [], real_span(orbit.vectors)
     size = max(1.0, np.abs(orbit.points).max())
@@ -149,7 +149,7 @@ def scatter_of(system: OrbitMap, orbit: Orbit, share_left: float = SHARE_LEFT) -
         for mesh in range(1, system.meshes):
             maps = system.near(orbit.points, orbit.parameter, mesh)
             shots = shoot(maps, orbit.points, orbit.parameter)
-            newton = Newton(max(TOLERANCE, share_left * shots.residual / size), kept=KEPT)
+            newton = Newton(max(system.tolerance, share_left * shots.residual / size), kept=KEPT)
             solved = corrected(maps, orbit.points, orbit.parameter, newton, None, directions, shots=shots)
             rivals.append(described(solved, len(orbit.multipliers))[0])
             points = np.maximum(points, np.abs(rivals[-1].points - orbit.points))

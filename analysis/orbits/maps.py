@@ -9,6 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+# of the gaps of an orbit, relative to the largest coordinate of the guess or 1; of a map in steps, because other steps
+# move its points by 1000 times as much
+TOLERANCE, IN_STEPS = 1e-9, 1e-6
 DIFFERENCE = 1e-5  # of parameter_size, where a map does not tell its derivative by the parameter
 Linearised = Callable[[np.ndarray], np.ndarray]
 Step = Callable[[np.ndarray, float], tuple[np.ndarray, Linearised]]
@@ -49,6 +52,11 @@ class OrbitMap:
     meshes: int = 1
     abreast: int = 1
     seen: np.ndarray | None = None
+
+    @property
+    def tolerance(self) -> float:
+        """To which the gaps of its orbits are closed."""
+        return TOLERANCE if self.frozen is None else IN_STEPS
 
     def near(self, points: np.ndarray, parameter: float, mesh: int = 0) -> Sequence["OrbitMap"]:
         """The maps to be used near an orbit, one for each of its points."""

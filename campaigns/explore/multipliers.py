@@ -31,7 +31,6 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipli
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
-GAPS = 1e-6  # of orbits under rows: other steps move their points by 1000 times as much
 ITERATIONS, HALVINGS = 6, 2  # of Newton's method: from a run that comes nearer to an orbit three are enough
 LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
@@ -136,9 +135,7 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     scene = scene_from_toml(scene.to_toml(), {"solver.rtol": min(QUICK, scene.solver.rtol)})
     try:
         cable, system = cable_map(lambda _: scene, trajectory.final_state, 0.0)
-        orbit = find_orbit(
-            system, cable.first, 0.0, period, count=2, tolerance=GAPS, iterations=iterations, halvings=HALVINGS
-        )
+        orbit = find_orbit(system, cable.first, 0.0, period, count=2, iterations=iterations, halvings=HALVINGS)
         if not orbit.found:
             return {"reason": orbit.reason}
         history = cable.history(orbit.points, 0.0)
