@@ -62,6 +62,7 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple]:
     """Jobs of one run length, all with `going` or none, that a worker does side by side, in groups as even as can be.
 
     Jobs that are too few to fill lanes at every worker stay alone: so they are done sooner, and none waits for others.
+    Beside jobs of other lengths, which keep the other workers busy, one worker does them in its lanes.
     """
     alike = {}  # jobs by their length
     for job in jobs:
@@ -72,9 +73,12 @@ def groups_of(plan: Plan, jobs: Jobs) -> list[tuple]:
     if plan.how.sends:
         most = MOST_SENT
     for members in alike.values():
-        if len(members) < FEWEST * workers:
+        sharing = workers
+        if len(members) < FEWEST * workers and len(alike) > 1:
+            sharing = 1
+        if len(members) < FEWEST * sharing:
             continue
-        for group in _dealt(members, workers * math.ceil(len(members) / (workers * most))):
+        for group in _dealt(members, sharing * math.ceil(len(members) / (sharing * most))):
             groups.append(tuple(_mixed(group)))
     return groups
 

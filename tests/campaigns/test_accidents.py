@@ -278,3 +278,12 @@ def test_groups_are_even_and_hold_every_job_once(tmp_path):
     # the engine runs one by one what keeps profiles, and threads share no worker
     assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **side_by_side) == []
     assert groups(tmp_path, jobs_of(EIGHT), "threading", **side_by_side) == groups(tmp_path, jobs_of(EIGHT)) == []
+
+
+def test_few_jobs_of_another_length_share_one_worker_while_others_work(tmp_path):
+    jobs, side_by_side = jobs_of([0.01 + 0.01 * i for i in range(12)]), {"simulate_each": FakeEngine().each}
+    few = [replace(job, periods=7) for job in jobs[:FEWEST]]
+    *_, last = groups(tmp_path, [*jobs, *few], **side_by_side)
+    assert {job.key for job in last} == {job.key for job in few}
+    assert groups(tmp_path, few, **side_by_side) == []
+    assert len(groups(tmp_path, [*jobs, *few[1:]], **side_by_side)) == 2

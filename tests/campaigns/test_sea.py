@@ -61,7 +61,8 @@ def test_runs_that_share_lanes_go_to_one_worker_and_every_worker_gets_runs(tmp_p
     words = "--seeds 12 --starts 1 --hours 3 --most-hours 12".split()
     cases = order_of(sea, *words, "--out", tmp_path / "new").cases
     plan = Plan(Running(tmp_path, workers), None, None, (), simulate_each=print)
-    groups = groups_of(plan, cases)
+    *groups, finer = groups_of(plan, cases)
+    assert [case.labels["solver"] for case in finer] == 4 * ["finer"]
     assert len(groups) == workers and all(groups)
     shared = [case.key for group in groups for case in group]
     assert len(set(shared)) == len(shared) == 12
