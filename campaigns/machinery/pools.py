@@ -88,7 +88,9 @@ def _joblib_results(
     with parallel_config(**options):
         pool = Parallel(**as_they_come)
     with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message=".*tasks.*", category=UserWarning, module="joblib")
+        # loky warns where a worker had nothing to do for a while, and takes it for a lack of memory
+        for words in (".*tasks.*", "A worker stopped while some jobs.*"):
+            warnings.filterwarnings("ignore", message=words, category=UserWarning, module="joblib")
         with contextlib.closing(pool(hand_out())) as results:
             try:
                 for number, result in results:
