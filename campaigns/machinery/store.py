@@ -79,7 +79,7 @@ def orbits_in(folder: Path | None) -> Store:
 
 
 def plain(content: object) -> object:
-    """What JSON writes for a value that it does not know: two for a complex number, Python's for those of NumPy."""
+    """A value as JSON can write it: an array as a list, a complex number as two numbers, a NumPy number as Python's."""
     if isinstance(content, complex):
         return [content.real, content.imag]
     return content.tolist()
