@@ -73,8 +73,8 @@ ALONG_LINE = (
         "unstretched length from the anchor to where the tension along the line is largest", 1, SHEET,
     ),
 )  # fmt: skip
-# Wave periods. If the period of a motion is not known, its snaps are counted over a multiple of them, because periods
-# 2, 3, 4 and 6 fit into them.
+# Snaps of a motion whose period is not known are counted over a multiple of so many waves, into which periods 2, 3, 4
+# and 6 fit.
 WHOLE_WAVES = 12
 ERROR = Column(
     "tension_top_max_error_N", "N", "± T_max",
@@ -161,8 +161,8 @@ def buoy_row(trajectory, judgement) -> Row:
     """The columns of `COLUMNS` that are known of a run of the tethered buoy in waves, which may have ended early.
 
     judgement: of the run (`campaigns.explore.judgement.Judgement`). A record that does not outlast the transient of the
-    judgement by a wave period has statistics only. After a loop release offplane_growth is unknown, because a loop has
-    no rate across the plane. `campaigns.explore.space` fills the columns planar_.
+    judgement by a wave period has statistics only. A loop release after the transient makes offplane_growth unknown,
+    because a loop has no rate across the plane. `campaigns.explore.space` fills the columns planar_.
     """
     scene, transient_periods = trajectory.scene, judgement.transient
     row, columns = begun_row(trajectory)
@@ -221,7 +221,7 @@ def height_m(scene, columns) -> float | None:
 def after_transient(trajectory, columns, transient_periods: int) -> Row:
     """The columns that are measured after the transient: `settled`, strobed period, snaps, growth across the plane.
 
-    columns: the `sound_part` of the run's. {} where they do not outlast the transient by a wave period.
+    columns: the `sound_part` of those of the run. {} where they do not outlast the transient by a wave period.
     """
     scene = trajectory.scene
     period_s = scene.waves.period_s
@@ -270,7 +270,7 @@ def settled(scene, columns, transient_s: float) -> Row:
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
-    # Slack has a threshold of its own, because much of T < 0 is noise of axial waves in a line that hangs loose.
+    # Slack begins above T = 0, because T < 0 alone says little: axial waves in a line that hangs loose make much of it.
     slack_N = max(NEAR_ZERO * static_tension_N(scene, columns), 0.0)
     shares = (
         slack_fraction(columns["tension_top_N"], step_s, threshold_N, transient_s).fraction
@@ -293,9 +293,9 @@ def snap_columns(scene, columns, transient_s: float, period: int | None = None) 
         return {}
     waves, counted_from_s = 0.0, transient_s
     if scene.waves is not None and snaps.watched_s > 0.0:
-        waves, whole = snaps.watched_s / scene.waves.period_s, period or WHOLE_WAVES
-        if waves >= whole:
-            waves = (waves + 1e-6) // whole * whole
+        waves, cycle = snaps.watched_s / scene.waves.period_s, period or WHOLE_WAVES
+        if waves >= cycle:
+            waves = (waves + 1e-6) // cycle * cycle
         counted_from_s = columns["time_s"][-1] - columns["time_s"][0] - waves * scene.waves.period_s
     in_whole_periods = snaps.counted_s >= counted_from_s
     row = {}

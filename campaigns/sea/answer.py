@@ -37,7 +37,7 @@ def _of_sea(cell: Row, options) -> Iterator[str]:
 
 def _memory(cell: Row, options) -> str:
     """Whether the start is forgotten, and after how many periods."""
-    seas, apart = cell["seas"], cell["apart_seas"]
+    seas, apart_seas = cell["seas"], cell["apart_seas"]
     sign, periods = cell["sign"], cell["together_periods"]
     if sign == "+":
         words = "In this sea the buoy never forgets how it began: two starts stay apart however near they are"
@@ -47,7 +47,7 @@ def _memory(cell: Row, options) -> str:
     if not sign:
         memory = "the starts were not seen to come together"
         if math.isfinite(periods):
-            memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart:.0f} seas"
+            memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart_seas:.0f} seas"
         return f"This scene carries no perturbation, so there is no exponent; {memory}."
     if sign != "−":
         return (
@@ -62,8 +62,8 @@ def _memory(cell: Row, options) -> str:
             f"the end in all {seas:.0f} seas: there is more than one response."
         )
     words = f"In this sea the buoy forgets how it began after about {_rounded(periods)} periods"
-    if apart > 0:
-        words += f"; in {apart:.0f} of {seas:.0f} seas its starts were still apart at the end"
+    if apart_seas > 0:
+        words += f"; in {apart_seas:.0f} of {seas:.0f} seas its starts were still apart at the end"
     partings = cell["partings_per_hour"]
     if partings > 0.0:
         words += f"; then groups of waves part the starts again {partings:.2g} times an hour"

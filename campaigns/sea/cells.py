@@ -158,7 +158,7 @@ def _amplitudes_of_pieces(scene, periods: int) -> np.ndarray:
 
 def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     """Write cells/table.csv, a row a sea state, and of a single state history/table.csv. Returns seconds."""
-    began = time.perf_counter()
+    start_s = time.perf_counter()
     options = order.options
     folds, regular_rows = None, ()
     if not options.no_regular and one_set(order):
@@ -186,7 +186,7 @@ def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
     if not keys:
         in_history = [run for run in digests if run.row["sea"] <= options.seeds]
         write_part(plan, HISTORY, HISTORY_COLUMNS, history(in_history, options))
-    return time.perf_counter() - began
+    return time.perf_counter() - start_s
 
 
 def _regular_loads(regular_rows: Rows, height_m: float) -> Row:
@@ -315,8 +315,8 @@ def history(digests: Sequence[Digest], options) -> Iterator[Row]:
     for sea in seas_of(digests):
         first = sea[0]
         answer = responses_of(sea, options.distance)
-        for period, (count, apart) in enumerate(zip(answer.counts, answer.apart, strict=True)):
-            row = {"sea": first.row["sea"], "period": period, "responses": count, "apart": apart}
+        for period, (count, distance) in enumerate(zip(answer.counts, answer.apart, strict=True)):
+            row = {"sea": first.row["sea"], "period": period, "responses": count, "apart": distance}
             piece = period - options.transient
             if 0 <= piece < len(first.large):
                 row |= {"large": int(first.large[piece]), "forecast": int(first.forecast[piece])}

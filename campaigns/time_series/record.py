@@ -287,7 +287,7 @@ def _lines(path: Path) -> Iterator[str]:
             if begin.startswith(first_bytes):
                 raise ValueError(f"{path}: {kind}; allowed: {FORMAT} ({cure})")
         encoding = "utf-8-sig"
-        if begin[:2] in UTF16:
+        if begin.startswith(UTF16):
             encoding = "utf-16"
         with open(path, encoding=encoding) as file:
             for line in file:

@@ -34,7 +34,7 @@ from ..parts import (
 )
 from .figures import history_figure, responses_figure
 
-_MOST = 12  # columns of one table
+_MOST_COLUMNS = 12  # columns of one table
 _MOST_RUNS = 60  # that are printed; table.csv has all
 _REGULAR = "Every motion of regular waves beside the sea, as `campaigns.sweep` finds them (`regular/table.csv`)."
 _MAPS = {
@@ -64,7 +64,9 @@ def report(directory: Path) -> Report:
     names = shown_on(folder.columns, folder.table, longest=LONGEST_CELL)
     if len(folder.table) <= _MOST_RUNS:
         items.append(Heading("Runs"))
-        items += [table_of(folder.columns, part, folder.table, "A row a run.") for part in batched(names, _MOST)]
+        items += [
+            table_of(folder.columns, part, folder.table, "A row a run.") for part in batched(names, _MOST_COLUMNS)
+        ]
     return report_page(folder, "A sea: memory of the start, motions, loads", items)
 
 
@@ -72,7 +74,9 @@ def _numbers(cells: Folder) -> Table:
     """The quantities of a single sea state as lines, or a row for each state of a map."""
     names = [name for name in shown_on(cells.columns, cells.table) if name not in ("status", "message")]
     if len(cells.table) > 1:
-        return table_of(cells.columns, names[:_MOST], cells.table, "A row a sea state; cells/table.csv has more.")
+        return table_of(
+            cells.columns, names[:_MOST_COLUMNS], cells.table, "A row a sea state; cells/table.csv has more."
+        )
     printed, (row,) = printed_cells(cells.columns), cells.table
     lines = []
     for name in names:
