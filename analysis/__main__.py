@@ -1,4 +1,4 @@
-"""`python -m analysis FILE.csv --column NAME`: any column of a file, judged by the campaign `time_series`."""
+"""`python -m analysis FILE.csv --column NAME` runs the campaign `time_series`, which judges a column of a file."""
 
 import runpy
 

@@ -8,9 +8,13 @@ _STEP = 1e-5  # of strain
 
 @dataclass(frozen=True)
 class Modes:
-    """Static state and small-motion frequencies of a buoy above its anchor.
+    """Static state and angular frequencies of small motions of a buoy above its anchor.
 
-    `static_tension_N` T_s = B - W, `static_strain` with f(strain) = T_s; angular frequencies in rad/s.
+    static_tension_N   T_s, buoyancy less weight of the buoy
+    static_strain      eps_s, with f(eps_s) = T_s
+    radial_radps       omega_r, along the line
+    pendulum_radps     omega_theta, across the line
+    wave_radps         of the waves
     """
 
     static_tension_N: float
@@ -25,28 +29,29 @@ def natural_frequencies(scene) -> Modes | None:
 
         omega_r = sqrt(f'(eps_s)/(l0 (M + M_a))),  omega_theta = sqrt(T_s/(l0 (M + M_a))),  T_s = (rho_w V - M) g
 
-    Returns None where they do not exist: no buoy, no water, no waves, a buoy that sinks, one that rests partly out of
-    the water (a spherical cap: the water plane is then a spring too), or a law without stiffness there. The rope's own
-    mass and added mass are left out, as in the paper.
+    Mass and added mass of the line are left out, as in the paper. Returns None for a scene without buoy, water or
+    waves, for a buoy that sinks, and for a tension law without stiffness at eps_s; also for a spherical cap that rests
+    partly out of the water, because its water plane is then a second spring.
     """
     if scene.buoy is None or scene.water is None or scene.waves is None:
         return None
     buoy, length = scene.buoy, scene.tether.length_m
     volume = math.pi / 6.0 * buoy.diameter_m**3
-    pull = (scene.water.density_kgpm3 * volume - buoy.mass_kg) * scene.gravity_mps2
-    if pull <= 0.0:
+    static_N = (scene.water.density_kgpm3 * volume - buoy.mass_kg) * scene.gravity_mps2
+    if static_N <= 0.0:
         return None
     from engine.physics.strains import strain_at
 
-    strain = strain_at(pull, scene.tether.tension)
+    strain = strain_at(static_N, scene.tether.tension)
     top_m = scene.anchor.position_m[2] + length * (1.0 + strain) + 0.5 * buoy.diameter_m
     if buoy.submergence == "spherical-cap" and top_m > scene.water.depth_m:
         return None
-    slope = stiffness_N(scene, strain)
-    if slope <= 0.0:
+    slope_N = stiffness_N(scene, strain)
+    if slope_N <= 0.0:
         return None
-    moved = length * (buoy.mass_kg + buoy.added_mass_kg)
-    return Modes(pull, strain, math.sqrt(slope / moved), math.sqrt(pull / moved), 2.0 * math.pi / scene.waves.period_s)
+    inertia_kgm = length * (buoy.mass_kg + buoy.added_mass_kg)
+    radial_radps, pendulum_radps = math.sqrt(slope_N / inertia_kgm), math.sqrt(static_N / inertia_kgm)
+    return Modes(static_N, strain, radial_radps, pendulum_radps, 2.0 * math.pi / scene.waves.period_s)
 
 
 def stiffness_N(scene, strain: float) -> float:
@@ -54,34 +59,35 @@ def stiffness_N(scene, strain: float) -> float:
     from engine.physics.strains import tension_at
 
     law = scene.tether.tension
-    # A central difference: outside its kernels the engine gives f, not f'; the error is of order h^2 f''' (1e-10).
+    # A central difference, because outside its kernels the engine gives f and not f'. The error is of order h^2 f'''
+    # (1e-10).
     return (tension_at(strain + _STEP, law) - tension_at(strain - _STEP, law)) / (2.0 * _STEP)
 
 
 def _stiffness_under(scene, static_N: float) -> float:
-    """Slope f' (N) at the strain under a tension."""
+    """Slope f' (N) of the tension law of a scene at a tension."""
     from engine.physics.strains import strain_at
 
     return stiffness_N(scene, strain_at(static_N, scene.tether.tension))
 
 
 def axial_period_s(scene, static_N: float) -> float:
-    """Longest period (s) of axial ringing of the line at a tension: 2 l/c, c = sqrt(f'/m) in unstretched length.
+    """Longest period (s) of axial ringing of the line at a tension: 2 l/c, with the wave speed c = sqrt(f'/m).
 
-    m is the mass per length. 0 where the law has no stiffness there.
+    Length l and mass per length m are those of the unstretched line. 0 where the law has no stiffness at this tension.
     """
-    slope, tether = _stiffness_under(scene, static_N), scene.tether
-    if slope <= 0.0:
+    slope_N, tether = _stiffness_under(scene, static_N), scene.tether
+    if slope_N <= 0.0:
         return 0.0
-    return 2.0 * tether.length_m * math.sqrt(tether.density_kgpm3 * tether.area_m2 / slope)
+    return 2.0 * tether.length_m * math.sqrt(tether.density_kgpm3 * tether.area_m2 / slope_N)
 
 
 def impact_Nspm(scene, static_N: float) -> float | None:
-    """sqrt(k (M + M_a)) (N s/m): force per speed of a buoy that its line stops, k = f'/l0 at the static tension.
+    """sqrt(k (M + M_a)) (N s/m): the force of a line that stops a buoy as a spring k would, over the buoy's speed.
 
-    None without a buoy, and where the law has no stiffness there.
+    k = f'/l0 at the static tension. None without a buoy, and where the law has no stiffness at this tension.
     """
-    slope = _stiffness_under(scene, static_N)
-    if scene.buoy is None or slope <= 0.0:
+    slope_N = _stiffness_under(scene, static_N)
+    if scene.buoy is None or slope_N <= 0.0:
         return None
-    return math.sqrt(slope / scene.tether.length_m * (scene.buoy.mass_kg + scene.buoy.added_mass_kg))
+    return math.sqrt(slope_N / scene.tether.length_m * (scene.buoy.mass_kg + scene.buoy.added_mass_kg))

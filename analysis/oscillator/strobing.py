@@ -1,10 +1,11 @@
 """One forcing period of eq. (33), exactly: the stroboscopic map, its tangent, and both exponents along an orbit.
 
-The state at a crossing is handed from one closed form to the next by solving for the (x, v) with which the new piece
-passes through it. Perturbations go the same way. a g is continuous at g = 0, so the velocity field is the same on both
-sides of the switching line, and the saltation matrix, I + (f_after - f_before) n'/(n'f_before), is the identity: the
-tangent map has a kink in time and no jump. It is the product of the Phi of the pieces; its determinant over a period is
-e^{-mu T}, whatever the path.
+A motion is a sequence of pieces, taut and slack in turn (`pieces`). At a crossing the motion passes from one closed
+form to the next: `hand_over` solves for the (x, v) with which the new piece passes through the state at the crossing.
+Perturbations pass in the same way. The force a g is continuous at the switching line g = 0. The velocity field is
+therefore the same on both sides of it, and the saltation matrix, I + (f_after - f_before) n'/(n'f_before), is the
+identity: the tangent map has a kink in time and no jump. The tangent map is the product of the Phi of the pieces; its
+determinant over a period is e^{-mu T}, whatever the path.
 
 Exponents: two tangent vectors are carried along and re-orthonormalised every period by Gram-Schmidt (QR); the exponents
 are the mean logarithms of the diagonal of R (Benettin, Galgani, Giorgilli & Strelcyn 1980).
@@ -18,13 +19,16 @@ from analysis.compiled import kernel
 from analysis.oscillator.crossings import NONE, first_crossing
 from analysis.oscillator.pieces import LIFT, MU, OMEGA, TAUT_COS, TAUT_SIN, motion, piecewise
 
-MOST_PIECES = 4096  # in one period; more than that is a fault, and the state becomes NaN
-_LOGARITHM_EVERY = 8
+MOST_PIECES = 4096  # in one period; more are a fault, and the state becomes NaN
+_LOGARITHM_EVERY = 8  # periods
 
 
 @kernel
 def side_of(x, v, theta, k):
-    """1 where the tether is taut, or about to be: by g, on the switching line by g', and at rest there by g''."""
+    """1 where the tether is taut or is about to be, 0 where it is slack or is about to be.
+
+    The sign of g = x decides; where g = 0, the sign of g' = v; where both are 0, the sign of g''.
+    """
     if x != 0.0:
         return 1 if x > 0.0 else 0
     if v != 0.0:
@@ -36,13 +40,14 @@ def side_of(x, v, theta, k):
 
 @kernel
 def hand_over(a, tau, x, v, y, w, z, u, theta, k, steady):
-    """(x, v) of the piece 1 - a that meets the piece a of (x, v) at tau, and so for the tangents (y, w), (z, u)."""
+    """(x, v) of the piece 1 - a that has the same state at tau as the piece a of (x, v); then its tangent vectors
+    (y, w) and (z, u), for those of the piece a."""
     p11, p12, p21, p22, q1, q2 = motion(a, tau, theta, k, steady[a, 0], steady[a, 1])
     b = 1 - a
     r11, r12, r21, r22, s1, s2 = motion(b, tau, theta, k, steady[b, 0], steady[b, 1])
     det = 1.0 / (r11 * r22 - r12 * r21)
     g, h = p11 * x + p12 * v + q1 - s1, p21 * x + p22 * v + q2 - s2
-    # Of the product inverse(Phi_b) Phi_a, for the tangent vectors:
+    # The matrix inverse(Phi_b) Phi_a turns a tangent vector of the piece a into that of the piece b.
     m11, m12 = det * (r22 * p11 - r12 * p21), det * (r22 * p12 - r12 * p22)
     m21, m22 = det * (r11 * p21 - r21 * p11), det * (r11 * p22 - r21 * p12)
     x, v = det * (r22 * g - r12 * h), det * (r11 * h - r21 * g)
@@ -51,12 +56,13 @@ def hand_over(a, tau, x, v, y, w, z, u, theta, k, steady):
 
 @kernel
 def one_period(x, v, y, w, z, u, table, log):
-    """State (x, v) and two tangent vectors (y, w), (z, u) one forcing period on.
+    """State (x, v) and two tangent vectors (y, w), (z, u) one forcing period later.
 
-    Scalars, not a matrix: kept in an array, the tangent vectors are written singly and read in pairs, which the
-    processor punishes (measured: half the speed).
-    log (MOST_PIECES, 5): filled with each piece, as window, time in the window at which it begins, a, x, v.
-    Returns the six, the number of pieces (0: too many, the state is NaN), and the time spent slack.
+    The tangent vectors are scalars, not an array, because a processor is slow where numbers are written one by one and
+    read in pairs (measured: half the speed).
+    log (MOST_PIECES, 5): receives a row for each piece: window, time in the window at which it begins, a, x, v.
+    Returns x, v, y, w, z, u, the number of pieces (0: too many, the state is NaN), and the time for which the tether
+    is slack.
     """
     last = len(table.tau) - 1
     end, k = table.tau[last], table.constants
@@ -89,7 +95,7 @@ def one_period(x, v, y, w, z, u, table, log):
 
 @kernel
 def next_state(x, v, table, log):
-    """The stroboscopic map: state one forcing period on, and what `one_period` says of the way."""
+    """The stroboscopic map: state one forcing period later, then number of pieces and slack time as of `one_period`."""
     x, v, _, _, _, _, pieces, slack = one_period(x, v, 1.0, 0.0, 0.0, 1.0, table, log)
     return x, v, pieces, slack
 
@@ -111,7 +117,7 @@ def strobed_orbits(starts, transient, points, table):
 
 @kernel
 def tangent_map(x, v, table):
-    """State and tangent matrix (2, 2) one forcing period on."""
+    """State and tangent matrix (2, 2) one forcing period later."""
     log = np.empty((MOST_PIECES, 5))
     x, v, y, w, z, u, _, _ = one_period(x, v, 1.0, 0.0, 0.0, 1.0, table, log)
     return x, v, np.array([[y, z], [w, u]])
@@ -119,16 +125,19 @@ def tangent_map(x, v, table):
 
 @kernel
 def growth_along(x, v, transient, blocks, length, table, orbit):
-    """Sums of ln R over `blocks` blocks of `length` periods: (blocks, 2); then the end state and the slack time.
+    """Growth of two tangent vectors along an orbit, in `blocks` blocks of `length` periods after the transient.
 
-    orbit (m, 2): filled with the first m strobed states after the transient.
+    orbit (m, 2): receives the first m strobed states after the transient.
+    Returns the sums of the logarithms of the diagonal of R in each block (blocks, 2), the last x and v, and the time
+    after the transient for which the tether is slack.
     """
     log = np.empty((MOST_PIECES, 5))
     sums = np.zeros((blocks, 2))
     slack_time = 0.0
     y, w, z, u = 1.0, 0.0, 0.0, 1.0
     product1, product2 = 1.0, 1.0
-    # One logarithm for several periods, but not for so many that the products leave the range of the numbers.
+    # One logarithm is taken for several periods. Where damping is strong, each period has its own, because the product
+    # of several would leave the range of the numbers.
     interval = _LOGARITHM_EVERY if table.constants[MU] * 2.0 * math.pi / table.constants[OMEGA] < 10.0 else 1
     for at in range(-transient, blocks * length):
         if 0 <= at < len(orbit):
@@ -154,7 +163,8 @@ def growth_along(x, v, transient, blocks, length, table, orbit):
 def growth_over_values(parameters, starts, transient, blocks, length, recorded):
     """`growth_along` for every row (mu, omega, F, lift, phase) of parameters (p, 5), each from the same starts (n, 2).
 
-    Returns sums (p, n, blocks, 2), section (p, n, kept, 2), end (p, n, 2) and slack share (p, n).
+    recorded: number of strobed states of each orbit that are returned.
+    Returns sums (p, n, blocks, 2), section (p, n, recorded, 2), end (p, n, 2) and slack share (p, n).
     """
     p, n = len(parameters), len(starts)
     sums, section = np.empty((p, n, blocks, 2)), np.empty((p, n, recorded, 2))

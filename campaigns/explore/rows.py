@@ -1,7 +1,7 @@
 """A run of the tethered buoy as one row of numbers: what the engine counted, and what the analysis measures.
 
-A column whose analysis does not apply to a run stays empty (None), never 0: a run that ended inside the transient has
-its statistics and nothing more. Extremes and slack are taken after the transient, the emergence over the whole run.
+A column whose analysis does not apply to a run is empty (None), never 0: a run that ended inside the transient has its
+statistics only. Extremes and slack are taken after the transient, the height of the buoy over the whole run.
 """
 
 from dataclasses import replace
@@ -43,7 +43,7 @@ SLACK = Column(
     "slack_fraction", "", "χ",
     "share of the time after the transient with less than 5 % of the static tension at the top", 3,
 )  # fmt: skip
-# What is measured after the transient (`settled`) of any line, with or without a verdict.
+# Columns of `settled`, which any run has that outlasts its transient, with or without a verdict.
 EXTREMES = (
     Column("radius_min_m", "m", "r_min", "smallest distance of the upper end from the anchor after the transient", 2),
     Column("radius_max_m", "m", "r_max", "largest distance of the upper end from the anchor after the transient", 2),
@@ -73,7 +73,9 @@ ALONG_LINE = (
         "unstretched length from the anchor to where the tension along the line is largest", 1, SHEET,
     ),
 )  # fmt: skip
-WHOLE_WAVES = 12  # snaps are counted over a multiple of it if no period is known: periods 2, 3, 4 and 6 fit into it
+# Snaps of a motion whose period is not known are counted over a multiple of so many waves, into which periods 2, 3, 4
+# and 6 fit.
+WHOLE_WAVES = 12
 ERROR = Column(
     "tension_top_max_error_N", "N", "± T_max",
     "how far the largest tension holds, by a companion on twice the elements at a quarter of the tolerance, and by how "
@@ -156,27 +158,25 @@ COLUMNS = (
 
 
 def buoy_row(trajectory, judgement) -> Row:
-    """The columns of `COLUMNS` that a trajectory of the tethered buoy fills; those left out are unknown.
+    """The columns of `COLUMNS` that are known of a run of the tethered buoy in waves, which may have ended early.
 
-    trajectory: an engine Trajectory of a scene with waves and a buoy, run to its end or not. judgement: of it
-    (`campaigns.explore.judgement.Judgement`). A record that does not outlast the transient of its judgement by a wave
-    period has statistics only. A loop release after the transient leaves offplane_growth unknown, because across the
-    plane a loop has no rate of its own. `campaigns.explore.space` fills the columns planar_.
+    judgement: of the run (`campaigns.explore.judgement.Judgement`). A record that does not outlast the transient of the
+    judgement by a wave period has statistics only. A loop release after the transient makes offplane_growth unknown,
+    because a loop has no rate across the plane. `campaigns.explore.space` fills the columns planar_.
     """
-    scene = trajectory.scene
+    scene, transient_periods = trajectory.scene, judgement.transient
     row, columns = begun_row(trajectory)
     if judgement.orbit is not None:
         row |= judgement.orbit.row()
-    transient_periods = judgement.transient
     measured = after_transient(trajectory, columns, transient_periods)
     if measured:
         if judgement.limit:
-            orbit = judgement.orbit.run.columns
-            measured |= settled(scene, orbit, 0.0) | snap_columns(scene, orbit, 0.0, judgement.verdict.period)
-            measured[STROBED.name] = judgement.verdict.period
-        row |= {"transient_periods": transient_periods, **measured}
+            orbit, period = judgement.orbit.run.columns, judgement.verdict.period
+            measured |= settled(scene, orbit, 0.0) | snap_columns(scene, orbit, 0.0, period)
+            measured[STROBED.name] = period
+        row |= {TRANSIENT.name: transient_periods, **measured}
         if scene.motion.dimensions == 3:
-            first = samples_of(scene, transient_periods)  # sample after the transient
+            first = samples_of(scene, transient_periods)  # after the transient
             row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:
@@ -186,7 +186,7 @@ def buoy_row(trajectory, judgement) -> Row:
 
 
 def begun_row(trajectory) -> tuple[Row, dict]:
-    """The statistics of a run in waves, the height of its buoy and its length in a row; and the `sound_part` of it."""
+    """A row with statistics, buoy height and length of a run in waves; and the `sound_part` of its columns."""
     row, columns = counted(trajectory), sound_part(trajectory.columns)
     row[HEIGHT.name] = height_m(trajectory.scene, columns)
     if len(columns["time_s"]):
@@ -197,24 +197,21 @@ def begun_row(trajectory) -> tuple[Row, dict]:
 def regime_of(judgement) -> Row:
     """The columns of the verdict and of the exponents."""
     verdict, record = judgement.verdict, judgement.record
-    evidence = evidence_text(verdict)
+    evidence, reason = evidence_text(verdict), verdict.reason
     if record is not None:
-        alone = tuple(replace(test, name=f"samples alone, {test.name}") for test in record.evidence)
-        evidence = f"{evidence}; {evidence_text(replace(record, evidence=alone))}"
-    row = {
-        "regime": verdict.regime,
-        "regime_tighter": judgement.tighter,
-        "regime_reason": f"{verdict.reason}; {judgement.note}" if judgement.note else verdict.reason,
-        "evidence": evidence,
-    }
-    row |= exponents(TANGENT, judgement.tangent)
+        tests = tuple(replace(test, name=f"samples alone, {test.name}") for test in record.evidence)
+        evidence += f"; {evidence_text(replace(record, evidence=tests))}"
+    if judgement.note:
+        reason += f"; {judgement.note}"
+    words = {"regime_tighter": judgement.tighter, "regime_reason": reason, "evidence": evidence}
+    row = {REGIME.name: verdict.regime, **words, **exponents(TANGENT, judgement.tangent)}
     if judgement.wolf is not None:
         row |= exponents(WOLF, judgement.wolf)
     return row
 
 
 def height_m(scene, columns) -> float | None:
-    """How high the sphere of a run has risen above still water; None without either, or without a record."""
+    """How high the top of the buoy has risen above still water; None without buoy, water or samples."""
     if scene.buoy is None or scene.water is None or not len(columns["time_s"]):
         return None
     top_m = scene.anchor.position_m[2] + float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
@@ -222,19 +219,19 @@ def height_m(scene, columns) -> float | None:
 
 
 def after_transient(trajectory, columns, transient_periods: int) -> Row:
-    """What follows the transient, by column: extremes, slack, strobed period, growth across the plane.
+    """The columns that are measured after the transient: `settled`, strobed period, snaps, growth across the plane.
 
-    columns: the `sound_part` of its record; {} where that does not outlast the transient by a wave period.
+    columns: the `sound_part` of those of the run. {} where they do not outlast the transient by a wave period.
     """
     scene = trajectory.scene
-    if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * scene.waves.period_s):
+    period_s = scene.waves.period_s
+    if not lasts(columns, scene.sample_step_s(), (transient_periods + 1) * period_s):
         return {}
-    row = settled(scene, columns, transient_periods * scene.waves.period_s)
-    # only the period goes into the table: the report strobes the radius again
+    transient_s = transient_periods * period_s
     points, scale = strobed_states(trajectory, transient_periods, 0.0, transient_periods, columns)
-    row[STROBED.name] = detect_period(points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
-    row |= snap_columns(scene, columns, transient_periods * scene.waves.period_s, row[STROBED.name])
-    return row | lateral_growth(trajectory, transient_periods)
+    period = detect_period(points, LONGEST_PERIOD, STROBE_TOLERANCE, scale).period
+    row = settled(scene, columns, transient_s) | {STROBED.name: period}
+    return row | snap_columns(scene, columns, transient_s, period) | lateral_growth(trajectory, transient_periods)
 
 
 def lateral_growth(trajectory, transient_periods: int) -> Row:
@@ -242,18 +239,18 @@ def lateral_growth(trajectory, transient_periods: int) -> Row:
     growth = trajectory.tangent
     if trajectory.status != "ok" or growth is None or growth.lateral_nats is None:
         return {}
-    # nan: periods before perturbations were carried
-    judged = np.isfinite(growth.lateral_nats) & (np.arange(len(growth.released)) >= transient_periods)
+    carried = np.isfinite(growth.lateral_nats)  # nan in periods before a perturbation was carried
+    judged = carried & (np.arange(len(growth.released)) >= transient_periods)
     return exponents(OFFPLANE, transverse_lyapunov(growth.lateral_nats[judged], 0, growth.released[judged]))
 
 
 def lasts(columns, step_s: float, length_s: float) -> bool:
-    """Whether a record is of that length at least."""
+    """Whether a record is at least so long."""
     return (len(columns["time_s"]) - 1) * step_s >= length_s - 1e-6 * step_s
 
 
 def utilisation(scene, row: Row) -> float | None:
-    """`UTILISATION` of a row: of the tension along the line where the row has it, else of that at the top."""
+    """`UTILISATION` by the tension of a row along the line; by that at the top where the row has no other."""
     tension_N = row.get("tension_line_max_N", row.get("tension_top_max_N"))
     if tension_N is None or scene.tether.breaking_load_N is None:
         return None
@@ -266,18 +263,18 @@ def exponents(columns: tuple[Column, Column], exponent) -> Row:
 
 
 def settled(scene, columns, transient_s: float) -> Row:
-    """Extremes and slack of what follows the transient, by column (`EXTREMES`, `ALONG_LINE`)."""
+    """Extremes and slack after the transient: the columns EXTREMES and ALONG_LINE."""
     step_s = scene.sample_step_s()
-    # Tension snaps between samples: its extremes come from the columns that saw every step of the solver.
+    # The tension jumps between samples. Its extremes come from columns that take in every step of the solver.
     radius, angle, low, high = (
         extremes(columns[name], step_s, transient_s)
         for name in ("radius_m", "angle_rad", "tension_top_low_N", "tension_top_high_N")
     )
-    # T < 0 alone says little: much of it is noise of axial waves in a line that hangs loose.
-    tension, static_N = columns["tension_top_N"], static_tension_N(scene, columns)
+    # Slack begins above T = 0, because T < 0 alone says little: axial waves in a line that hangs loose make much of it.
+    slack_N = max(NEAR_ZERO * static_tension_N(scene, columns), 0.0)
     shares = (
-        slack_fraction(tension, step_s, threshold_N, transient_s).fraction
-        for threshold_N in (max(NEAR_ZERO * static_N, 0.0), 0.0)
+        slack_fraction(columns["tension_top_N"], step_s, threshold_N, transient_s).fraction
+        for threshold_N in (slack_N, 0.0)
     )
     ends = radius.minimum, radius.maximum, angle.minimum, angle.maximum, low.minimum, high.maximum
     row = filled(EXTREMES, (*ends, *shares))
@@ -287,44 +284,48 @@ def settled(scene, columns, transient_s: float) -> Row:
 def snap_columns(scene, columns, transient_s: float, period: int | None = None) -> Row:
     """The columns SNAPS; none for a line that bears no tension at rest.
 
-    Those a wave, their median and 95 % are of the last whole periods of the motion after the transient. period: of the
-    motion, in waves; None: not known.
+    Snaps a wave, their median, 95 % and rise are those of the last whole periods of the motion after the transient; the
+    largest values are those of all snaps after it. period: of the motion, in waves; None: not known.
     """
     try:
         snaps = snaps_of(scene, columns, transient_s=transient_s)
     except ValueError:
         return {}
-    row, counted_from_s = {}, transient_s
+    waves, counted_from_s = 0.0, transient_s
     if scene.waves is not None and snaps.watched_s > 0.0:
-        waves, whole = snaps.watched_s / scene.waves.period_s, period or WHOLE_WAVES
-        if waves >= whole:
-            waves = (waves + 1e-6) // whole * whole
+        waves, cycle = snaps.watched_s / scene.waves.period_s, period or WHOLE_WAVES
+        if waves >= cycle:
+            waves = (waves + 1e-6) // cycle * cycle
         counted_from_s = columns["time_s"][-1] - columns["time_s"][0] - waves * scene.waves.period_s
-        row["snaps_per_wave"] = float((snaps.counted_s >= counted_from_s).sum() / waves)
-    peaks_N = snaps.peak_N[snaps.counted_s >= counted_from_s]
+    in_whole_periods = snaps.counted_s >= counted_from_s
+    row = {}
+    if waves:
+        row["snaps_per_wave"] = float(in_whole_periods.sum() / waves)
+    peaks_N = snaps.peak_N[in_whole_periods]
     if len(peaks_N):
-        # a peak that occurs: the mean of the two in the middle would jump where large and small ones take turns
+        # The median is a peak that occurs. The mean of the two peaks in the middle would jump from run to run where
+        # large and small peaks alternate.
         median_N, high_N = np.quantile(peaks_N, [0.5, 0.95], method="inverted_cdf")
         row["snap_peak_median_N"], row["snap_peak_95_N"] = float(median_N), float(high_N)
         row["snap_peak_max_N"] = float(snaps.peak_N.max())
-        row["snap_rise_s"] = float(np.median(snaps.rise_s[snaps.counted_s >= counted_from_s]))
+        row["snap_rise_s"] = float(np.median(snaps.rise_s[in_whole_periods]))
         row["snap_speed_max_mps"] = float(snaps.taut_speed_mps.max())
     return row
 
 
 def along_line(scene, columns, transient_s: float) -> Row:
-    """The columns ALONG_LINE: of the samples, and of the upper end between them; none of an older record."""
+    """The columns ALONG_LINE, from the samples after the transient; at the upper end from every step of the solver."""
     first = int(np.ceil(transient_s / scene.sample_step_s() - 1e-6))
-    anchor, most, top = (columns[name][first:] for name in ("tension_anchor_N", "tension_max_N", "tension_top_high_N"))
-    largest, place = float(most.max()), float(columns["tension_max_s_m"][first + int(most.argmax())])
-    if top.max() > largest:
-        largest, place = float(top.max()), scene.tether.length_m
-    return filled(ALONG_LINE, (float(anchor.max()), largest, place))
+    anchor, line, top = (columns[name][first:] for name in ("tension_anchor_N", "tension_max_N", "tension_top_high_N"))
+    largest_N, place_m = float(line.max()), float(columns["tension_max_s_m"][first + int(line.argmax())])
+    if top.max() > largest_N:
+        largest_N, place_m = float(top.max()), scene.tether.length_m
+    return filled(ALONG_LINE, (float(anchor.max()), largest_N, place_m))
 
 
 def sound_part(columns) -> dict[str, np.ndarray]:
-    """The columns up to the first sample that is not finite in all: a run that blew up keeps what it had before."""
+    """The columns before the first sample in which one of them is not finite: what a run had before it blew up."""
     arrays = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
-    sound = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
-    end = len(sound) if sound.all() else int(np.argmin(sound))
+    finite_samples = np.all([np.isfinite(values) for values in arrays.values()], axis=0)
+    end = int(np.logical_and.accumulate(finite_samples).sum())
     return {name: values[:end] for name, values in arrays.items()}

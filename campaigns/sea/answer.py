@@ -1,4 +1,4 @@
-"""What a sea, or a map of seas, showed, in lines: loads, snaps, motion, memory of the start, exponent, certainty."""
+"""The findings on a sea, or on a map of seas, in lines: loads, snaps, motions, memory of the start, chaos, doubts."""
 
 import math
 from collections import Counter
@@ -8,12 +8,12 @@ from campaigns.answers import greatest, kilonewton, line
 from campaigns.sea.cells import WELL_ABOVE
 from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows
 
-SCATTERED = 0.05  # of the largest tension
+SCATTERED = 0.05  # of the largest tension: a larger difference of runs in the same waves is reported
 FAILED = "No run ended, so there is nothing to say of this sea."
 
 
 def sentences(cells: Rows, options) -> Iterator[str]:
-    """At most eight, of the rows of cells/table.csv. options: of the campaign."""
+    """At most eight sentences, from the rows of cells/table.csv. options: of the campaign."""
     known = [cell for cell in cells if cell["status"] == "ok"]
     if not known:
         yield FAILED
@@ -37,7 +37,7 @@ def _of_sea(cell: Row, options) -> Iterator[str]:
 
 def _memory(cell: Row, options) -> str:
     """Whether the start is forgotten, and after how many periods."""
-    seas, apart = cell["seas"], cell["apart_seas"]
+    seas, apart_seas = cell["seas"], cell["apart_seas"]
     sign, periods = cell["sign"], cell["together_periods"]
     if sign == "+":
         words = "In this sea the buoy never forgets how it began: two starts stay apart however near they are"
@@ -45,12 +45,10 @@ def _memory(cell: Row, options) -> str:
             words += f", but for spells of {cell['together_mean_periods']:.0f} periods on average"
         return f"{words}."
     if not sign:
-        words = "This scene carries no perturbation, so there is no exponent"
+        memory = "the starts were not seen to come together"
         if math.isfinite(periods):
-            return (
-                f"{words}; the starts come together after about {_rounded(periods)} periods in {seas - apart:.0f} seas."
-            )
-        return f"{words}; the starts were not seen to come together."
+            memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart_seas:.0f} seas"
+        return f"This scene carries no perturbation, so there is no exponent; {memory}."
     if sign != "−":
         return (
             "It is not decided whether this sea makes the buoy forget how it began: --most-hours above "
@@ -64,8 +62,8 @@ def _memory(cell: Row, options) -> str:
             f"the end in all {seas:.0f} seas: there is more than one response."
         )
     words = f"In this sea the buoy forgets how it began after about {_rounded(periods)} periods"
-    if apart > 0:
-        words += f"; in {apart:.0f} of {seas:.0f} seas its starts were still apart at the end"
+    if apart_seas > 0:
+        words += f"; in {apart_seas:.0f} of {seas:.0f} seas its starts were still apart at the end"
     partings = cell["partings_per_hour"]
     if partings > 0.0:
         words += f"; then groups of waves part the starts again {partings:.2g} times an hour"
@@ -73,22 +71,19 @@ def _memory(cell: Row, options) -> str:
 
 
 def _exponent(cell: Row, options) -> str:
-    value, error = cell[TANGENT_EXPONENT], cell[TANGENT_ERROR]
-    share = cell["growing_share"]
     return (
-        f"A small difference changes by {value:+.3f} ± {error:.3f} bits a peak period; it grows in "
-        f"{100 * share:.0f} % of the windows of {options.window} periods."
+        f"A small difference changes by {cell[TANGENT_EXPONENT]:+.3f} ± {cell[TANGENT_ERROR]:.3f} bits a peak period; "
+        f"it grows in {100 * cell['growing_share']:.0f} % of the windows of {options.window} periods."
     )
 
 
 def _visits(cell: Row, options) -> str:
-    """The large motion, beside the forecast of a slow envelope."""
-    share = cell["large_share"]
-    if options.no_regular or not math.isfinite(share):
-        if options.no_regular:
-            return "Motions of regular waves were left out."
+    """How long the buoy is in the large motion of regular waves, beside the forecast by a slow envelope."""
+    if options.no_regular:
+        return "Motions of regular waves were left out."
+    share, forecast = cell["large_share"], cell["forecast_share"]
+    if not math.isfinite(share):
         return "The regular waves up to 1.86 H_s have one motion each, so there is no other motion to visit."
-    forecast = cell["forecast_share"]
     words = f"It is in the large motion {_percent(share)} of the time"
     if share > 0.0:
         words += f", for {cell['large_mean_periods']:.0f} periods on average"
@@ -99,10 +94,10 @@ def _visits(cell: Row, options) -> str:
 
 
 def _snaps(cell: Row) -> str:
-    if not math.isfinite(cell["snaps_per_hour"]):
+    rate, error = cell["snaps_per_hour"], cell["snaps_per_hour_error"]
+    if not math.isfinite(rate):
         return "not counted, because the line bears no tension at rest."
-    words = f"{cell['snaps_per_hour']:.0f} an hour"
-    error = cell["snaps_per_hour_error"]
+    words = f"{rate:.0f} an hour"
     if math.isfinite(error):
         words += f" (± {error:.0f})"
     return f"{words}."
@@ -112,18 +107,15 @@ def _load(cell: Row) -> str:
     storm_N = cell["storm_maximum_N"]
     if not math.isfinite(storm_N):
         return f"no three-hour maximum: {cell['storm_reason']}."
-    low_N, high_N = cell["storm_low_N"], cell["storm_high_N"]
-    height_m = cell["significant_height_m"]
     words = (
-        f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {low_N / 1e3:.3g} to "
-        f"{high_N / 1e3:.3g}) in a sea of H_s = {height_m:.3g} m"
+        f"most probable three-hour maximum {kilonewton(storm_N)} (90 % interval {cell['storm_low_N'] / 1e3:.3g} to "
+        f"{cell['storm_high_N'] / 1e3:.3g}) in a sea of H_s = {cell['significant_height_m']:.3g} m"
     )
-    regular_N, high_wave_N = cell["regular_N"], cell["regular_high_N"]
+    regular_N, regular_high_N, used = cell["regular_N"], cell["regular_high_N"], cell["utilisation"]
     if math.isfinite(regular_N):
         words += f", {storm_N / regular_N:.1f} times that of the regular design wave of H_s"
-    if math.isfinite(high_wave_N):
-        words += f" and {storm_N / high_wave_N:.1f} times that of 1.86 H_s"
-    used = cell["utilisation"]
+    if math.isfinite(regular_high_N):
+        words += f" and {storm_N / regular_high_N:.1f} times that of 1.86 H_s"
     if math.isfinite(used):
         return f"{words}; with the factors of DNV-OS-E301, consequence class 1, the line is used to {100 * used:.0f} %."
     return f"{words}; tether.breaking_load_N gives the utilisation."
@@ -137,6 +129,7 @@ def _fatigue(cell: Row, options) -> str:
 
 
 def _doubts(cell: Row, options) -> Iterator[str]:
+    """How finer runs compare, and what makes loads and responses doubtful."""
     value, error = cell[TANGENT_EXPONENT], cell[TANGENT_ERROR]
     finer, finer_error = cell["finer_bits_per_period"], cell["finer_error"]
     if math.isfinite(finer):
@@ -159,7 +152,8 @@ def _doubts(cell: Row, options) -> Iterator[str]:
 
 
 def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
-    signs = Counter(str(cell["sign"] or "open") for cell in cells)
+    """cells: those with runs that ended; count: of all."""
+    signs = Counter(cell["sign"] for cell in cells)
     undecided = count - signs["−"] - signs["+"]
     words = (
         f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and {undecided} "
@@ -168,28 +162,28 @@ def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
     if undecided:
         words += f"; --most-hours above {options.most_hours:g} draws more seas of these"
     yield f"{words}."
-    keys = [key.key for key in options.grid.keys]
-    for name, words in (
-        ("large_share", "The share of the large motion is largest"),
-        ("storm_maximum_N", "The three-hour maximum is largest"),
+    for name, quantity, in_print in (
+        ("large_share", "share of the large motion", _percent),
+        ("storm_maximum_N", "three-hour maximum", kilonewton),
     ):
         worst = greatest(cells, name)
-        if worst is None:
-            continue
-        place = " and ".join(f"{key} = {worst[key]:.4g}" for key in keys)
-        size = _percent(worst[name]) if name == "large_share" else kilonewton(worst[name])
-        yield f"{words} at {place}: {size}."
+        if worst is not None:
+            place = " and ".join(f"{key.key} = {worst[key.key]:.4g}" for key in options.grid.keys)
+            yield f"The {quantity} is largest at {place}: {in_print(worst[name])}."
     refused = sum(not math.isfinite(cell["storm_maximum_N"]) for cell in cells)
     if refused:
         yield f"{refused} states have no three-hour maximum; the column storm_reason says why."
 
 
 def _rounded(periods: float) -> str:
-    """Two digits are all that a median of some seas knows."""
-    if periods < 10.0:
-        return f"{periods:.0f}"
-    return f"{round(periods, -1) if periods < 1000 else round(periods, -2):.0f}"
+    """A median over seas in print: to ten periods, and from 1000 on to a hundred, because it is known no better."""
+    if periods >= 1000.0:
+        return f"{round(periods, -2):.0f}"
+    if periods >= 10.0:
+        return f"{round(periods, -1):.0f}"
+    return f"{periods:.0f}"
 
 
 def _percent(share: float) -> str:
+    """ "12 %" of a share of 0.12."""
     return f"{100.0 * share:.2g} %"

@@ -1,9 +1,9 @@
-"""What all runs in one sea state say together, as a row of cells/table.csv.
+"""The runs in all seas of one state together, as a row of cells/table.csv.
 
-exponent     mean over the seas, from their runs from rest
-responses    all starts of a sea, strobed once a peak period, with the same seed
-motions      pieces of MOTION_PERIODS peak periods of all runs, by the folds of the regular waves
-loads        runs from rest, because starts that have come together are no independent draws
+exponent     mean over the seas, from the run from rest in each
+responses    from the states of all starts in a sea once a peak period
+motions      from pieces of MOTION_PERIODS peak periods of all runs, by the folds of the regular waves
+loads        from the runs from rest, because starts that have come together are no independent draws
 """
 
 import math
@@ -39,10 +39,10 @@ from engine.views import carried, state_of
 from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, number_of, of_words
 
 FOLDER = "cells"
-MOTION_PERIODS = 3  # of a piece of a record that belongs to a motion: a period 3 shows all its waves
+MOTION_PERIODS = 3  # peak periods of a piece of a record: a motion of period 3 has its largest tension in each piece
 ENVELOPE_SAMPLES = 8  # of the envelope of the waves, in a peak period
-WELL_ABOVE = 4.0  # times the noise of the steps: the least distance of two responses
-BLOCK_PERIODS = 20  # of the shortest block of a maximum
+WELL_ABOVE = 4.0  # a distance of two responses is at least so many times the noise of the steps
+BLOCK_PERIODS = 20  # peak periods of the shortest block that has a maximum
 _BITS = "bits/period"
 _REST = "; of the runs from rest"
 COLUMNS = (
@@ -103,11 +103,15 @@ HISTORY_COLUMNS = (
 
 @dataclass(frozen=True)
 class Digest:
-    """What is needed of a run in a sea.
+    """What a row of cells/table.csv needs of a run in a sea.
 
-    row: of table.csv. states (p, 4), scale (4,): once a peak period, and what counts as 1. growth_nats (p,): of its
-    perturbation; None: it carried none. high_N (n,): largest tensions after the transient. large, forecast (m,):
-    whether each piece is in the large motion, and by the forecast.
+    row           of the run in table.csv
+    states        (p, 4) once a peak period (`engine.views.state_of`)
+    scale         (4,) what counts as 1 in each coordinate of these
+    growth_nats   (p,) growth of its perturbation in each peak period; None: it carried none
+    high_N        (n,) largest tension in each step of the samples after the transient
+    large         (m,) whether each piece of the record is in the large motion
+    forecast      (m,) whether it would be in the large motion if the motion followed a slow envelope
     """
 
     row: Row
@@ -124,8 +128,7 @@ def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
     """The digest of a run that reached its end. transient: peak periods left out."""
     period_s, step_s, columns = run.scene.waves.period_s, run.scene.sample_step_s(), run.columns
     samples = period_s / step_s  # of a peak period
-    length = len(columns["time_s"])
-    strobes = np.rint(np.arange(0.0, length - 0.5, samples)).astype(int)
+    strobes = np.rint(np.arange(0.0, len(columns["time_s"]) - 0.5, samples)).astype(int)
     coordinates, scale = state_of(columns, step_s, period_s, 0)
     states = np.column_stack([series[strobes] for series in coordinates.values()])
     growth_nats = run.tangent.growth_nats[:, 0] if carried(run) else None
@@ -143,7 +146,10 @@ def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
 
 
 def _amplitudes_of_pieces(scene, periods: int) -> np.ndarray:
-    """Mean of the envelope of the waves (m) over each piece of MOTION_PERIODS in so many peak periods."""
+    """Mean of the envelope of the waves (m) over each piece in the first `periods` peak periods.
+
+    A piece of MOTION_PERIODS begins in every peak period.
+    """
     count = periods * ENVELOPE_SAMPLES
     times_s = np.arange(count) * scene.waves.period_s / ENVELOPE_SAMPLES
     of_periods = envelope_m(scene, times_s).reshape(periods, ENVELOPE_SAMPLES).mean(axis=1)
@@ -151,73 +157,84 @@ def _amplitudes_of_pieces(scene, periods: int) -> np.ndarray:
 
 
 def write_cells(order: Order, plan: Plan, summary: Summary) -> float:
-    """Write cells/table.csv, a row a sea state, and of a single one history/table.csv. Returns seconds."""
-    began = time.perf_counter()
+    """Write cells/table.csv, a row a sea state, and of a single state history/table.csv. Returns seconds."""
+    start_s = time.perf_counter()
+    options = order.options
     folds, regular_rows = None, ()
-    if not order.options.no_regular and one_set(order):
+    if not options.no_regular and one_set(order):
         folder = order.how.out / REGULAR
         regular_rows = table_of(folder)
         folds = folds_of(regular_rows, table_of(folder / "ends"))
-    keys = order.options.grid.columns
-    of_cell = {}  # rows by the values of the keys
+    keys = options.grid.columns
+    rows_at = {}  # by the values of the keys
     for row in summary.rows:
-        of_cell.setdefault(place_in(row, keys), []).append(row)
+        rows_at.setdefault(place_in(row, keys), []).append(row)
     cells = []
-    with stage("what the runs of each sea state say together", len(of_cell), "states", lambda: len(cells)):
-        for place, rows in of_cell.items():
-            cell = filled(keys, place)
+    with stage("what the runs of each sea state say together", len(rows_at), "states", lambda: len(cells)):
+        for place, rows in rows_at.items():
             digests = []
             for row in rows:
                 run = run_of(plan.out, row)
                 if run is not None:
-                    digests.append(digest(run, row, order.options.transient, folds))
-                    cell["significant_height_m"] = significant_height_m(run.scene)
-            cells.append(cell | cell_row(rows, digests, order.options, folds))
-            for name, height in (("regular", 1.0), ("regular_high", DESIGN)):
-                loads = design_loads(regular_rows, 0.5 * height * cell.get("significant_height_m", 0.0))
-                if loads:
-                    motions = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
-                    cells[-1] |= {f"{name}_N": loads[-1][1], f"{name}_motions": motions}
+                    digests.append(digest(run, row, options.transient, folds))
+            cell = filled(keys, place) | cell_row(rows, digests, options, folds)
+            if digests:
+                height_m = significant_height_m(digests[-1].scene)
+                cell |= {"significant_height_m": height_m, **_regular_loads(regular_rows, height_m)}
+            cells.append(cell)
     write_part(plan, FOLDER, (*keys, *COLUMNS), cells)
     if not keys:
-        drawn = [run for run in digests if run.row["sea"] <= order.options.seeds]
-        write_part(plan, HISTORY, HISTORY_COLUMNS, history(drawn, order.options))
-    return time.perf_counter() - began
+        in_history = [run for run in digests if run.row["sea"] <= options.seeds]
+        write_part(plan, HISTORY, HISTORY_COLUMNS, history(in_history, options))
+    return time.perf_counter() - start_s
+
+
+def _regular_loads(regular_rows: Rows, height_m: float) -> Row:
+    """The columns on the loads in regular waves of the significant height, and of DESIGN times this height."""
+    row = {}
+    for name, ratio in (("regular", 1.0), ("regular_high", DESIGN)):
+        loads = design_loads(regular_rows, 0.5 * ratio * height_m)
+        if loads:
+            motions = ", ".join(f"{letter} {load_N / 1e3:.3g}" for letter, load_N in loads)
+            row |= {f"{name}_N": loads[-1][1], f"{name}_motions": motions}
+    return row
 
 
 def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None) -> Row:
-    """The columns of one sea state. rows: of all its runs; digests: of those that reached their end."""
+    """The columns of one sea state but for its height and its regular waves.
+
+    rows: of all its runs. digests: of the runs that reached their end.
+    """
     if not digests:
         return {"status": str(rows[0]["status"]), "message": str(rows[0]["message"])}
+    seas = seas_of(digests)
+    cell = {"status": "ok", "seas": len(seas), "starts": options.starts}
     lost = len(rows) - len(digests)
-    cell = {
-        "status": "ok",
-        "starts": options.starts,
-        "message": f"{lost} of {len(rows)} runs failed" if lost else "",
-    }
-    seas = list(seas_of(digests))
-    cell["seas"] = len(seas)
+    if lost:
+        cell["message"] = f"{lost} of {len(rows)} runs failed"
     rest = [run for run in digests if run.row["start"] == 0 and not run.row["solver"]]
     finer = [run for run in digests if run.row["solver"]]
     cell |= _exponent(rest, finer, options) | _together(seas, options)
     if folds is not None:
         cell |= {"fold_up_m": folds.jump(True), "fold_down_m": folds.jump(False)}
-        cell |= _visits("large", [[run.large for run in sea] for sea in seas])
-        cell |= _visits("forecast", [[run.forecast for run in sea] for sea in seas])
+        cell |= _visits("large", seas) | _visits("forecast", seas)
     if rest:
         cell |= _loads(rest, options) | {"load_scatter": _scatter(digests)}
     return finite_row(cell)
 
 
-def seas_of(digests: Sequence[Digest]) -> Iterator[list]:
-    """The runs in each sea, without the finer one."""
-    for seed in sorted({run.row["sea"] for run in digests}):
-        yield [run for run in digests if run.row["sea"] == seed and not run.row["solver"]]
+def seas_of(digests: Sequence[Digest]) -> list[list[Digest]]:
+    """The runs in each sea, in the order of their seeds, without finer runs."""
+    seas = {}
+    for run in sorted(digests, key=lambda run: run.row["sea"]):
+        if not run.row["solver"]:
+            seas.setdefault(run.row["sea"], []).append(run)
+    return [*seas.values()]
 
 
 def _exponent(rest: Sequence[Digest], finer: Sequence[Digest], options) -> Row:
-    """The columns on the exponent."""
-    growths = [run.growth_nats for run in rest if run.growth_nats is not None]
+    """The columns on the exponent, from the runs from rest, and from the finer ones."""
+    growths = _growths(rest)
     exponent = sea_lyapunov(growths, options.transient)
     row = exponents(TANGENT, exponent)
     if not exponent.found:
@@ -227,11 +244,13 @@ def _exponent(rest: Sequence[Digest], finer: Sequence[Digest], options) -> Row:
         row["sign"] = "+" if exponent.value > 0.0 else "−"
     shares = [growing_share(turned(growth, options.transient), options.window) for growth in growths]
     row[GROWING.name] = float(np.mean(shares))
-    checks = [run.growth_nats for run in finer if run.growth_nats is not None]
-    if checks:
-        check = sea_lyapunov(checks, options.transient)
-        row |= {"finer_bits_per_period": check.value, "finer_error": check.error}
-    return row
+    check = sea_lyapunov(_growths(finer), options.transient)
+    return row | {"finer_bits_per_period": check.value, "finer_error": check.error}
+
+
+def _growths(runs: Sequence[Digest]) -> list[np.ndarray]:
+    """The growth of the perturbations of those runs that carry one."""
+    return [run.growth_nats for run in runs if run.growth_nats is not None]
 
 
 def responses_of(sea: Sequence[Digest], distance: float) -> Responses:
@@ -240,7 +259,7 @@ def responses_of(sea: Sequence[Digest], distance: float) -> Responses:
     return responses(states, np.max([run.scale for run in sea], axis=0), distance)
 
 
-def _together(seas: Sequence[Sequence], options) -> Row:
+def _together(seas: Sequence[Sequence[Digest]], options) -> Row:
     """The columns on the responses of all starts."""
     answers = [responses_of(sea, options.distance) for sea in seas if len(sea) > 1]
     if not answers:
@@ -252,29 +271,32 @@ def _together(seas: Sequence[Sequence], options) -> Row:
         periods = sum(len(answer.counts) - answer.together_at for answer in met)
         duration_s = periods * seas[0][0].scene.waves.period_s
         row |= {
-            "together_periods": float(np.median([answer.together_at for answer in met])),
+            "together_periods": np.median([answer.together_at for answer in met]),
             "together_share": np.mean([answer.together_share for answer in met]),
             "together_mean_periods": np.mean([answer.together_mean for answer in met]),
             "partings_per_hour": 3600.0 * sum(answer.partings for answer in met) / duration_s,
-            "noise": float(np.median([answer.noise for answer in met])),
+            "noise": np.median([answer.noise for answer in met]),
         }
     return row
 
 
-def _visits(name: str, flags: Sequence[Sequence]) -> Row:
-    """The columns on the large motion, or on its forecast, from the flags of the runs in each sea."""
-    answer = residence(list(chain.from_iterable(flags)))
-    shares = [residence(of_sea).share for of_sea in flags]
-    row = {f"{name}_share": answer.share, f"{name}_mean_periods": answer.mean}
-    if len(shares) > 1:
-        row[f"{name}_share_error"] = standard_error(shares)
+def _visits(name: str, seas: Sequence[Sequence[Digest]]) -> Row:
+    """The columns on the large motion, from the field of this name of the runs: "large" or "forecast"."""
+    flags = []  # of the runs in each sea
+    for sea in seas:
+        flags.append([getattr(run, name) for run in sea])
+    visits = residence(list(chain.from_iterable(flags)))
+    row = {f"{name}_share": visits.share, f"{name}_mean_periods": visits.mean}
+    if len(seas) > 1:
+        row[f"{name}_share_error"] = standard_error([residence(of_sea).share for of_sea in flags])
     return row
 
 
 def _scatter(digests: Sequence[Digest]) -> float:
-    """Range of the largest tensions of all runs in the same waves, over their mean: median over seas of several.
+    """Range of the largest tensions of all runs in the same waves over their mean: the median over the seas.
 
-    The runs in a sea are compared over the length of the shortest one, which is a finer run.
+    The runs in a sea are compared over the length of the shortest one, which is a finer run. Seas of one run do not
+    count.
     """
     tensions_N = {}  # of the runs, by sea
     for run in digests:
@@ -291,30 +313,31 @@ def _scatter(digests: Sequence[Digest]) -> float:
 def history(digests: Sequence[Digest], options) -> Iterator[Row]:
     """The responses in every sea over time, and the motion of its first run: a row a peak period."""
     for sea in seas_of(digests):
+        first = sea[0]
         answer = responses_of(sea, options.distance)
-        for period, (count, apart) in enumerate(zip(answer.counts, answer.apart, strict=True)):
-            row = {"sea": sea[0].row["sea"], "period": period, "responses": count, "apart": apart}
+        for period, (count, distance) in enumerate(zip(answer.counts, answer.apart, strict=True)):
+            row = {"sea": first.row["sea"], "period": period, "responses": count, "apart": distance}
             piece = period - options.transient
-            if 0 <= piece < len(sea[0].large):
-                row |= {"large": int(sea[0].large[piece]), "forecast": int(sea[0].forecast[piece])}
+            if 0 <= piece < len(first.large):
+                row |= {"large": int(first.large[piece]), "forecast": int(first.forecast[piece])}
             yield row
 
 
 def _loads(rest: Sequence[Digest], options) -> Row:
-    """The columns on snaps and loads."""
-    rates, means, ranges = (
+    """The columns on snaps and loads, from the runs from rest."""
+    rates, means_N, ranges_N = (
         np.array([number_of(run.row, column.name) for run in rest]) for column in (SNAPS, MEAN, EQUIVALENT)
     )
-    mean_N = float(np.mean(means))
+    mean_N = float(np.mean(means_N))
     row = {
         SNAPS.name: float(np.mean(rates)),
         MEAN.name: mean_N,
-        EQUIVALENT.name: float(np.mean(ranges**options.slope) ** (1.0 / options.slope)),
+        EQUIVALENT.name: float(np.mean(ranges_N**options.slope) ** (1.0 / options.slope)),
     }
     if len(rates) > 1:
         row["snaps_per_hour_error"] = standard_error(rates)
-    highs, scene = [run.high_N for run in rest], rest[0].scene
-    storm = storm_maximum(highs, scene.sample_step_s(), least_block_s=BLOCK_PERIODS * scene.waves.period_s)
+    highs_N, scene = [run.high_N for run in rest], rest[0].scene
+    storm = storm_maximum(highs_N, scene.sample_step_s(), least_block_s=BLOCK_PERIODS * scene.waves.period_s)
     row["storm_reason"] = storm.reason
     if storm.found:
         row |= {"storm_maximum_N": storm.value, "storm_low_N": storm.low, "storm_high_N": storm.high}

@@ -6,7 +6,6 @@ import numpy as np
 
 from analysis import (
     damage_equivalent_load,
-    extremes,
     growing_share,
     peaks,
     sea_lyapunov,
@@ -39,7 +38,7 @@ from tables import (
     of_words,
 )
 
-CLEAR = 3.0  # errors between an exponent and 0: then its sign needs no more seas
+CLEAR = 3.0  # an exponent so many errors from 0 has a clear sign, and needs no more seas
 SEA = Column("sea", "", "sea", "seed of the waves", 0)
 START = Column("start", "", "start", "number of the start; 0: rest", 0)
 SOLVER = of_words("solver", "finer: twice the elements at a quarter of the tolerance; empty: as given")
@@ -80,12 +79,12 @@ _MEASURED = (
 
 
 def columns_of(keys: Columns) -> Columns:
-    """Those of the varied keys, then those of `run_row`."""
+    """The columns of the varied keys, then those of `run_row`."""
     return *keys, *(column for column in _MEASURED if column.name not in names(keys))
 
 
 def run_row(trajectory, transient: int, window: int, slack_share: float, snap_share: float, slope: float) -> Row:
-    """The columns that a trajectory fills. A record that ends within the transient has its statistics only.
+    """The columns of a run that are known. A record that ends within the transient has statistics only.
 
     transient: peak periods left out. window, slack_share, snap_share, slope: options of the campaign.
     """
@@ -97,25 +96,26 @@ def run_row(trajectory, transient: int, window: int, slack_share: float, snap_sh
         row |= exponents(TANGENT, sea_lyapunov([growth], transient))
         row[GROWING.name] = growing_share(turned(growth, transient), window)
     transient_s = transient * period_s
-    first = round(transient_s / step_s)
-    tension, low, high = (columns[f"tension_top{kind}_N"] for kind in ("", "_low", "_high"))
-    if len(tension) - first < 2:
+    first = round(transient_s / step_s)  # sample after the transient
+    tension_N = columns["tension_top_N"]
+    low_N, high_N = columns["tension_top_low_N"][first:], columns["tension_top_high_N"][first:]
+    if len(high_N) < 2:
         return row
-    crests = high[first:][peaks(high[first:])]
-    waves = (len(tension) - 1 - first) * step_s / period_s
+    peaks_N = high_N[peaks(high_N)]
+    waves = (len(high_N) - 1) * step_s / period_s
     row |= {
-        MEAN.name: float(np.mean(tension[first:])),
-        LARGEST.name: extremes(high, step_s, transient_s).maximum,
-        "peaks": len(crests),
-        EQUIVALENT.name: damage_equivalent_load(turning_points(low[first:], high[first:]), waves, slope),
+        MEAN.name: float(np.mean(tension_N[first:])),
+        LARGEST.name: float(high_N.max()),
+        "peaks": len(peaks_N),
+        EQUIVALENT.name: damage_equivalent_load(turning_points(low_N, high_N), waves, slope),
     }
-    if len(crests) > 100:
-        row["peak_p99_N"] = float(np.quantile(crests, 0.99))
+    if len(peaks_N) > 100:
+        row["peak_p99_N"] = float(np.quantile(peaks_N, 0.99))
     static_N = static_tension_N(scene, columns)
-    if static_N > 0.0:  # by which slack and snaps are measured
+    if static_N > 0.0:  # else nothing says which tension is slack, and which is a snap
         snaps = snaps_of(scene, columns, transient_s=transient_s, slack_share=slack_share, snap_share=snap_share)
         row[SNAPS.name] = len(snaps) / snaps.watched_s * 3600.0
-        row[SLACK.name] = slack_fraction(tension, step_s, slack_share * static_N, transient_s).fraction
+        row[SLACK.name] = slack_fraction(tension_N, step_s, slack_share * static_N, transient_s).fraction
         if len(snaps):
             row[SNAP_PEAK.name] = float(np.median(snaps.peak_N))
             row[SNAP_SPEED.name] = float(np.max(snaps.taut_speed_mps))
@@ -129,14 +129,14 @@ def finite_row(row: Row) -> Row:
 
 def unclear_places(rows: Rows, keys: Columns) -> set[tuple]:
     """The places (values of the keys) where the mean exponent of the runs from rest is within CLEAR errors of 0."""
-    exponents_at = {}  # of the seas with their errors, by place
+    seas_at = {}  # by place: exponent and error of each sea
     for row in rows:
         value, error = (number_of(row, column.name) for column in TANGENT)
         if row["start"] == 0 and not row["solver"] and math.isfinite(value):
-            exponents_at.setdefault(place_in(row, keys), []).append((value, error))
+            seas_at.setdefault(place_in(row, keys), []).append((value, error))
     unclear = set()
-    for place, exponents_of_seas in exponents_at.items():
-        value, error = mean_of_seas(*zip(*exponents_of_seas, strict=True))
-        if abs(value) < CLEAR * error:
+    for place, seas in seas_at.items():
+        mean, error = mean_of_seas(*zip(*seas, strict=True))
+        if abs(mean) < CLEAR * error:
             unclear.add(place)
     return unclear

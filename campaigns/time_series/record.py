@@ -1,7 +1,8 @@
-"""A column of a text file as an evenly sampled record, or every reason why it is none.
+"""A column of a text file as an evenly sampled record, or all reasons why the file has no such record.
 
-The file: columns separated by commas, semicolons, tabs or spaces, one line of names above them (a file of numbers only
-has the columns 1, 2, ...), lines that begin with # left out; UTF-8, or UTF-16 with its mark, as spreadsheets export it.
+Commas, semicolons, tabs or spaces separate the columns, and one line above them has their names; the columns of a file
+without names are called 1, 2, ... Lines that begin with # are comments. The text is UTF-8, or UTF-16 with a byte order
+mark, as spreadsheets export it.
 """
 
 from __future__ import annotations
@@ -25,8 +26,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 FORMAT = "a text file of columns separated by commas, semicolons, tabs or spaces, with their names in the first line"
-# How files begin that are often given in place of text, what they are, and what to do.
-BINARY = {
+BINARY = {  # first bytes of files that are often given in place of text: what such a file is, and what to do with it
     b"PK\x03\x04": ("a spreadsheet or a zip archive, not text", "save the sheet as CSV"),
     b"\xd0\xcf\x11\xe0": ("a spreadsheet, not text", "save the sheet as CSV"),
     b"\x1f\x8b": ("compressed, not text", "unpack it first: gunzip -k"),
@@ -35,12 +35,10 @@ BINARY = {
 }
 TIME = "time_s"  # a column of this name has the times, where neither --time nor --step is given
 UTF16 = (b"\xff\xfe", b"\xfe\xff")
-# Fewer say nothing in any of the measures.
-LEAST_SAMPLES = 100
+LEAST_SAMPLES = 100  # no measure says anything of a shorter record
 # Share of a step by which a time may miss the even grid: three digits at 30 samples a second miss it by 1.5 %.
 UNEVEN = 0.02
-# Beyond, squares of differences leave the range of numbers.
-LARGEST = 1e100
+LARGEST = 1e100  # the square of a larger number may be infinite
 _CLOCK = re.compile(r"\d+[-/.]\d+[-/.]\d+|\d+:\d+")
 
 
@@ -50,7 +48,7 @@ class Record:
 
     values: np.ndarray  # (n,) in the unit of the file
     step: float  # time from sample to sample, in `unit`
-    unit: str  # "s", or "samples" where the file and the command say nothing of time
+    unit: str  # of time: "s", or "samples" where neither the file nor the command has times
     column: str
     path: Path
 
@@ -58,12 +56,12 @@ class Record:
 def read_record(
     path: str, column: str | None, time: str | None, step: float | None, faults: list[str]
 ) -> Record | None:
-    """The Record of one column; None where anything is wrong, which is then appended to `faults`, a line each.
+    """The Record of a column; None where anything is wrong. A line for each fault is then appended to `faults`.
 
-    column, time   names of columns; None: not given (a file of one column beside TIME needs no name)
+    column, time   names of columns; None: not given. The only column beside the times needs no name
     step           sampling step [s], or None
     """
-    faults_before = len(faults)
+    earlier_faults = len(faults)
     try:
         table = read_table(Path(path))
         if time is None and step is None and column != TIME and TIME in table.names:
@@ -73,33 +71,34 @@ def read_record(
             if len(series) == 1:
                 column = series[0]
         if column is None and any(fault.startswith("--column:") for fault in faults):
-            return None  # it was given, and is at fault
-        faults.extend(_unknown_columns(table, column, time))
-        if len(faults) > faults_before:
+            return None  # the command line has a --column that cannot be read
+        faults.extend(_name_faults(table, column, time))
+        if len(faults) > earlier_faults:
             return None
-        places = {f"--column {column}": table.names.index(column)}
+        column_option, time_option = f"--column {column}", f"--time {time}"
+        places = {column_option: table.names.index(column)}
         if time is not None:
-            places[f"--time {time}"] = table.names.index(time)
+            places[time_option] = table.names.index(time)
         numbers = _numbers(table, places, faults)
     except ValueError as error:
         faults.append(str(error))
         return None
-    x, t = numbers.get(f"--column {column}"), numbers.get(f"--time {time}")
+    x, t = numbers.get(column_option), numbers.get(time_option)
     if x is not None:
-        faults.extend(f"--column {column}: {fault}" for fault in _not_worth_it(x))
+        faults.extend(f"{column_option}: {fault}" for fault in _series_faults(x))
     unit = "s"
     if t is not None and len(t) > 1:
         step = float((t[-1] - t[0]) / (len(t) - 1))
-        faults.extend(f"--time {time}: {fault}" for fault in _uneven(t, step))
+        faults.extend(f"{time_option}: {fault}" for fault in _sampling_faults(t, step))
     elif t is None and step is None:
         step, unit = 1.0, "samples"
-    if len(faults) > faults_before:
+    if len(faults) > earlier_faults:
         return None
     return Record(x, step, unit, column, Path(path))
 
 
-def _unknown_columns(table: Table, column: str | None, time: str | None) -> Iterator[str]:
-    """What is wrong with the names of columns, as fault lines."""
+def _name_faults(table: Table, column: str | None, time: str | None) -> Iterator[str]:
+    """A line for each fault of the names of columns: not given, given twice, or not in the table."""
     listed = ", ".join(table.names[:40])
     if len(table.names) > 40:
         listed += f" and {len(table.names) - 40} more"
@@ -114,15 +113,15 @@ def _unknown_columns(table: Table, column: str | None, time: str | None) -> Iter
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A text file of columns: their names, the mark between them (None: spaces), whether its first line has names."""
+    """A text file of columns."""
 
     path: Path
-    names: list[str]
-    mark: str | None
-    named: bool
+    names: list[str]  # of the columns
+    mark: str | None  # between the columns; None: spaces
+    named: bool  # whether the first line has the names
 
     def lines(self) -> Iterator[str]:
-        """The lines below the names."""
+        """The lines of the file below the names."""
         return islice(_lines(self.path), int(self.named), None)
 
     def rows(self) -> Iterator[list]:
@@ -137,86 +136,89 @@ class Table:
             shown = ", ".join(self.names)
             if len(shown) > 60:
                 shown = f"{shown[:57]}..."
-            raise ValueError(f"{fault} ({shown}); allowed: {FORMAT} (lines above it: taken out, or begun with #)")
+            raise ValueError(f"{fault} ({shown}); allowed: {FORMAT}, above it only lines begun with #")
 
 
 def _numbers(table: Table, places: dict[str, int], faults: list[str]) -> dict[str, np.ndarray]:
-    """Columns as floats (n,), by what they are called; without those that have faults, one for each way of them.
+    """Columns of a table as floats (n,), by their labels.
 
-    places: numbers of the columns.
+    places: label of each column, as "--column x", and its place in the table. A column with a cell that is no finite
+    number is left out; each kind of such cells in a column is a line in `faults`.
     """
     import numpy as np  # 0.1 s, which a file without columns does not need
 
     with warnings.catch_warnings():
-        warnings.simplefilter("error")  # of a file without rows
+        warnings.simplefilter("error")  # NumPy warns of a file without rows
         try:
             numbers = np.loadtxt(table.lines(), delimiter=table.mark, comments=None, quotechar='"', ndmin=2)
             if numbers.shape[1] == len(table.names) and np.isfinite(numbers).all():
-                return {name: numbers[:, place].copy() for name, place in places.items()}
-        except (ValueError, UserWarning):  # cell by cell, to say what is wrong; other columns may hold words
+                return {label: numbers[:, place].copy() for label, place in places.items()}
+        except (ValueError, UserWarning):
             pass
-    values = {name: array("d") for name in places}
-    wrong = {}  # by column and what is wrong: its first cell, and its rows
-    for number, cells in enumerate(table.rows(), 1):
-        for name, place in places.items():
+    # Now cell by cell: another column may hold words, and a fault line names the row and the cell.
+    values = {label: array("d") for label in places}
+    bad_cells = {}  # by label and fault: the first such cell, then the rows of all
+    for row, cells in enumerate(table.rows(), 1):
+        for label, place in places.items():
             cell = cells[place]
-            fault = _is_no_number(cell)
+            fault = _cell_fault(cell)
             if fault:
-                wrong.setdefault((name, fault), [cell]).append(number)
+                bad_cells.setdefault((label, fault), [cell]).append(row)
             else:
-                values[name].append(float(cell))
-    for (name, fault), (cell, *rows) in wrong.items():
+                values[label].append(float(cell))
+    for (label, fault), (cell, *rows) in bad_cells.items():
         if len(rows) > 1:
             fault += f" (so are {len(rows) - 1} more)"
-        allowed = f"finite numbers in every row; {_cure(cell, name, rows)}"
-        faults.append(f"{name}: row {rows[0]} below the names, {cell!r}, {fault}; allowed: {allowed}")
-        values.pop(name, None)
-    return {name: np.array(column) for name, column in values.items()}
+        allowed = f"finite numbers in every row; {_cure(cell, label, rows)}"
+        faults.append(f"{label}: row {rows[0]} below the names, {cell!r}, {fault}; allowed: {allowed}")
+        values.pop(label, None)
+    return {label: np.array(column) for label, column in values.items()}
 
 
-def _is_no_number(cell: str) -> str:
-    """What is wrong with a cell in the place of a finite number; "" where nothing is."""
+def _cell_fault(cell: str) -> str:
+    """Why a cell is no finite number; "" where it is a finite number."""
     try:
         number = float(cell)
     except ValueError:
         if not cell:
             return "is empty"
         return "is no number"
-    if "_" in cell:  # 1_0 is 10 to Python alone
+    if "_" in cell:  # Python alone reads 1_0 as 10
         return "is no number"
     if not isfinite(number):
         return "is not finite"
     return ""
 
 
-def _cure(cell: str, name: str, rows: list[int]) -> str:
-    """What to do about a cell that is no number, in `rows` of its column."""
+def _cure(cell: str, label: str, rows: list[int]) -> str:
+    """What to do about a cell that is no number. rows: of its column that have such cells."""
     if _CLOCK.search(cell):
         cure = "dates and clock times are not read"
-        if name.startswith("--time"):
+        if label.startswith("--time"):
             cure += "; give --step SECONDS in its place"
         return cure
     if "," in cell:
         return "with a dot, not a comma"
-    if rows == [1] and cell and not any(mark.isdigit() for mark in cell):
+    if rows == [1] and cell and not any(letter.isdigit() for letter in cell):
         return "a line of units is taken out, or begun with #"
     return "cut the record there or fill the gap"
 
 
-def _not_worth_it(x: np.ndarray) -> Iterator[str]:
-    """Why a series (n,) cannot be judged, if it cannot."""
+def _series_faults(x: np.ndarray) -> Iterator[str]:
+    """Why a series (n,) cannot be judged; nothing where it can."""
     import numpy as np
 
+    size = np.abs(x).max(initial=0.0)
     if len(x) < LEAST_SAMPLES:
         yield f"given {len(x)} samples; allowed: {LEAST_SAMPLES} or more"
-    elif np.abs(x).max() > LARGEST:
-        yield f"values up to {np.abs(x).max():.3g}; allowed: at most {LARGEST:g} in size; take a larger unit"
-    elif np.ptp(x) <= 64 * np.finfo(float).eps * np.abs(x).max():
+    elif size > LARGEST:
+        yield f"values up to {size:.3g}; allowed: at most {LARGEST:g} in size; take a larger unit"
+    elif np.ptp(x) <= 64 * np.finfo(float).eps * size:
         yield f"every value is {x[0]:.6g}; allowed: a series that moves"
 
 
-def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
-    """Why times (n,) are not those of an even sampling of this mean step, if they are not."""
+def _sampling_faults(t: np.ndarray, step: float) -> Iterator[str]:
+    """Why times (n,) of a mean step are not evenly spaced; nothing where they are."""
     import numpy as np
 
     forward = np.diff(t)
@@ -227,24 +229,25 @@ def _uneven(t: np.ndarray, step: float) -> Iterator[str]:
     deviation = np.abs(t - t[0] - step * np.arange(len(t))).max()
     if deviation <= UNEVEN * step:
         return
-    usual, k = np.median(forward), int(np.argmax(np.abs(forward - np.median(forward))))
+    usual = np.median(forward)
+    k = int(np.argmax(np.abs(forward - usual)))
     fault = f"steps of {usual:.6g} s, but of {forward[k]:.6g} s after row {k + 1}"
     if abs(forward[k] - usual) <= UNEVEN * usual:
         fault = f"steps that creep from {forward[0]:.9g} s to {forward[-1]:.9g} s"
     allowed = f"even sampling (to {UNEVEN:.0%} of a step); interpolate onto even times first"
     if deviation <= np.ptp(forward) < 0.9 * step:
-        # Within one digit of the even grid, as times written with few digits are.
+        # Times that are written with few digits miss the even grid by at most one unit of the last digit.
         allowed += f", or, where times are only rounded, give --step {step:.6g} in the place of --time"
     yield f"{fault}; allowed: {allowed}"
 
 
 def read_table(path: Path) -> Table:
-    """The table of a file. Raises ValueError, with what is allowed, where it is none."""
-    first = next(_lines(path), None)
-    if first is None:
+    """The table in a file. Raises ValueError, with what is allowed, for a file that has none."""
+    first_line = next(_lines(path), None)
+    if first_line is None:
         raise ValueError(f"{path}: empty; allowed: {FORMAT}")
-    mark = next((mark for mark in ("\t", ";", ",") if mark in first), None)
-    names, named = next(_cells(path, [first], mark)), True
+    mark = next((mark for mark in ("\t", ";", ",") if mark in first_line), None)
+    names, named = next(_cells(path, [first_line], mark)), True
     with contextlib.suppress(ValueError):  # a file of numbers only has no line of names
         list(map(float, names))
         names, named = [str(place) for place in range(1, len(names) + 1)], False
@@ -252,7 +255,7 @@ def read_table(path: Path) -> Table:
         if names.count(name) > 1:
             raise ValueError(f"{path}: two columns are called {name!r}; allowed: a name of its own for each")
     table = Table(path, names, mark, named)
-    next(table.rows(), None)  # a title in the place of the names is told before a column that they lack
+    next(table.rows(), None)  # a title above the names is a fault here, before a column is missed in it
     return table
 
 
@@ -270,31 +273,31 @@ def _cells(path: Path, lines: Iterable[str], mark: str | None) -> Iterator[list]
 
 
 def _lines(path: Path) -> Iterator[str]:
-    """The lines of a text file that say something."""
+    """The lines of a text file, without empty ones and comments.
+
+    Raises ValueError, with what is allowed, for a file that cannot be read or is no text.
+    """
     if os.path.isdir(path):
         raise ValueError(f"{path}: a folder; allowed: {FORMAT}")
-    what, cure = "not text in UTF-8", "of a text in another encoding: save it as UTF-8"
+    no_text = f"{path}: not text in UTF-8; allowed: {FORMAT} (of a text in another encoding: save it as UTF-8)"
     try:
         with open(path, "rb") as file:
             begin = file.read(8)
-        kinds = [kind for mark, kind in BINARY.items() if begin.startswith(mark)]
+        for first_bytes, (kind, cure) in BINARY.items():
+            if begin.startswith(first_bytes):
+                raise ValueError(f"{path}: {kind}; allowed: {FORMAT} ({cure})")
         encoding = "utf-8-sig"
-        if begin[:2] in UTF16:
+        if begin.startswith(UTF16):
             encoding = "utf-16"
-        if kinds:
-            what, cure = kinds[0]
-        else:
-            with open(path, encoding=encoding) as file:
-                for line in file:
-                    if "\0" in line:
-                        break
-                    text = line.strip()
-                    if text and not text.startswith("#"):
-                        yield line
-                else:
-                    return
+        with open(path, encoding=encoding) as file:
+            for line in file:
+                if "\0" in line:
+                    raise ValueError(no_text)
+                text = line.strip()
+                if text and not text.startswith("#"):
+                    yield line
     except UnicodeDecodeError:
-        pass
+        raise ValueError(no_text) from None
     except FileNotFoundError:
         fault, folder = "there is no such file", path.absolute().parent
         if not os.path.isdir(folder):
@@ -304,4 +307,3 @@ def _lines(path: Path) -> Iterator[str]:
         raise ValueError(f"{path}: {fault}; allowed: {FORMAT}") from None
     except OSError as error:
         raise ValueError(f"{path}: cannot be read: {error.strerror}; allowed: {FORMAT}") from None
-    raise ValueError(f"{path}: {what}; allowed: {FORMAT} ({cure})")

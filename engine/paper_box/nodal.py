@@ -7,12 +7,13 @@ omega the angular velocity of the frame (`line.turning`), the columns of M that 
     rows 2-3  -m (omega x V)_2,3 + R (dC/dt U_c)_2,3
     rows 4-6  -(1 + eps) (omega x t)
 
-Entry by entry that is the print (tests/engine/paper_box/test_appendix.py; misprints: THEORY.md); a product
-with M so costs one omega instead of 31 entries. Rows 2 and 3 of P carry the term R C dU_c/dt that the print leaves out:
-without it waves act on the tether by drag alone.
+Every entry agrees with the print (tests/engine/paper_box/test_appendix.py; misprints: THEORY.md). A product with M
+needs omega once, in place of 31 entries. Rows 2 and 3 of P have the term R C dU_c/dt, which the print leaves out:
+without this term waves act on the tether by drag alone.
 
 water (6, ...): velocity and local acceleration of the water in the paper's axes (`line`).
-Arguments may be complex (`newton.residual` differentiates by complex step): |x| is written so that it stays analytic.
+Arguments may be complex, because `newton.residual` differentiates by complex step. |x| is therefore written in a form
+that stays analytic.
 
 In the paper: eq. (34) M, columns of ε … w; eq. (35) M, columns of ε … w; eq. (36) M, column of β₀; eq. (37) M, column
 of β₁; eq. (38) M, column of β₂; eq. (39) M, column of β₃; eq. (40) P.
@@ -25,7 +26,7 @@ import numpy as np
 from ..physics.sea_series import WIDTH
 from ..physics.water import water as water_of_engine
 from ..spatial.vectors import dot_of
-from .line import EPS, EULER, SPEEDS, TO_ENGINE, TO_PAPER, Line, normal_rates, rotation, to_local, turning
+from .line import EPS, EULER, SPEEDS, TO_ENGINE, TO_PAPER, Line, U, V, W, normal_rates, rotation, to_local, turning
 
 
 def positions(line: Line, Y: np.ndarray) -> np.ndarray:
@@ -38,8 +39,8 @@ def positions(line: Line, Y: np.ndarray) -> np.ndarray:
 def water_at(line: Line, t: float, Y: np.ndarray, waves: bool = True) -> np.ndarray:
     """Velocity and local acceleration of the water at the nodes, (6, n), paper's axes. waves: False in statics.
 
-    The paper does not say where it takes the water; its kinematics depend on the position, which depends on every node
-    below. As in the conservation form, positions are renewed in each Newton iteration and left out of the Jacobian.
+    The paper does not say at which positions it takes the water. The position of a node depends on all nodes below it.
+    As in the conservation form, each Newton iteration computes the positions anew, and the Jacobian neglects them.
     """
     axes = [0, 1, 2] if line.spatial else [0, 2]
     X = np.ascontiguousarray(positions(line, Y)[TO_ENGINE][axes].T)
@@ -61,7 +62,7 @@ class Level(NamedTuple):
 
 
 def level_of(line: Line, t: float, Y: np.ndarray) -> Level:
-    """The time level of the unknowns Y (13, n)."""
+    """The time level at t (s) with the unknowns Y (13, n)."""
     water = water_at(line, t, Y)
     return Level(t, Y, water, P(line, Y, water))
 
@@ -69,9 +70,10 @@ def level_of(line: Line, t: float, Y: np.ndarray) -> Level:
 def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.ndarray:
     """M(Y) D, (13, ...), for any D of the shape of Y.
 
-    The terms of rows 2 and 3 in which beta turns have the factors R = rho_w pi d^2/4 + m_a and m in the paper
-    (component rates of v and v_c); with the normal components of the accelerations they have 0 and m + m_a, which does
-    not depend on the roll of the frame (THEORY.md, section 4).
+    Rows 2 and 3 have a term with n_rate or b_rate, and a term with omega. In the paper their factors are
+    R = rho_w pi d^2/4 + m_a and m, because Morison's force has the rates of the components v and v_c. With
+    `line.accelerations` it has the normal components of the accelerations. The factors are then 0 and m + m_a, and the
+    force does not depend on the roll of the frame (THEORY.md, section 4).
     """
     eps, (u, v, w) = Y[EPS], Y[SPEEDS]
     slope = line.tension(eps)[1]
@@ -82,29 +84,29 @@ def times_M(line: Line, Y: np.ndarray, D: np.ndarray, water: np.ndarray) -> np.n
     zero = np.zeros_like(omega1)
     return np.array(
         [
-            -m * (D[3] + omega2 * w - omega3 * v) / slope,
-            -inertia * D[4] - m_turn * (omega3 * u - omega1 * w) + R_turn * dot_of(n_rate, water),
-            -inertia * D[5] - m_turn * (omega1 * v - omega2 * u) + R_turn * dot_of(b_rate, water),
+            -m * (D[U] + omega2 * w - omega3 * v) / slope,
+            -inertia * D[V] - m_turn * (omega3 * u - omega1 * w) + R_turn * dot_of(n_rate, water),
+            -inertia * D[W] - m_turn * (omega1 * v - omega2 * u) + R_turn * dot_of(b_rate, water),
             zero - D[EPS],
             -(1 + eps) * omega3,
             (1 + eps) * omega2,
-            *(zero for _ in range(7)),
+            *7 * [zero],
         ]
     )
 
 
 def P(line: Line, Y: np.ndarray, water: np.ndarray) -> np.ndarray:
-    """P(Y), (13, ...): eq. (40)."""
+    """P(Y), (13, ...), eq. (40)."""
     eps, Sn, Sb, u, v, w, b0, b1, b2, b3, O1, O2, O3 = Y
     p = line.record
     w0, c_t, c_n, EI, ratio = p["w0"], p["ct"], p["cn"], p["EI"], line.GIp / p["EI"]
     T, slope = line.tension(eps)
     C = rotation(Y[EULER])
-    u_r, v_r, w_r = (Y[3 + i] - C[i, 0] * water[0] - C[i, 1] * water[1] - C[i, 2] * water[2] for i in range(3))
+    u_r, v_r, w_r = (Y[U + i] - C[i, 0] * water[0] - C[i, 1] * water[1] - C[i, 2] * water[2] for i in range(3))
     _, n_push, b_push = p["Rw"] * to_local(Y[EULER], water[3:])
     root, cube = np.sqrt(1 + eps), (1 + eps) ** 3 / EI
     size = np.where(u_r.real < 0, -u_r, u_r)  # |u_r|, analytic on either side of zero
-    across = np.sqrt(v_r * v_r + w_r * w_r)  # at zero its square root is not analytic, the products below are
+    across = np.sqrt(v_r * v_r + w_r * w_r)  # not analytic at zero, but its products with v_r, w_r are
     return np.array(
         [
             (Sb * O2 - Sn * O3 - w0 * C[0, 0] - c_t * size * u_r * root) / slope,

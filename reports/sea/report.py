@@ -1,4 +1,4 @@
-"""The report of `campaigns.sea`: one sea with its picture, or a map of seas. Everything comes from the folder."""
+"""The report of `campaigns.sea`: one sea with its picture, or a map of seas. All content comes from the folder."""
 
 import math
 from collections.abc import Sequence
@@ -34,7 +34,8 @@ from ..parts import (
 )
 from .figures import history_figure, responses_figure
 
-_MOST = 12  # columns of one table
+_MOST_COLUMNS = 12  # columns of one table
+_MOST_RUNS = 60  # that are printed; table.csv has all
 _REGULAR = "Every motion of regular waves beside the sea, as `campaigns.sweep` finds them (`regular/table.csv`)."
 _MAPS = {
     TANGENT_EXPONENT: "exponent",
@@ -61,17 +62,21 @@ def report(directory: Path) -> Report:
         items += [Heading("Regular waves beside the sea"), _regular(regular)]
     items += [Heading("Warnings"), _warnings(folder)]
     names = shown_on(folder.columns, folder.table, longest=LONGEST_CELL)
-    if len(folder.table) <= 60:
+    if len(folder.table) <= _MOST_RUNS:
         items.append(Heading("Runs"))
-        items += [table_of(folder.columns, part, folder.table, "A row a run.") for part in batched(names, _MOST)]
+        items += [
+            table_of(folder.columns, part, folder.table, "A row a run.") for part in batched(names, _MOST_COLUMNS)
+        ]
     return report_page(folder, "A sea: memory of the start, motions, loads", items)
 
 
 def _numbers(cells: Folder) -> Table:
-    """The row of one sea as lines, or those of a map as rows."""
+    """The quantities of a single sea state as lines, or a row for each state of a map."""
     names = [name for name in shown_on(cells.columns, cells.table) if name not in ("status", "message")]
     if len(cells.table) > 1:
-        return table_of(cells.columns, names[:_MOST], cells.table, "A row a sea state; cells/table.csv has more.")
+        return table_of(
+            cells.columns, names[:_MOST_COLUMNS], cells.table, "A row a sea state; cells/table.csv has more."
+        )
     printed, (row,) = printed_cells(cells.columns), cells.table
     lines = []
     for name in names:
@@ -81,45 +86,49 @@ def _numbers(cells: Folder) -> Table:
 
 
 def _pictures(folder: Folder, cells: Folder) -> Items:
+    """The first sea over time, and the responses of the starts in all seas."""
     (cell,) = cells.table
     yield history_figure(folder, cell)
     distance = number_of(cell, "distance")
-    if math.isfinite(distance):  # there is none between the runs of one start
+    if math.isfinite(distance):  # a sea with one start has no distance between starts
         yield responses_figure(folder.part("history"), distance)
 
 
 def _maps(cells: Folder, keys: Sequence[str]) -> Items:
+    """The quantities of _MAPS over one key, or as maps over two keys."""
     columns = [cells.columns[key] for key in keys]
     if len(keys) == 1:
-        shown = [pairs for pairs in measured(cells.columns, cells.table, keys) if pairs[0][0].name in _MAPS]
-        if not shown:
-            return
-        yield Figure(over_key(cells.table, columns[0], shown, {}), "Bars: one standard error.", "Panels over the key.")
+        panels = [panel for panel in measured(cells.columns, cells.table, keys) if panel[0][0].name in _MAPS]
+        if panels:
+            picture = over_key(cells.table, columns[0], panels, {})
+            yield Figure(picture, "Bars: one standard error.", "Panels over the key.")
         return
     drawn = [Map("", "sign of the exponent", [str(row["sign"] or "open") for row in cells.table])]
     for name, words in _MAPS.items():
         values = series(cells.table, name)
         if np.isfinite(values).any():
             drawn.append(Map(cells.columns[name].label, words, values))
-    heads = ", ".join(plain(column.head) for column in columns)
-    caption = f"Sea states over {heads}: {', '.join(part.name for part in drawn)}. Crosses: not known."
-    yield Figure(maps(columns, cells.table, drawn), caption, f"Maps over {heads}.")
+    axes = ", ".join(plain(column.head) for column in columns)
+    caption = f"Sea states over {axes}: {', '.join(part.name for part in drawn)}. Crosses: not known."
+    yield Figure(maps(columns, cells.table, drawn), caption, f"Maps over {axes}.")
 
 
 def _regular(regular: Folder) -> Table:
+    """The motions of regular waves; an older folder may lack some of the columns."""
     wanted = ("waves.amplitude_m", "motion", "regime", "strobed_period", "tension_top_max_N", "slack_fraction")
     names = [name for name in wanted if name in regular.columns]
     return table_of(regular.columns, names, regular.table, _REGULAR)
 
 
 def _warnings(folder: Folder) -> Notice:
-    lines, messages = [], set()
+    """Each run that ended early, and one of the messages of the others."""
+    lines, messages = [], []
     for row in folder.table:
         if row["status"] != "ok":
             lines.append(f"Sea {row['sea']:.0f}, start {row['start']:.0f}: {row['status']}. {row['message']}")
         elif row["message"]:
-            messages.add(str(row["message"]))
+            messages.append(str(row["message"]))
     if messages:
-        with_message = count(sum(1 for row in folder.table if row["message"]), "run")
-        lines.append(f"{with_message} say: {sorted(messages)[0]}")
+        with_message = sum(bool(row["message"]) for row in folder.table)
+        lines.append(f"{count(with_message, 'run')} say: {min(messages)}")
     return limits("What the runs say", lines, "Every run reached its end.")

@@ -4,16 +4,17 @@
     c(eps) = sqrt(T'/m),  T' = a sech^2 y + p5,  a = p1 p2
     phi(eps) = integral_0^eps c d eps,   W(eps) = integral T d eps
 
-With w = tanh y / sqrt(a sech^2 y + p5) the integral of c is elementary,
+With w = tanh y / sqrt(a sech^2 y + p5) the integral of c is elementary:
 
-    p2 sqrt(m) phi = sqrt(a) asin(tanh(y) sqrt(a/(a + p5))) + sqrt(p5) atanh(sqrt(p5) w),
+    p2 sqrt(m) phi = sqrt(a) asin(tanh(y) sqrt(a/(a + p5))) + sqrt(p5) atanh(sqrt(p5) w)
 
-and the second term, whose argument tends to -1 in slack, is written so that nothing cancels there:
-1 - p5 w^2 = (a + p5) sech^2 y/(a sech^2 y + p5). p1 = 0 is the linear law T = p4 + p5 eps, with phi = c eps.
+In a slack line sqrt(p5) w tends to -1, and atanh of it would lose all digits. The code therefore takes its logarithm
+from 1 - p5 w^2 = (a + p5) sech^2 y/(a sech^2 y + p5), where nothing cancels. With p1 = 0 the law is linear,
+T = p4 + p5 eps, and phi = c eps.
 
 `law` is the array (p1, p2, p3, p4, p5, m) everywhere: T in N, m the mass per unit unstretched length in kg/m. Kernels
-take a strain or an array of strains. T' > 0 everywhere; it rises up to the inflection at y = 0 (eps = 0.2086 with the
-paper's numbers) and falls above it.
+take a strain or an array of strains. T' > 0 everywhere. T' rises up to the inflection of T at y = 0 (eps = 0.2086 with
+the paper's numbers) and falls above it.
 """
 
 import numpy as np
@@ -22,11 +23,11 @@ from analysis.compiled import kernel
 from analysis.sampling import checked_positive, checked_series
 
 PAPER_LAW = (2.703e5, 10.2, -2.128, 2.627e5, 135.5)  # section 4.1.1
-NEWTON_MOST = 200
+NEWTON_MOST = 200  # iterations, at most
 
 
 def checked_law(parameters, mass):
-    """(p1, p2, p3, p4, p5, m) as one array; ValueError unless it is a law that rises everywhere."""
+    """(p1, p2, p3, p4, p5, m) as one array. Raises ValueError unless T rises with the strain everywhere."""
     law = checked_series((*parameters, checked_positive(mass, "mass")), "law")
     if law.shape != (6,) or law[0] < 0.0 or law[1] <= 0.0 or law[4] <= 0.0:
         raise ValueError(f"law: five numbers p1 >= 0, p2 > 0, p3, p4, p5 > 0 are needed, given {tuple(parameters)!r}")
@@ -54,7 +55,7 @@ def wave_speed(law, eps):
 
 @kernel
 def wave_speed_slope(law, eps):
-    """dc/d eps [m/s]; below zero where unloading steepens."""
+    """dc/d eps [m/s]; negative where a wave of unloading steepens into a shock."""
     th = np.tanh(law[1] * eps + law[2])
     bend = -2.0 * law[0] * law[1] ** 2 * th * (1.0 - th) * (1.0 + th)  # T''
     return bend / (2.0 * law[5] * wave_speed(law, eps))
@@ -62,11 +63,13 @@ def wave_speed_slope(law, eps):
 
 @kernel
 def _log_cosh(y):
+    """ln cosh y, without overflow."""
     return np.abs(y) + np.log1p(np.exp(-2.0 * np.abs(y))) - np.log(2.0)
 
 
 @kernel
 def _speed_integral(law, y):
+    """phi up to a constant, as a function of y: the closed form at the head of this file."""
     a, b = law[0] * law[1], law[4]
     th = np.tanh(y)
     stiff = a * (1.0 - th) * (1.0 + th) + b
@@ -78,7 +81,7 @@ def _speed_integral(law, y):
 
 @kernel
 def riemann(law, eps):
-    """phi [m/s]: the speed that a simple wave gives a line unloaded from eps to 0."""
+    """phi [m/s]: the speed that a line has after a simple wave has unloaded it from eps to 0."""
     return _speed_integral(law, law[1] * eps + law[2]) - _speed_integral(law, law[2])
 
 
@@ -92,10 +95,10 @@ def energy(law, eps):
 
 @kernel
 def strain_of_riemann(law, phi, guess):
-    """eps of a given phi.
+    """eps at which phi(eps) = phi, by Newton's method from any guess.
 
-    phi is convex below the inflection and concave above, so that Newton held on the root's side of the inflection
-    ends up on one side of the root and from there approaches it monotonically, from any guess.
+    phi is convex below the inflection and concave above it. Iterates are kept on that side of the inflection on which
+    the root is; they then approach the root monotonically, at the latest after one step.
     """
     bend = -law[2] / law[1]
     above = phi > riemann(law, bend)
@@ -111,7 +114,7 @@ def strain_of_riemann(law, phi, guess):
 
 @kernel
 def strain_of_tension(law, force, guess):
-    """eps at which T = force; Newton as in `strain_of_riemann` (T has the same bend)."""
+    """eps at which T = force, by Newton's method as in `strain_of_riemann`, because T has the same inflection."""
     bend = -law[2] / law[1]
     above = force > tension(law, bend)
     eps = guess
