@@ -2,7 +2,7 @@
 
     python -m campaigns.paper                          everything, in under half an hour on two cores; again: nothing
     python -m campaigns.paper --parts breaking_line    one part, beside those that are in the folder already
-    python -m campaigns.paper --quick                  short and few runs in two minutes, to see what there is
+    python -m campaigns.paper --quick                  short and few runs in three to five minutes, to see what there is
 
 Protocol: the other campaigns run as parts, each in a folder of its own with its own report (`campaigns.paper.parts`);
 `dependence` runs the two waves of section 4.2 with other answers to what the paper leaves out. The report, the data of
