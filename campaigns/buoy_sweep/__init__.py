@@ -102,13 +102,16 @@ def dimensions_of(order: Order) -> str:
 
 def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     """The runs in a plane, in space where needed, or of every motion."""
-    if has_between(order):
-        from campaigns.explore.batches import between_ahead
+    from campaigns.explore.batches import between_ahead, companions_ahead
 
+    if has_between(order):
         between_ahead(plan, SWEPT, order.cases)
     if dimensions_of(order) == "auto":
         return run_where_needed(plan, jobs)
-    return motions.runs(order, plan, jobs)
+    ahead = None
+    if not order.options.no_accuracy:
+        ahead = partial(companions_ahead, plan, key=SWEPT, periods=order.periods)
+    return motions.runs(order, plan, jobs, ahead)
 
 
 def measures(order: Order) -> Measures:

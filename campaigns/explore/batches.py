@@ -105,11 +105,29 @@ def jobs_between(plan: Plan, key: str, cases: Jobs) -> list[Job]:
 
 def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
     """Every value whose sphere flies, with the wetted cap, where these can go side by side; else that of the peak."""
+    jobs = jobs_of_companions(plan, summary.rows, key, periods)
+    return batch(plan, "companions", "runs with the wetted cap", COMPANIONS, row_of_companion(periods), jobs)
+
+
+def companions_ahead(plan: Plan, rows: Rows, key: str, periods: int) -> None:
+    """Let workers that would wait do the runs of `companions`, as soon as the rows are known."""
+    jobs = jobs_of_companions(plan, rows, key, periods)
+    settings = {"columns": COMPANIONS, "describe": row_of_companion(periods), "judge": None}
+    plan.spare.extend(spare_groups(plan, plan.out / "companions", jobs, **settings))
+
+
+def row_of_companion(periods: int) -> Callable:
+    """The row of a trajectory; periods: those of the sweep."""
+    return partial(unjudged, transient_periods=min(periods, COMPANION_PERIODS) // 2, columns=COMPANIONS)
+
+
+def jobs_of_companions(plan: Plan, rows: Rows, key: str, periods: int) -> list[Job]:
+    """The runs of `companions`."""
     length, jobs, largest = min(periods, COMPANION_PERIODS), [], []
-    peak = of_largest_tension(summary.rows)
+    peak = of_largest_tension(rows)
     scene = peak and run_of(plan.out, peak).scene
     if scene is not None and scene.buoy.submergence == "full":
-        for row in summary.rows:
+        for row in rows:
             if not number_of(row, HEIGHT.name) > scene.buoy.diameter_m:
                 continue  # it does not fly
             labels = {"role": CAPPED, "steepness": row["steepness"], "motion": row.get("motion")}
@@ -119,8 +137,7 @@ def companions(plan: Plan, summary: Summary, key: str, periods: int) -> float:
                 largest = jobs[-1:]
         if not all(shares_worker(plan, job) for job in jobs):
             jobs = largest
-    row = partial(unjudged, transient_periods=length // 2, columns=COMPANIONS)
-    return batch(plan, "companions", "runs with the wetted cap", COMPANIONS, row, jobs)
+    return jobs
 
 
 def start_of(plan: Plan, row: dict):

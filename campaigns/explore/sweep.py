@@ -118,9 +118,11 @@ def parameters(order: Order) -> dict:
     return {"starts": kicks, "kick_speed_mps": options.kick_speed, "seed": options.seed}
 
 
-def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
+def runs(order: Order, plan: Plan, jobs: Jobs, ahead: Callable | None = None) -> Summary:
     """In place of `runner.run`: runs from rest only, or every motion of each value of the only key of the order's grid,
     with the ends of their ranges.
+
+    ahead: called with the rows of all motions before their ends are looked for, which leaves workers without work.
     """
     kicks = kicks_of(order)
     if kicks is None:
@@ -133,6 +135,8 @@ def runs(order: Order, plan: Plan, jobs: Jobs) -> Summary:
     exact = not options.no_accuracy
 
     def ends(motions):
+        if ahead is not None:
+            ahead(motions.table())
         if len(jobs) > 1:
             find_ends(motions, Scenes(motions.jobs[0].scene, key), exact)
 

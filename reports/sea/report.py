@@ -129,6 +129,5 @@ def _warnings(folder: Folder) -> Notice:
         elif row["message"]:
             messages.append(str(row["message"]))
     if messages:
-        with_message = sum(bool(row["message"]) for row in folder.table)
-        lines.append(f"{count(with_message, 'run')} say: {min(messages)}")
+        lines.append(f"{count(len(messages), 'run')} of the others with a message, for instance: {min(messages)}")
     return limits("What the runs say", lines, "Every run reached its end.")
