@@ -38,7 +38,7 @@ RATES = 100.0  # by which rates count less than their frequency says
 PASSES, NEARBY = 64, 1e-3  # maps that are kept; distance of states that have one map
 GRADE = 2.0  # longest step, in lengths of the next one
 LEAST_SHARE = 0.3  # of the step before: a last step that is shorter shares its way with it
-NEWTON = 1e-8  # the map must be smooth to below the gaps of an orbit, 1e-6
+NEWTON = 1e-10  # the map must be smooth to below the gaps of an orbit
 SPLITS = 8  # steps of a mesh that may be halved because Newton's method refuses them
 ROOM = 256  # steps of a pass between two looks
 
