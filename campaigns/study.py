@@ -252,7 +252,7 @@ class Study:
         """
         faults = []
         values = cli.split(self.parser(), [], faults)
-        vars(values).update(options)
+        vars(values).update(options, out=how.out)
         order = Order(how, cli.options_of(self.options, values), scene, changes, faults=faults)
         if self.lengths is not None:
             self.lengths.read(values, order)

@@ -121,12 +121,12 @@ class _Chord:
         return points, lower.parameter + part * (upper.parameter - lower.parameter)
 
     def solved(self, maps, share, tolerance):
-        """The points at a share of the way: what Newton's method finds there."""
+        """What Newton's method finds at a share of the way. maps: None for steps of its own."""
         newton = NEAR_ORBITS._replace(tolerance=tolerance)
-        further = newton, self.across, real_span(self.orbits[0.0].vectors), self.slopes
+        arguments = *self.between(share), newton, self.across, real_span(self.orbits[0.0].vectors), self.slopes
         if maps is None:
-            return solved_near(self.system, *self.between(share), *further)
-        return corrected(maps, *self.between(share), *further)
+            return solved_near(self.system, *arguments)
+        return corrected(maps, *arguments)
 
     def look(self, maps, share):
         """The orbit at a share of the way."""
@@ -173,15 +173,15 @@ class _Chord:
             return None
         if self.maps is None:
             search = self.system.parameter_size * max(ROUNDING, orbit.gap)
-            middle, error = orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search
+            value, error = orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search
         else:
-            middle, error = self.on_meshes(orbit, share)
+            value, error = self.on_meshes(orbit, share)
         if kind == "fold" and not self.turns(orbit, error):
             return None
-        return Event(kind, middle, error, orbit, angle)
+        return Event(kind, value, error, orbit, angle)
 
     def on_meshes(self, orbit, share):
-        """The parameter of the event in the middle of those of all meshes, and its error."""
+        """The median of the parameters of the event on all meshes, and its error; inf where a mesh has no event."""
         try:
             parameters = np.array([self.elsewhere(mesh, share) for mesh in range(self.system.meshes)])
         except ArithmeticError:

@@ -123,13 +123,14 @@ def find_orbit(
     Raises ValueError for a start that is not finite or of another shape.
     """
     period, guess = checked_count(period, "period"), checked_series(start, "start", (1, 2))
+    if tolerance is None:
+        tolerance = system.tolerance
     try:
         points = _images(system, guess, parameter, period) if guess.ndim == 1 else guess
         if len(points) != period:
             raise ValueError(f"start: {period} points are needed, given {len(points)}")
         while True:
-            newton = Newton(tolerance or system.tolerance, iterations, halvings)
-            solved = solved_near(system, points, parameter, newton)
+            solved = solved_near(system, points, parameter, Newton(tolerance, iterations, halvings))
             least = _least_period(system, solved.points)
             if least == len(points):
                 return described(solved, count)[0]

@@ -9,9 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-# of the gaps of an orbit, relative to the largest coordinate of the guess or 1; of a map in steps, because other steps
-# move its points by 1000 times as much
-TOLERANCE, IN_STEPS = 1e-9, 1e-6
+TOLERANCE = 1e-9  # of the gaps of an orbit, relative to the largest coordinate of the guess or 1
+IN_STEPS = 1e-6  # the same for a map that is computed in steps: other steps move its points by 1000 times as much
 DIFFERENCE = 1e-5  # of parameter_size, where a map does not tell its derivative by the parameter
 Linearised = Callable[[np.ndarray], np.ndarray]
 Step = Callable[[np.ndarray, float], tuple[np.ndarray, Linearised]]

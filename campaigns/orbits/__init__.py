@@ -92,9 +92,9 @@ class Options(cli.Options):
             faults.append(f"--curves {key.key}: is the key of --vary; allowed: another one")
 
     def unknown_letter(self, jobs: Sequence[Job] = ()) -> Iterator[str]:
-        """Why no motion has the letter of --motion: a search gives letters, so they are those of the last one here.
+        """The fault of --motion, if it is one: letters are given by a search, and the last one here has not given it.
 
-        jobs: the runs from rest with which that search has to have begun.
+        jobs: runs from rest of this command. A search that did not begin with them gave its letters to other motions.
         """
         table = self.out / MOTIONS / "table.csv"
         rows = any_rows(table)

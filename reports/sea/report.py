@@ -129,5 +129,5 @@ def _warnings(folder: Folder) -> Notice:
         elif row["message"]:
             messages.append(str(row["message"]))
     if messages:
-        lines.append(f"{count(len(messages), 'run')} of the others with a message, for instance: {min(messages)}")
+        lines.append(f"{count(len(messages), 'run')} ended as asked with a message, for instance: {min(messages)}")
     return limits("What the runs say", lines, "Every run reached its end.")

@@ -67,8 +67,8 @@ def test_it_begins_at_the_strobe_after_a_state_and_goes_where_a_run_does(cable, 
 
 
 def test_an_orbit_is_what_the_run_settles_on_and_what_a_run_from_its_state_keeps(cable, settled):
-    orbit = find_orbit(OrbitMap(cable.step, frozen=cable.frozen), cable.first, AT, count=4)
-    assert orbit.found and orbit.stable and orbit.gap < 1e-6
+    orbit = find_orbit(OrbitMap(cable.step, frozen=cable.frozen), cable.first, AT, count=4, tolerance=1e-9)
+    assert orbit.found and orbit.stable and orbit.gap < 1e-8
     per_period = cable.samples_of(scene_at(AT))
     kept = simulate(scene_at(AT), periods=4, start=cable.state_of(orbit.points[0], AT)).columns["radius_m"]
     assert kept[::per_period] == pytest.approx(kept[0], abs=1e-3)  # rtol of its own steps
