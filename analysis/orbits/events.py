@@ -7,7 +7,8 @@
 
 A real multiplier that enters or leaves the largest ones does not change a sign; two reals with mu_i mu_j = 1 do, and
 are no torus point. The zero is found between two orbits of the branch by Brent's method (1973), with one set of steps
-of the system and orbits in the planes across the chord; on its other meshes by one secant.
+of the system and orbits in the planes across the chord; on its other meshes by one secant. These agree better with each
+other than with orbits that have steps of their own, so the error counts the zero between two of the latter, too.
 
 At a flip M v = -v. The orbit of twice the period leaves it along v, and so begins as the orbit twice, displaced by
 v, Jv, ... The correction is orthogonal to v and the parameter is free (equation (b) of `spaces` with t = (v, 0)).
@@ -51,8 +52,8 @@ class Event:
 
     kind        "fold", "flip" or "torus"
     parameter   where
-    error       of the parameter: of the search, and what the other meshes of the system change; inf where one of them
-                has no such orbit
+    error       of the parameter: of the search, and what other steps of the system change; inf where a mesh has no such
+                orbit
     orbit       there
     angle_rad   of the multiplier that crosses the unit circle: 0 fold, pi flip, between them torus
     """
@@ -145,11 +146,18 @@ class _Chord:
         opposite = [other for other in self.values if self.values[other] * self.values[share] <= 0.0]
         return share, *sorted((share, min(opposite, key=lambda other: abs(other - share))))
 
+    def crossing(self, low, high):
+        """The parameter of the zero by interpolation between two orbits with the zero between them."""
+        rising = sorted((low, high), key=self.values.get)
+        parameters = [self.orbits[share].parameter for share in rising]
+        return float(np.interp(0.0, [self.values[share] for share in rising], parameters))
+
     def event(self, kind, accuracy):
         """The event; None where the sign changes for another reason. Raises NoImage (`events_between`)."""
         low, high = 0.0, 1.0
         if self.system.frozen is not None:
             share, low, high = self.bracket(low, high, WIDE[0])
+            with_own_steps = self.crossing(low, high)
             self.maps, self.values = self.system.near(self.orbits[share].points, self.orbits[share].parameter), {}
             tried = ((low - wide, high + wide) for wide in WIDE)
             low, high = next((pair for pair in tried if self.value(pair[0]) * self.value(pair[1]) < 0.0), (None, None))
@@ -176,6 +184,7 @@ class _Chord:
             value, error = orbit.parameter, abs(sides[1].parameter - sides[0].parameter) + search
         else:
             value, error = self.on_meshes(orbit, share)
+            error = max(error, abs(value - with_own_steps))
         if kind == "fold" and not self.turns(orbit, error):
             return None
         return Event(kind, value, error, orbit, angle)

@@ -223,11 +223,12 @@ def quintic(z, r, c=0.2):
     return -(1.0 + r) * z - c * z**3 + z**5, lambda V: (-(1.0 + r) - 3.0 * c * z**2 + 5.0 * z**4)[:, None] * V
 
 
-def in_steps(size, seed, step=logistic):
-    """A map with steps: they change the parameter by the share `size`, as irregularly as a mesh that adapts itself."""
+def in_steps(size, seed, step=logistic, apart=2.0):
+    """A map with steps: they change the parameter by the share `size`, as irregularly as a mesh that adapts itself.
+    apart: of the meshes at one orbit (rad)."""
 
     def frozen(points, r, mesh=0):
-        shift = size * np.sin(1e7 * (r + float(points[0][0])) + 2.0 * mesh + seed)
+        shift = size * np.sin(1e7 * (r + float(points[0][0])) + apart * mesh + seed)
         return [lambda z, s: step(z, s * (1.0 + shift))] * len(points)
 
     return OrbitMap(step, frozen=frozen, meshes=3)
@@ -302,6 +303,16 @@ def test_steps_make_no_fold_of_a_flip_and_hide_no_flip(seed):
     two = doubled_orbit(system, flip, amplitude=0.03)
     branch = follow_branch(system, two, 2.8, 3.4, least=2e-3, accuracy=1e-2)
     assert not branch.events and any("meets the orbit" in end for end in branch.ends)
+
+
+def test_the_error_of_an_event_counts_what_steps_change_from_one_orbit_to_the_next_though_meshes_agree():
+    off = []
+    for seed in range(12):
+        system = in_steps(2e-4, seed, apart=1e-4)
+        branch = follow_branch(system, find_orbit(system, [0.6], 2.8), 2.6, 3.3, least=1e-3, accuracy=1e-2)
+        (flip,) = branch.events
+        off.append(abs(flip.parameter - 3.0) / flip.error)
+    assert np.median(off) < 1.0 and np.mean(np.array(off) < 2.0) > 0.7
 
 
 @pytest.mark.parametrize("false", range(3))
