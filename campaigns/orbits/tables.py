@@ -72,7 +72,8 @@ def tables(tree: Tree, key: Column) -> list[Row]:
 
 def _event_columns(key: Column) -> Columns:
     meaning = (
-        "largest change over three sequences of steps and those of its neighbours, and on the finer grid where one is told"
+        "largest change over three sequences of steps and those of its neighbours, "
+        "and on the finer grid where one is told"
     )
     error = Column("error", key.unit, f"± {key.symbol}", meaning, 5)
     finer = Column("finer", key.unit, f"{key.symbol} finer", "where it is on a grid of 2n - 1 nodes", 5)
