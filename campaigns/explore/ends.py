@@ -61,8 +61,8 @@ def columns(key: Column) -> Columns:
     with_name, without_name = f"{key.name}_with", f"{key.name}_without"
     error = (
         "of the end: its largest change over three sequences of steps and those of its neighbours; where the end "
-        "lies outside the two values between which runs found it, at least the distance to them; without tolerance and grid, "
-        "which `campaigns.orbits` has"
+        "lies outside the two values between which runs found it, at least the distance to them; without tolerance and "
+        "grid, which `campaigns.orbits` has"
     )
     return (
         MOTION,
