@@ -250,8 +250,8 @@ def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
         """Runs that have ended; of groups under way those that their workers report."""
         ended = total - len(unfinished)
         for name, (runs, *_) in reports(Path(place)).items():
-            if _keys([by_name[name]]) <= unfinished:
-                ended += runs
+            taken = len(_keys([by_name[name]]) - unfinished)  # those counted above
+            ended += max(runs - taken, 0)
         return ended
 
     lengths_s = [job.duration_s or job.periods * job.scene.waves.period_s for job in jobs if job.going is None]

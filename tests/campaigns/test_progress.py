@@ -7,9 +7,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from campaigns.machinery import progress
+from campaigns.machinery import progress, runner
 from campaigns.machinery.cli import Running
-from campaigns.machinery.plan import Job, Plan, name_of
+from campaigns.machinery.plan import Job, Outcome, Plan, name_of
 from campaigns.machinery.progress import reporter, reports, stage
 from campaigns.machinery.worker import run_jobs
 from engine import load_scene
@@ -100,3 +100,26 @@ def test_the_seconds_that_a_run_has_simulated_are_seen_while_it_goes(tmp_path):
 
     run_jobs(Plan(Running(tmp_path), half_way, lambda run: {}, (), reports=tmp_path), [job])
     assert seen == {name_of([job]): [0.0, 10.0]}  # of four waves of 5 s
+
+
+def test_the_count_of_runs_never_falls_while_the_results_of_a_group_come_in(tmp_path, monkeypatch):
+    """A group has reported its five runs, and a sixth, which runs alone, that it has ended."""
+    jobs = [Job({}, load_scene("tethered_buoy", {"waves.steepness": 0.01 * number}), 4) for number in range(1, 8)]
+    group, counts = tuple(jobs[:5]), []
+
+    def results_of(how, groups, call, *further):
+        def count():
+            (counting,) = [opened.count() for opened in progress._open if opened.total]
+            counts.append(counting)
+
+        reporter(call.args[0].reports, name_of(group))(5, 100.0)
+        reporter(call.args[0].reports, name_of([jobs[5]]))(1, 20.0)
+        count()
+        for job in group:
+            yield job.key, Outcome(job.key, {})
+            count()
+
+    monkeypatch.setattr(runner, "as_completed", results_of)
+    monkeypatch.setattr(runner, "groups_of", lambda plan, jobs: [group])
+    list(runner._computed(Plan(Running(tmp_path), None, None, ()), jobs, 0))
+    assert counts == [6] * 6
