@@ -180,7 +180,8 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
             entries.append((mark, f"{meaning}: {_percent(share)}"))
     for kind, line in LINES.items():
         if any(curve.line == line for curve in atlas.pages[0].curves):
-            entries.append((line, f"{kind}s of orbits"))
+            events = "torus points" if kind == "torus" else f"{kind}s"
+            entries.append((line, f"{events} of orbits"))
     for hatch, reason in zip(HATCHES, atlas.pages[0].hatched, strict=False):
         share = atlas.limited(reason)
         if share:
