@@ -113,7 +113,7 @@ def test_a_map_goes_through_the_release_of_a_loop_and_ends_where_it_comes_and_go
     violent = {"water.depth_m": 21.0, "tether.nodes": 21}
     begin = simulate(scene_at(0.136, **violent), periods=3).final_state
     there = PeriodMap(lambda value: scene_at(value, **violent), begin, 0.136)
-    z, released, from_run, between_runs = there.first, 0, [], []
+    z, released, from_run, between_runs, largest = there.first, 0, [], [], []
     with pytest.raises(ArithmeticError, match="a loop is about to be released"):
         for _ in range(100):
             (image,) = there.frozen([z], 0.136)
@@ -121,7 +121,9 @@ def test_a_map_goes_through_the_release_of_a_loop_and_ends_where_it_comes_and_go
             if there.history([z], 0.136)["loop_releases"][-1] > 0:
                 released += 1
                 run, finer_run = (of_run(there, z, 2, rtol) for rtol in (1e-3, 3e-4))
-                from_run.append(np.linalg.norm(there.step(after, 0.136)[0] - run))
+                change = there.step(after, 0.136)[0] - run
+                from_run.append(np.linalg.norm(change))
+                largest.append(np.abs(change).max())
                 between_runs.append(np.linalg.norm(finer_run - run))
                 v = derivative(np.random.default_rng(released).normal(size=(len(z), 1)))
                 v = derivative(v / np.linalg.norm(v))
@@ -133,6 +135,6 @@ def test_a_map_goes_through_the_release_of_a_loop_and_ends_where_it_comes_and_go
     assert released > 5
     # steps change the moment of a release, so the map lies as near to a run as two runs to each other
     assert max(from_run) < 2.0 * max(between_runs)
-    assert np.median(from_run) < 0.03 * np.linalg.norm(z)
+    assert np.median(largest) < 2e-2
     with pytest.raises(ValueError, match="one grid"):
         PeriodMap(lambda v: scene_at(v, **{"tether.nodes": 9 if v < 0.14 else 11}), cable.start, AT).step(z, 0.15)
