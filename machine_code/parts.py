@@ -19,9 +19,11 @@ from numba.core import types
 from numba.core import untyped_passes as untyped
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase
-from numba.core.compiler_machinery import PassManager
+from numba.core.compiler_machinery import PassManager, register_pass
 
 from .store import compiled
+
+ROWS = "getitem", "static_getitem"  # Numba's operations that take a part of an array, without a copy
 
 
 class _Library(JITCodeLibrary):
@@ -66,6 +68,36 @@ class _Part(_Library):
         """Nothing: only Python objects would need it."""
 
 
+def _has_arrays(kind):
+    """Whether values of this type of Numba are arrays, or tuples with arrays in them."""
+    if isinstance(kind, types.BaseTuple):
+        return any(map(_has_arrays, kind))
+    return isinstance(kind, types.Array)
+
+
+def _makes_arrays(state):
+    """Whether a function makes arrays, or gets or returns new ones. state: of Numba's compiler, with all types."""
+    for expression, signature in state.calltypes.items():
+        operation = getattr(expression, "op", "")
+        packs_arrays = operation == "call" and isinstance(state.typemap[expression.func.name], types.NamedTupleClass)
+        if operation and operation not in ROWS and not packs_arrays and _has_arrays(signature.return_type):
+            return True
+    return _has_arrays(state.return_type)
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class _Lowering(typed.NativeLowering):
+    """Numba counts who uses an array, by atomic operations for every row that a kernel takes of one. A part that makes
+    no arrays need not count: whoever calls it keeps those that it is given."""
+
+    _name = "lowering_of_kernels"
+
+    def run_pass(self, state):
+        if isinstance(state.library, _Part) and not _makes_arrays(state):
+            state.targetctx = state.targetctx.subtarget(enable_nrt=False)
+        return super().run_pass(state)
+
+
 @cache
 def _passes():
     """Numba's own passes, without those for what no kernel has: closures, comprehensions, generators, literal types,
@@ -74,8 +106,7 @@ def _passes():
     for numba_pass in (
         untyped.TranslateByteCode, untyped.FixupArgs, untyped.IRProcessing, untyped.RewriteSemanticConstants,
         untyped.DeadBranchPrune, untyped.GenericRewrites, untyped.ReconstructSSA, typed.NopythonTypeInference,
-        typed.PreLowerStripPhis, typed.NopythonRewrites, typed.IRLegalization, typed.NativeLowering,
-        typed.NoPythonBackend,
+        typed.PreLowerStripPhis, typed.NopythonRewrites, typed.IRLegalization, _Lowering, typed.NoPythonBackend,
     ):  # fmt: skip
         manager.add_pass(numba_pass)
     manager.finalize()

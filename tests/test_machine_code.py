@@ -14,6 +14,8 @@ import numba
 import numpy as np
 import pytest
 from numba.core.caching import IndexDataCacheFile
+from numba.core.runtime import rtsys
+from numba.core.runtime._nrt_python import memsys_enable_stats
 
 from engine import load_scene, source_hash
 from engine.parameters import record_of
@@ -274,3 +276,48 @@ def test_plain_numba_may_call_a_kernel_that_calls_others():
         call(p, tables, Y, *results[-1])
     (first_Q, first_X), (second_Q, second_X) = results
     assert np.array_equal(first_Q, second_Q) and np.array_equal(first_X, second_X) and first_X.any()
+
+
+compiled_for_callers = partial(compiled_in_parts, folder=None)
+
+
+@compiled_for_callers
+def twice(row):
+    return 2.0 * row
+
+
+@compiled_for_callers
+def first_of(rows, k):
+    row = rows[k]
+    return row[0]
+
+
+@compiled_for_callers
+def last_row(rows):
+    return rows[rows.shape[0] - 1]
+
+
+@compiled_for_callers
+def of_new_rows(k):
+    rows = np.arange(12.0).reshape(4, 3)
+    return first_of(rows, k) + twice(rows[k])[1] + last_row(rows)[2]
+
+
+def test_arrays_that_parts_make_are_given_back_once():
+    whole = compiled_in_parts(lambda k: of_new_rows(k) + first_of(np.ones((2, 1)), 0), None)
+    assert whole(1) == 3.0 + 8.0 + 11.0 + 1.0
+    memsys_enable_stats()
+    before = rtsys.get_allocation_stats()
+    for _ in range(100):
+        whole(1)
+    after = rtsys.get_allocation_stats()
+    made, freed = after.mi_alloc - before.mi_alloc, after.mi_free - before.mi_free
+    assert made == freed >= 100
+
+
+def test_a_kernel_that_takes_rows_of_its_arrays_does_not_count_who_uses_them():
+    p, tables = record_of(load_scene("tethered_buoy", {"tether.nodes": 5}), kept := [])[0], np.concatenate(kept)
+    whole = compiled_in_parts(lambda *arguments: shape(*arguments), None)
+    whole(p, tables, np.zeros((5, 6)), np.zeros((5, NODE_WIDTH)), np.zeros((5, 2)))
+    (code,) = whole.inspect_llvm().values()
+    assert "call void @NRT_incref" not in code
