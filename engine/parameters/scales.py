@@ -1,10 +1,12 @@
 """Scales of a scene: in what Newton updates and step errors are measured, the fastest wave, the static loads."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from ..physics.strains import strain_at, tension_at, tensions_at
+from ..physics.tension import TensionLaw
 from ..record import RELEASE_STEPS
 from ..scene.models import Scene
 from ..scene.sections import End, Tether
@@ -52,9 +54,14 @@ def put_scales(record: np.void, scene: Scene, h: np.ndarray) -> None:
 
 def fastest_wave(record: np.void, scene: Scene) -> float:
     """Largest axial wave speed sqrt(T'/m), m/s, between no strain and that of the static loads."""
-    strains = np.linspace(0.0, 1.0 / float(record["per_strain"]), 2001)
-    slopes = np.diff(tensions_at(strains, scene.tether.tension)) / strains[1]
-    return math.sqrt(max(slopes.max(), 1e-300) / float(record["m"]))
+    return math.sqrt(_steepest(scene.tether.tension, 1.0 / float(record["per_strain"])) / float(record["m"]))
+
+
+@lru_cache
+def _steepest(law: TensionLaw, strain: float) -> float:
+    """Largest T' (N) of a law up to a strain."""
+    strains = np.linspace(0.0, strain, 2001)
+    return max(np.diff(tensions_at(strains, law)).max() / strains[1], 1e-300)
 
 
 def longest_steps(scene: Scene) -> dict[str, float]:

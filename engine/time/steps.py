@@ -66,12 +66,12 @@ def plan_stage(p, tables, i, small, dt, dt_before, a, w):
 @kernel
 def known_part(a, count, C, Ks, C_tilde):
     """C~ = C + sum over the first `count` of a_j K_j: C, C~ (n, m), Ks (s, n, m)."""
-    for k in range(C.shape[0]):
-        for m in range(C.shape[1]):
-            known = C[k, m]
-            for j in range(count):
-                known += a[j] * Ks[j, k, m]
-            C_tilde[k, m] = known
+    copy_into(C_tilde, C)
+    for j in range(count):
+        share, K = a[j], Ks[j]
+        for k in range(C.shape[0]):
+            for m in range(C.shape[1]):
+                C_tilde[k, m] += share * K[k, m]
 
 
 @kernel
