@@ -57,8 +57,7 @@ def run_from_rest(motions: Motions, jobs: Jobs) -> range:
     if motions.plan.simulate is engine.simulate and engine.massless_covers(scene):
         ahead.append(start_job(Request({}, scene, DISPLACED)))  # what its starts need is compiled at once
     motions.judged_runs("runs from rest", jobs, ahead)
-    late = outlasting(motions.jobs, motions.rows, motions.neighbours)
-    motions.judged_runs("chaos that may be a transient", late)
+    let_chaos_last(motions)
     for place in places:
         key = motions.jobs[place].key
         run = motions.judged_run(key)
@@ -241,6 +240,20 @@ def _join_branches(motions: Motions, place: int, neighbour: int, branches: dict[
             branch.update(joining)
             for member in joining.values():
                 branches[member] = branch
+
+
+def let_chaos_last(motions: Motions) -> None:
+    """Let chaos go on until it has lasted long enough, or its budget is spent.
+
+    A run that settles meanwhile is a longer transient: the chaos beside it may have to last longer.
+    """
+    before = {}  # by key the wave periods of these runs, a round ago
+    while late := outlasting(motions.jobs, motions.rows, motions.neighbours):
+        periods = {job.key: motions.rows[job.key]["periods"] for job in late}
+        if periods == before:
+            break
+        motions.judged_runs("chaos that may be a transient", late)
+        before = periods
 
 
 def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[Job]:

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from campaigns.explore.stages import TIMES, outlasting
+from campaigns.explore.stages import TIMES, let_chaos_last, outlasting
 from campaigns.machinery.cli import Running
 from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
 from campaigns.machinery.plan import Job, Plan
@@ -167,6 +167,29 @@ def test_chaos_goes_on_where_a_neighbour_settled_late_and_only_there():
         further = jobs[1].going(SCENE, RUN, LASTING | {"periods": periods}, {})
         assert (further is None) == ends, periods
         assert ends or (further.scene.output.tangent_vectors, further.check) == (1, False)
+
+
+def test_chaos_that_settles_late_asks_the_chaos_beside_it_to_last_longer():
+    rows, rounds = [LASTING | {"periods": 205.0}, LASTING | {"periods": 205.0}, settled(90)], []
+    jobs = [Job({}, SCENE, 1500, made=str(at), engine="") for at in range(len(rows))]
+
+    class Places:
+        def __init__(self):
+            self.jobs, self.rows = jobs, {job.key: row for job, row in zip(jobs, rows, strict=True)}
+
+        def neighbours(self, place):
+            return place - 1, place + 1
+
+        def judged_runs(self, title, late):
+            """The run in the middle settles after 310 wave periods; the first one would be chaotic for ever."""
+            rounds.append([int(job.made) for job in late])
+            for job in late:
+                self.rows[job.key] = settled(310) if job.made == "1" else LASTING | {"periods": 1000.0}
+
+    places = Places()
+    let_chaos_last(places)
+    assert rounds == [[1], [0], [0]]
+    assert places.rows[jobs[0].key]["periods"] == 1000.0 < TIMES * 310
 
 
 def test_what_is_no_chaos_any_more_ends():
