@@ -23,7 +23,7 @@ from numba.core.compiler_machinery import PassManager, register_pass
 
 from .store import compiled
 
-ROWS = "getitem", "static_getitem"  # Numba's operations that take a part of an array, without a copy
+PARTS_OF_ARRAYS = "getitem", "static_getitem"  # how Numba names the operations that take a part of an array
 
 
 class _Library(JITCodeLibrary):
@@ -78,9 +78,11 @@ def _has_arrays(kind):
 def _makes_arrays(state):
     """Whether a function makes arrays, or gets or returns new ones. state: of Numba's compiler, with all types."""
     for expression, signature in state.calltypes.items():
-        operation = getattr(expression, "op", "")
+        operation = getattr(expression, "op", None)  # None: of a statement, which has no value
+        if operation is None or operation in PARTS_OF_ARRAYS or not _has_arrays(signature.return_type):
+            continue
         packs_arrays = operation == "call" and isinstance(state.typemap[expression.func.name], types.NamedTupleClass)
-        if operation and operation not in ROWS and not packs_arrays and _has_arrays(signature.return_type):
+        if not packs_arrays:
             return True
     return _has_arrays(state.return_type)
 

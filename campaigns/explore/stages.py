@@ -247,13 +247,14 @@ def let_chaos_last(motions: Motions) -> None:
 
     A run that settles meanwhile is a longer transient: the chaos beside it may have to last longer.
     """
-    before = {}  # by key the wave periods of these runs, a round ago
-    while late := outlasting(motions.jobs, motions.rows, motions.neighbours):
+    periods_before = {}  # wave periods of the runs of the last round, by key
+    while True:
+        late = outlasting(motions.jobs, motions.rows, motions.neighbours)
         periods = {job.key: motions.rows[job.key]["periods"] for job in late}
-        if periods == before:
-            break
+        if periods == periods_before:
+            return
         motions.judged_runs("chaos that may be a transient", late)
-        before = periods
+        periods_before = periods
 
 
 def outlasting(jobs: Jobs, rows: Mapping[str, Mapping], neighbours: Callable) -> list[Job]:
