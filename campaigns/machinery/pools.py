@@ -29,6 +29,7 @@ from campaigns.machinery.folder import PACKAGES, CampaignStopped, made_by
 JOIN_S = 30.0  # for the scheduler to answer, and then for its first worker
 ASK_S = 10.0  # for all workers to say what they are
 GONE_S = 120.0  # without any worker in the midst of a campaign
+GROWTH_BYTES = 2e9  # of a worker, after which loky takes another one
 LOOK_S = 2.0  # between two looks at the workers that are there
 _NUMBERS = ("numpy", "scipy", "numba", "llvmlite")  # a worker with another version would give other last digits
 _GO_ON = "finished runs are kept; mend the cluster and run the same command again"
@@ -105,7 +106,12 @@ def _numbered(call: Callable, number: int, task: object) -> tuple[int, object]:
 
 
 def _prepare_worker(campaign: int) -> None:
+    from joblib.externals.loky import process_executor
+
     dask_setup()
+    # Kernels and libraries that a worker loads as it needs them are 0.4 GB. loky takes 0.3 GB for a leak, and a new
+    # worker, which loads them again, costs two seconds.
+    process_executor._MAX_MEMORY_LEAK_SIZE = GROWTH_BYTES
     threading.Thread(target=end_with, args=(campaign,), daemon=True).start()
 
 
