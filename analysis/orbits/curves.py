@@ -226,11 +226,7 @@ class _Follower:
         for _ in range(2):
             plane = self.plane(space, slopes, rows)
             rows = np.array([self.row(direction) for direction in plane])
-        slopes_of_test = []
-        for direction in plane:
-            guess = self.shifted(orbit, direction, PROBE * step)
-            neighbour, _ = self.orbit_at(maps, guess, rows, slopes, orbit.vectors, space)
-            slopes_of_test.append((self.test(neighbour) - self.test(orbit)) / (PROBE * step))
+        slopes_of_test = self.slopes_of_test(orbit, space, plane, rows, slopes, step)
         steepest = np.hypot(*slopes_of_test)
         if not steepest > 0.0:
             raise NoImage("the test function does not change near the event")
@@ -239,6 +235,26 @@ class _Follower:
         start = CurvePoint(orbit.parameter, np.zeros(2), orbit, 0.0, across, steepest)
         point, _ = self.on_curve((orbit.points, orbit.parameter), along, start, step, along)
         return point, along if along[0, -1] >= 0.0 else -along
+
+    def slopes_of_test(self, orbit, space, plane, rows, slopes, step):
+        """Slopes of g in the directions of a plane, from differences over a step; where that is too far, over less.
+
+        A system in steps has for each orbit its own: what the steps of one orbit make of g nearby says more of them.
+        """
+        probe = PROBE * step if self.system.frozen is None else step
+        while True:
+            differences = []
+            try:
+                for direction in plane:
+                    guess = self.shifted(orbit, direction, probe)
+                    maps = self.system.near(*guess)
+                    neighbour, _ = self.orbit_at(maps, guess, rows, slopes, orbit.vectors, space)
+                    differences.append(self.test(neighbour) - self.test(orbit))
+                return np.array(differences) / probe
+            except ArithmeticError:
+                probe *= 0.5
+                if probe < PROBE * step:
+                    raise
 
     def on_curve(self, guess, along, last, step, tangent):
         """The point of the curve orthogonal to a direction `along`, near a guess, and how many orbits it took.
@@ -294,11 +310,13 @@ class _Follower:
         """The orbit beside one, along the surface, near g = 0; its Space; the slope of g; how far g = 0 is; orbits that
         were computed, `least` or more.
 
-        A secant that leaves an interval in which g changes its sign gives way to the middle of that.
+        A secant that leaves an interval in which g changes its sign gives way to the middle of that. A short one leaves
+        the slope as it is in a system in steps, which scatter g.
         """
         across, rows, slopes, step = beside
-        # steps of a system scatter g alike after short and long steps of a curve
-        enough = ON_CURVE * step if self.system.frozen is None else CLOSE * self.longest
+        enough, blurred = ON_CURVE * step, 0.0
+        if self.system.frozen is not None:  # steps of a system scatter g alike after short and long steps of a curve
+            enough, blurred = CLOSE * self.longest, max(self.least, PROBE * step)
         begin, sigma, value = orbit, 0.0, self.test(orbit)
         sides = {}  # sign of g -> sigma
         for taken in range(SECANTS + 1):
@@ -314,7 +332,7 @@ class _Follower:
             guess = self.shifted(begin, across, sigma)
             orbit, space = self.orbit_at(maps, guess, rows, slopes, begin.vectors, space)
             last_value, value = value, self.test(orbit)
-            if by and value != last_value:
+            if abs(by) > blurred and value != last_value:
                 slope = (value - last_value) / by
         raise NotSolved(f"{SECANTS} secants do not end on the curve")
 
