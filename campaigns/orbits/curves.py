@@ -118,14 +118,22 @@ def _point(point) -> dict:
 def curves_of(tree: Tree, plane: Plane) -> Iterator[Row]:
     """Rows of all curves of the events of a tree; an event on a curve that is known is not followed again."""
     known = []  # first event and result of each curve
+    waiting = [(branch, event) for branch in tree.branches for event in branch.events]
     number = 0
-    for branch in tree.branches:
-        for event in branch.events:
-            if any(_lies_on(event, *pair, plane) for pair in known):
+
+    def is_new(pair):
+        return not any(_lies_on(pair[1], *curve, plane) for curve in known)
+
+    while waiting := list(filter(is_new, waiting)):
+        following, waiting = waiting[: tree.plan.how.jobs], waiting[tree.plan.how.jobs :]
+        tasks = []
+        for branch, event in following:
+            arguments = event["kind"], event["value"], branch.points[event["at"]], tree.most
+            tasks.append(line_task(curve, plane, arguments))
+        for (branch, event), (result, _) in zip(following, tree.work("curves", tasks), strict=True):
+            if not is_new((branch, event)):  # it lies on the curve of another one, found meanwhile
                 continue
             number += 1
-            arguments = event["kind"], event["value"], branch.points[event["at"]], tree.most
-            ((result, _),) = tree.work(f"curve {number}", [line_task(curve, plane, arguments)])
             label = {CURVE.name: number, "branch": branch.name, "kind": event["kind"], "period": event["period"]}
             if result["reason"]:
                 yield label | {"status": "no-curve", "message": result["reason"]}
