@@ -94,3 +94,28 @@ def test_a_curve_that_leaves_both_ranges_in_one_step_ends_at_the_border_that_it_
 def test_where_no_event_is_no_curve_begins():
     with pytest.raises(NoImage):
         curve_of(henon, "flip", [-0.35, -0.105], [-5.0, 0.3])
+
+
+def test_a_curve_does_not_follow_what_the_steps_of_one_orbit_make_of_multipliers_nearby():
+    """Steps add a ripple that is fixed to the orbit they were chosen for: beside it the multiplier grows, where that of
+    orbits with steps of their own falls. A multiplier that is wrong by `size` moves the flip by size (1 - b)."""
+    size, length, phase = 0.05, 0.01, -0.5 * np.pi
+
+    def in_steps(begin):
+        def image(z, p):
+            at = (z[0] - begin[0]) / length + phase
+            ripple = np.array([size * length * (np.sin(at) - np.sin(phase)), 0.0])
+            exact, linear = henon(z, p)
+            return exact + ripple, lambda V: linear(V) + np.outer([size * np.cos(at), 0.0], V[0])
+
+        return image
+
+    def frozen(points, p, mesh):
+        return [in_steps(z) for z in points]
+
+    system = OrbitMap(henon, parameter_size=np.ones(2), frozen=frozen)
+    place = np.array([[0.35, 0.105]]), np.array([0.3675, 0.3])
+    curve = follow_curve(system, "flip", *place, (-3.0, -0.5), (6.0, 0.9), step=0.3, least=0.03, longest=0.5)
+    a, b = curve.parameters.T
+    assert all(end.startswith("reaches the end of the range of key 2") for end in curve.ends)
+    assert np.all(abs(a - 0.75 * (1.0 - b) ** 2) < size * (1.0 - b))
