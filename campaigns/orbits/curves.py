@@ -21,7 +21,7 @@ from tables import MESSAGE, STATUS, Column, Row, finite, of_words, write_table
 
 FOLDER = "curves"
 # m of what is seen, and shares of the ranges; below `least` steps of time scatter an orbit by more than the curve moves
-STEPS = {"step": 0.3, "least": 0.03, "longest": 0.5}
+STEPS = {"step": 0.3, "least": 0.008, "longest": 0.5}
 KNOWN = 0.02  # of the range of the first key: an event this near to a curve of its kind and period lies on it
 CURVE = Column("curve", "", "curve", "number of the curve, from 1 on", 0)
 PLACE = Column("place", "", "place", "number of the point along the curve, from 0 on; empty for a special point", 0)
