@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from analysis import motion_regime
-from tests.analysis.systems import circle, henon, henon_growth, logistic, logistic_growth
+from analysis.stationarity import record_drift
+from tests.analysis.systems import circle, henon, henon_growth, logistic, logistic_growth, normal
 
 LENGTHS = range(100, 1501, 100)
 RANDOM = np.random.default_rng(4)
@@ -98,3 +99,10 @@ def test_a_word_holds_beside_and_within_windows_of_the_logistic_map(rate):
             verdict = verdict_of(orbit, growth, length)
             assert verdict.period is None or growth[5000:].mean() < 0.0, (start, length)
             assert verdict.regime != "chaotic" or growth[2 * length // 3 : length].mean() > -0.01, (start, length)
+
+
+def test_a_record_whose_beginning_alone_is_wide_has_not_settled():
+    """Its spread and its mean do not march: seven eighths are alike."""
+    record = normal(0, 400)
+    wide = np.where(np.arange(400) < 50, 6.0, 1.0)
+    assert record_drift(wide * record).drifting and not record_drift(record).drifting

@@ -53,6 +53,13 @@ def test_a_map_on_a_line_needs_one_row_and_henons_two():
     assert prediction_gain(henon(500)[:, 0]).delays == 2
 
 
+def test_a_map_needs_eight_points_for_each_number_of_a_linear_one():
+    """Of three rows: four numbers, beside one neighbour in time on either side and the rows of the first state."""
+    least = 8 * 4 + 2 + 3
+    assert np.isfinite(prediction_gain(logistic(3.9, least)).gain)
+    assert np.isnan(prediction_gain(logistic(3.9, least - 1)).gain)
+
+
 @pytest.mark.parametrize("points", [300, 3000])
 def test_chaos_in_bands_or_without_and_noise_forget(points):
     bands = logistic(3.9, points) + 10.0 * (np.arange(points) % 2)

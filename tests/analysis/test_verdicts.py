@@ -30,7 +30,7 @@ def test_a_line_is_incommensurate_only_beyond_the_largest_period(period):
 @pytest.mark.parametrize(
     ("section", "exponent"),
     [
-        (circle_map(0.8, 0.41421356, 300), (0.0, 0.01)),
+        (circle_map(0.8, 0.41421356, 300), (0.01, 0.01)),
         (circle(0.1234567 * K) + np.outer((-1.0) ** K, [3.0, 0.1]), None),
         *((np.round(circle_map(0.5, 0.6180339, 300), digits), None) for digits in (1, 2, 3)),
     ],

@@ -5,6 +5,7 @@ wetted cap, the most violent run again with its line; and nothing twice.
 import io
 import json
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -72,6 +73,9 @@ def test_between_judged_values_there_are_about_as_many_in_each_gap_and_two_hundr
     values, steepnesses = ([job.labels["steepness"] for job in some] for some in (cases, jobs))
     assert [job.scene.waves.steepness for job in jobs] == steepnesses and len(steepnesses) + len(values) == 200
     assert np.ptp(np.histogram(steepnesses, values)[0]) <= 1 and not {*steepnesses} & {*values}
+    for low, high in pairwise(values):
+        between = [value for value in steepnesses if low < value < high]
+        assert between == pytest.approx(np.linspace(low, high, len(between) + 2)[1:-1])
     assert all(job.scene.output.tangent_vectors == 0 for job in jobs)
 
 
