@@ -15,6 +15,7 @@ from PIL import Image
 from campaigns.explore import batches
 from campaigns.explore.batches import FRAMES, PERIODS, of_largest_tension
 from campaigns.explore.space import SEED_MPS
+from campaigns.judge import record_regime
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of
@@ -190,6 +191,15 @@ def test_a_row_in_space_is_judged_by_its_samples():
     assert row["regime"] == "period-1"
     assert row["lyapunov_tangent_bits_per_period"] is None and row["regime_tighter"] is None
     assert "regime" not in judged_row(sines(scene, 59), 20), "too short for a verdict"
+
+
+def test_what_a_record_was_before_its_transient_ended_changes_no_exponent():
+    run = sines(load_scene("tethered_buoy"), 200)
+    before = run.columns["time_s"] < 50.0 * run.scene.waves.period_s
+    noisy = run.columns["radius_m"] + before * np.random.default_rng(2).normal(size=len(before))
+    other = replace(run, columns=run.columns | {"radius_m": noisy})
+    wolf, of_other = (record_regime(record, 50)[1] for record in (run, other))
+    assert (of_other.value, of_other.error) == (wolf.value, wolf.error)
 
 
 def test_a_run_from_a_state_shares_no_worker_with_runs_from_rest(nine):
