@@ -15,6 +15,7 @@ from reports.basins.report import _map
 from reports.buoy_sweep import runs
 from reports.buoy_sweep.report import warnings
 from reports.buoy_sweep.runs import Run, Sweep
+from reports.buoy_sweep.snaps import _motion_of
 from reports.figures.curves import Curve, Panel, curves
 from reports.oscillator.report import attracting_orbit
 from reports.paper.figures.buoy import spectrum_panels
@@ -22,7 +23,7 @@ from reports.paper.figures.chaos import running_exponents
 from reports.parts.content import Listing
 from reports.parts.folder import Folder
 from reports.parts.provenance import provenance_items
-from reports.validation.report import Study, figure
+from reports.validation.report import Study, figure, overview
 from tests.campaigns.fake_engine import sines
 
 SCENE = load_scene("tethered_buoy")
@@ -121,6 +122,27 @@ def test_curves_of_a_validation_are_called_whose_they_are(drawn):
     figure(Study(None, {"a": [case]}, {"a": {"b": [[0.0, 3.0, 5.0], [1.0, 3.0, 5.0]]}}), "a")
     seen = {line.get_label(): line.get_ydata()[0] for line in drawn[0].axes[0].lines}
     assert seen == {"ours": 3.0, "theirs": 5.0}
+
+
+def test_points_of_a_validation_that_agree_lie_on_the_line(drawn):
+    overview(
+        Study(
+            None,
+            {"a": [{"quantity": "b", "error": "1", "bar": "2", "verdict": "passes"}]},
+            {"a": {"b": [[0.0, 3.0, 3.0], [1.0, 5.0, 5.0]]}},
+        )
+    )
+    line, points, *_ = drawn[0].axes[0].lines
+    assert points.get_xydata() == pytest.approx(np.array([[0.6, 0.6], [1.0, 1.0]]))
+    assert line.get_xydata() == pytest.approx(np.array([[0.0, 0.0], [1.0, 1.0]]))
+
+
+def test_histories_of_a_snapping_motion_are_in_kN():
+    run = sines(SCENE, 40, tension=(2000.0, 2500.0))
+    folder = SimpleNamespace(trajectory=lambda row: (run, None), table=[])
+    motion, _ = _motion_of(folder, {"transient_periods": 20, "regime": "period-1", "snaps_per_wave": 1.0})
+    assert (motion.low_kN.max(), motion.high_kN.max()) == pytest.approx((4.49, 4.51))
+    assert motion.peaks_kN == pytest.approx(4.51, rel=1e-3) and motion.times[-1] == 0.0
 
 
 def test_an_orbit_attracts_where_both_multipliers_lie_inside_the_circle():
