@@ -365,8 +365,11 @@ class _Follower:
         return errors, reason
 
     def one_way(self, first, tangent, step):
-        """Points from the first one on, why they end, and whether they come back to it."""
-        points = [first]
+        """Points from the first one on, why they end, and whether they come back to it.
+
+        Where no step leads on, the last point is dropped once: steps of a system may mislead it.
+        """
+        points, dropped = [first], 0
         while len(points) <= self.most:
             last = points[-1]
             try:
@@ -386,6 +389,11 @@ class _Follower:
                 if step > self.least:
                     step = max(0.5 * step, self.least)
                     continue
+                if isinstance(why, NotSolved) and len(points) > max(2, dropped):
+                    dropped, chord = len(points), self.place(last.orbit) - self.place(points[-2].orbit)
+                    points.pop()
+                    tangent, step = self.ahead(points), min(GROW * self.length(chord), self.longest)
+                    continue
                 place = " and ".join(f"{value:.6g}" for value in last.parameters)
                 words = "numerical failure beyond" if isinstance(why, NotSolved) else "ends at"
                 return points, f"{words} {place}, with steps down to {self.least:g}: {why}", False
@@ -393,10 +401,15 @@ class _Follower:
             if len(points) > 3 and self._passes(first, last, chord):
                 return [*points, first], "comes back to its beginning", True
             points.append(point)
-            tangent = chord / self.length(chord)
+            tangent = self.ahead(points)
             if taken < FEW:
                 step = min(step * GROW, self.longest)
         return points, f"followed over {self.most} points", False
+
+    def ahead(self, points):
+        """The direction of the last chord."""
+        chord = self.place(points[-1].orbit) - self.place(points[-2].orbit)
+        return chord / self.length(chord)
 
     def _next(self, last, tangent, step):
         guess = self.shifted(last.orbit, tangent, step)
