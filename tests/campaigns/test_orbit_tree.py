@@ -10,7 +10,7 @@ from campaigns.explore.tracing import sharper
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.orbits.tables import tables
-from campaigns.orbits.tree import SHARP, Tree
+from campaigns.orbits.tree import SHARP, Branch, Tree
 from tables import Column
 from tests.analysis.systems import henon_plane
 from tests.campaigns.conftest import rows_of
@@ -83,6 +83,17 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
             assert np.min(np.abs(moduli - 1.0)) < 1e-6 or int(row["unstable"]) == np.count_nonzero(moduli > 1.0)
     second = grown(tmp_path)
     assert first.computed > 0 and second.computed == 0 and second.there == first.computed + first.there
+
+
+def test_a_flip_leads_to_the_branch_of_twice_its_period_that_meets_it(tmp_path):
+    tree = Tree(Plan(Running(tmp_path, 1), None, None, ()), HenonLine(), 1, 1)
+    flip, nearer = ({"kind": "flip", "period": period, "value": value} for period, value in ((1, 0.4), (2, 0.5)))
+    ends = {"begins": "", "ends": ""}
+    once = {"events": [flip, nearer], "orbits": [{"period": 1, "value": 0.3}]} | ends
+    twice = {"events": [], "orbits": [{"period": 2, "value": 0.5}]} | ends | {"begins": "meets a flip"}
+    tree.branches = [Branch("1", once, []), Branch("2", twice, [])]
+    tree._meet()
+    assert flip["leads_to"] == "2" and "leads_to" not in nearer
 
 
 def test_an_event_is_known_as_well_as_steps_and_a_finer_grid_agree(tmp_path, monkeypatch):

@@ -96,6 +96,21 @@ def test_the_row_of_the_sea_says_what_its_runs_say(small):
     assert {row["responses"] for row in history} <= {"1", "2", "3"}
 
 
+def test_snaps_an_hour_of_a_row_are_those_of_its_run(small):
+    from engine import Trajectory
+
+    out, rows = small
+    counted = 0
+    for row in rows:
+        run = Trajectory.load(out / "trajectories" / f"{row['run_key']}.nc")
+        transient_s = 5.0 * run.scene.waves.period_s
+        snaps = run.snaps(transient_s=transient_s)
+        hours = (run["time_s"][-1] - transient_s) / 3600.0
+        assert float(row["snaps_per_hour"]) == pytest.approx(len(snaps) / hours, rel=1e-2)
+        counted += len(snaps)
+    assert counted
+
+
 def test_the_same_command_computes_nothing_again(small):
     out, rows = small
     runs = finished(out)
