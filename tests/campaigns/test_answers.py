@@ -9,9 +9,10 @@ import pytest
 from campaigns import sea
 from campaigns.basins.answer import sentences as of_basins
 from campaigns.orbits.answer import sentences as of_orbits
+from campaigns.regime_map.answer import _use as largest_usable
 from campaigns.sea.answer import sentences as of_sea
 from engine import load_scene
-from tables import Column
+from tables import PEAK, Column
 
 ANSWERS = tomllib.loads(Path(__file__).with_name("answers.toml").read_text(encoding="utf-8"))
 SEA = ANSWERS["sea"]["row"]
@@ -63,3 +64,14 @@ def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_o
     assert all(words in answer for words in ANSWERS["sea"]["words"])
     sure = "\n".join(of_sea([SEA | {"finer_bits_per_period": -0.09, "noise": 0.001, "load_scatter": 0.04}], OPTIONS))
     assert "finer runs agrees" in sure and "differ by" not in sure and "by the steps" not in sure
+
+
+def test_a_map_names_the_largest_tension_and_the_largest_that_may_be_used():
+    """A line that releases loops in a plane may not."""
+    keys = (Column("kA", "", "kA", "steepness"), Column("H", "m", "H", "depth"))
+    motions = [
+        {PEAK: 1000.0 * pull, "loop_releases": loops, "dimensions": 2, "kA": 0.01 * pull, "H": 21.0}
+        for pull, loops in ((2.0, 0), (5.0, 3), (4.0, 0), (9.0, 1))
+    ]
+    (sentence,) = largest_usable(motions, keys, lambda row: None)
+    assert sentence.startswith("Not for design: 1 loop released") and "4 kN, at kA = 0.04" in sentence

@@ -17,9 +17,10 @@ from campaigns.breaking_line.lines import CASES, over_case_4
 from campaigns.paper import measured
 from campaigns.paper.measured import Results
 from campaigns.paper.statements import buoy_claims, claims
+from campaigns.paper.statements.judging import settled
 from campaigns.statements import Claim, Measured, Statement, as_csv, judge
 from engine import load_scene
-from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS
+from tables import FAILS, HOLDS, HOLDS_IF, NOT_JUDGED, STATEMENT_COLUMNS, TANGENT_ERROR, TANGENT_EXPONENT
 from tests.campaigns.fake_engine import sines
 
 DEPTHS = (21.0, 22.5)
@@ -198,3 +199,8 @@ def test_the_change_on_a_finer_grid_is_of_the_whole_record_and_early_of_its_firs
     (row,) = measured._doubled(SimpleNamespace(part=lambda name: part), {})["doubled"]
     whole_m = math.sqrt(0.01 + late.mean() * 0.08)
     assert (row["error_early_m"], row["error_m"]) == pytest.approx((0.1, whole_m), rel=1e-9)
+
+
+@pytest.mark.parametrize(("bits", "error", "says"), [(-0.1, 0.01, True), (-0.02, 0.05, False), (0.1, 0.01, True)])
+def test_an_exponent_says_its_sign_beyond_doubt_or_nothing(bits, error, says):
+    assert settled({TANGENT_EXPONENT: bits, TANGENT_ERROR: error, "regime": "undecided"}) is says
