@@ -87,10 +87,10 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
 
 def test_a_flip_leads_to_the_branch_of_twice_its_period_that_meets_it(tmp_path):
     tree = Tree(Plan(Running(tmp_path, 1), None, None, ()), HenonLine(), 1, 1)
-    flip, nearer = ({"kind": "flip", "period": period, "value": value} for period, value in ((1, 0.4), (2, 0.5)))
+    flip, nearer = ({"kind": "flip", "period": period, "value": value} for period, value in ((2, 0.4), (4, 0.5)))
     ends = {"begins": "", "ends": ""}
-    once = {"events": [flip, nearer], "orbits": [{"period": 1, "value": 0.3}]} | ends
-    twice = {"events": [], "orbits": [{"period": 2, "value": 0.5}]} | ends | {"begins": "meets a flip"}
+    once = {"events": [flip, nearer], "orbits": [{"period": 2, "value": 0.3}]} | ends
+    twice = {"events": [], "orbits": [{"period": 4, "value": 0.5}]} | ends | {"begins": "meets a flip"}
     tree.branches = [Branch("1", once, []), Branch("2", twice, [])]
     tree._meet()
     assert flip["leads_to"] == "2" and "leads_to" not in nearer
