@@ -31,7 +31,9 @@ from analysis.orbits.maps import NoImage, NotSolved, OrbitMap, shoot, slopes_of
 from analysis.orbits.spaces import Space
 
 SECANTS = 10
-PROBE = 0.1  # of a step: differences of g for the first direction
+# of a step: differences of g for the first direction; in a system in steps only where a whole step is too far, and
+# secants up to this length leave the slope of g as it is
+PROBE = 0.1
 ON_CURVE = 1e-11  # sigma, in steps, of a smooth system
 # of a system that is computed in steps: sigma, in longest steps, and to how much of a chord special points are sought
 CLOSE, ROUGH = 1e-2, 1e-3
@@ -237,9 +239,10 @@ class _Follower:
         return point, along if along[0, -1] >= 0.0 else -along
 
     def slopes_of_test(self, orbit, space, plane, rows, slopes, step):
-        """Slopes of g in the directions of a plane, from differences over a step; where that is too far, over less.
+        """Slopes of g in the directions of a plane.
 
-        A system in steps has for each orbit its own: what the steps of one orbit make of g nearby says more of them.
+        In a system in steps each orbit takes its own. On the steps of one orbit, g nearby follows these steps more than
+        the orbits. So g is compared between orbits that are a whole step apart, or less where that is too far.
         """
         probe = PROBE * step if self.system.frozen is None else step
         while True:
@@ -310,8 +313,8 @@ class _Follower:
         """The orbit beside one, along the surface, near g = 0; its Space; the slope of g; how far g = 0 is; orbits that
         were computed, `least` or more.
 
-        A secant that leaves an interval in which g changes its sign gives way to the middle of that. A short one leaves
-        the slope as it is in a system in steps, which scatter g.
+        A secant that leaves an interval in which g changes its sign gives way to the middle of that. In a system in
+        steps a short secant does not change the slope, because the steps scatter g.
         """
         across, rows, slopes, step = beside
         enough, blurred = ON_CURVE * step, 0.0
@@ -367,9 +370,11 @@ class _Follower:
     def one_way(self, first, tangent, step):
         """Points from the first one on, why they end, and whether they come back to it.
 
-        Where no step leads on, the last point is dropped once: steps of a system may mislead it.
+        Where no step leads on, the last point is dropped and the curve goes on from the one before, because steps of a
+        system may have misled it. The curve ends where that leads no farther.
         """
-        points, dropped = [first], 0
+        points = [first]
+        farthest = 0  # points that there were when the last one was dropped
         while len(points) <= self.most:
             last = points[-1]
             try:
@@ -389,10 +394,13 @@ class _Follower:
                 if step > self.least:
                     step = max(0.5 * step, self.least)
                     continue
-                if isinstance(why, NotSolved) and len(points) > max(2, dropped):
-                    dropped, chord = len(points), self.place(last.orbit) - self.place(points[-2].orbit)
+                if isinstance(why, NotSolved) and len(points) > max(2, farthest):
+                    farthest = len(points)
                     points.pop()
-                    tangent, step = self.ahead(points), min(GROW * self.length(chord), self.longest)
+                    chord = self.place(last.orbit) - self.place(points[-1].orbit)
+                    step = min(GROW * self.length(chord), self.longest)
+                    before = self.place(points[-1].orbit) - self.place(points[-2].orbit)
+                    tangent = before / self.length(before)
                     continue
                 place = " and ".join(f"{value:.6g}" for value in last.parameters)
                 words = "numerical failure beyond" if isinstance(why, NotSolved) else "ends at"
@@ -401,15 +409,10 @@ class _Follower:
             if len(points) > 3 and self._passes(first, last, chord):
                 return [*points, first], "comes back to its beginning", True
             points.append(point)
-            tangent = self.ahead(points)
+            tangent = chord / self.length(chord)
             if taken < FEW:
                 step = min(step * GROW, self.longest)
         return points, f"followed over {self.most} points", False
-
-    def ahead(self, points):
-        """The direction of the last chord."""
-        chord = self.place(points[-1].orbit) - self.place(points[-2].orbit)
-        return chord / self.length(chord)
 
     def _next(self, last, tangent, step):
         guess = self.shifted(last.orbit, tangent, step)

@@ -121,17 +121,17 @@ def curves_of(tree: Tree, plane: Plane) -> Iterator[Row]:
     waiting = [(branch, event) for branch in tree.branches for event in branch.events]
     number = 0
 
-    def is_new(pair):
-        return not any(_lies_on(pair[1], *curve, plane) for curve in known)
+    def is_new(event):
+        return not any(_lies_on(event, *pair, plane) for pair in known)
 
-    while waiting := list(filter(is_new, waiting)):
+    while waiting:
         following, waiting = waiting[: tree.plan.how.jobs], waiting[tree.plan.how.jobs :]
         tasks = []
         for branch, event in following:
             arguments = event["kind"], event["value"], branch.points[event["at"]], tree.most
             tasks.append(line_task(curve, plane, arguments))
         for (branch, event), (result, _) in zip(following, tree.work("curves", tasks), strict=True):
-            if not is_new((branch, event)):  # it lies on the curve of another one, found meanwhile
+            if not is_new(event):  # it lies on the curve of one that was followed beside it
                 continue
             number += 1
             label = {CURVE.name: number, "branch": branch.name, "kind": event["kind"], "period": event["period"]}
@@ -140,6 +140,7 @@ def curves_of(tree: Tree, plane: Plane) -> Iterator[Row]:
                 continue
             known.append((event, result))
             yield from _rows(label, result, event, plane)
+        waiting = [(branch, event) for branch, event in waiting if is_new(event)]
 
 
 def _lies_on(event: dict, first: dict, result: dict, plane: Plane) -> bool:
