@@ -127,8 +127,7 @@ def _diagram(folder: Folder, key: Column, branches: Sequence[Branch], motions: S
         caption += f", up to {number(_FAR)}"
     events = []
     for kind, number_of_kind in kinds.items():
-        plural = "torus points" if kind == "torus" else ""
-        events.append(count(number_of_kind, kind, plural))
+        events.append(count(number_of_kind, "torus point" if kind == "torus" else kind))
     alt = f"Orbit diagram with {count(len(branches), 'branch', 'branches')} of orbits and {listed(events)}; see text."
     return diagram.figure(f"{caption}.", alt)
 

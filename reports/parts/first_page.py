@@ -1,5 +1,6 @@
 """The first page of every report: what its campaign found, and how long that took; the contents come after it."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -8,6 +9,8 @@ from tables import ANSWER, any_rows, count, number, number_of, printed
 
 from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong, with_subscripts
 from .provenance import APPENDIX
+
+_OPTION = re.compile(r"(?<![\w`-])--[a-z][a-z-]*")
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
@@ -45,8 +48,8 @@ def symbols(items: Items) -> Items:
 
 
 def _with_its_word(line: str) -> str:
-    """A line of the answer as print wants it, the word that it begins with in bold type."""
-    line = with_subscripts(printed(line))
+    """A line of the answer as print wants it: the word that it begins with in bold type, options of commands as code."""
+    line = _OPTION.sub(r"`\g<0>`", with_subscripts(printed(line)))
     word, _, text = line.partition(" ")
     if word.isupper() and text.startswith(" "):
         return f"{strong(word)} {text.lstrip()}"

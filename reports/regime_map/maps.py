@@ -20,11 +20,15 @@ _WHOLE = 0.995  # share of a map that is called all of it
 
 
 class Atlas(NamedTuple):
-    """All pages over two keys; before them, where there are several pages, theirs. columns: of the cells."""
+    """All pages over two keys; before them, where there are several pages, theirs. columns: of the cells.
+
+    limited: reason -> share of all maps that it limits; one that limits all of them is not hatched.
+    """
 
     keys: Sequence[Column]
     pages: Sequence[Page]
     columns: Mapping[str, Column]
+    limited: Mapping[str, float]
 
     @property
     def labels(self) -> tuple[str, str]:
@@ -44,10 +48,6 @@ class Atlas(NamedTuple):
     def of_source(self, source: str) -> float:
         """Share of all maps whose cells come from there."""
         return self.share(lambda page: page.on_top(source))
-
-    def limited(self, reason: str) -> float:
-        """Share of all maps that is hatched for that reason."""
-        return self.share(lambda page: page.hatched[reason])
 
 
 def _paper_marks(key: Column) -> Sequence[float]:
@@ -86,7 +86,13 @@ def read_atlas(folder: Folder) -> Atlas | None:
                 hatched[reason] = series(page_rows, name) > 0.0
         place = at(keys[:-2], page_rows[0])
         pages.append(Page(np.column_stack(edges), kinds, source, hatched, lines, page_rows, number_of_page, place))
-    return Atlas(keys, pages, part.columns)
+    limited = {}
+    for reason in [*pages[0].hatched]:
+        limited[reason] = float(np.mean([page.share(page.hatched[reason]) for page in pages]))
+        if limited[reason] > _WHOLE:
+            for page in pages:
+                del page.hatched[reason]
+    return Atlas(keys, pages, part.columns, limited)
 
 
 def without_border(page: Page) -> tuple[int, int]:
@@ -183,7 +189,7 @@ def legend(atlas: Atlas) -> list[tuple[str, str]]:
             events = "torus points" if kind == "torus" else f"{kind}s"
             entries.append((line, f"{events} of orbits"))
     for hatch, reason in zip(HATCHES, atlas.pages[0].hatched, strict=False):
-        share = atlas.limited(reason)
+        share = atlas.limited[reason]
         if share:
             entries.append((hatch, f"{reason}: {_percent(share)}"))
     if any(_star(page) is not None for page in atlas.pages):

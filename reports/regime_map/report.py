@@ -139,7 +139,7 @@ def _warnings(folder: Folder, atlas: Atlas) -> Notice:
     if failed:
         lines.append(f"{percent(failed)} of the map failed: {_reasons(atlas)}.")
     for name, reason in LIMITS.items():
-        share = atlas.limited(reason)
+        share = atlas.limited.get(reason, 0.0)
         if share:
             lines.append(f"On {percent(share)} of the map {_LIMIT_SENTENCES[name]}.")
     crossed, alone = without_border(atlas.pages[0])

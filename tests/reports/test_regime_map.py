@@ -15,15 +15,16 @@ from scipy.spatial.distance import pdist
 
 from engine import load_scene
 from reports import build, content_of
-from reports.figures.regime_map import Map, Page, regime_maps
+from reports.figures.regime_map import HATCHES, Map, Page, regime_maps
 from reports.parts.content import CellSheets, Figure, Table
 from reports.parts.folder import FolderError, read_folder
 from reports.parts.html import packed
 from reports.parts.style import MAP_PERIODS, REGIME_COLOURS
 from reports.regime_map import draw
-from reports.regime_map.maps import _EXPONENT, COMPUTED, SCREENED, legend, numbers, read_atlas, regimes
+from reports.regime_map.maps import _EXPONENT, COMPUTED, LIMITS, SCREENED, legend, numbers, read_atlas, regimes
 from reports.regime_map.report import _regimes, _warnings
 from reports.regime_map.sheets import cell_sheets
+from tables import read_table
 from tests.campaigns.fake_engine import sines
 from tests.reports.conftest import columns_of, folder_at, of_kind, write
 from tests.reports.test_browser import violations
@@ -131,6 +132,16 @@ def test_nothing_screened_counts_as_computed(folder_of):
     notice = _warnings(read_folder(place), atlas)
     assert "only screened" in notice.lines[0] and "no <convergence> (1)" in notice.lines[1]
     assert any("verdicts are cheap" in line for line in notice.lines)
+
+
+def test_a_limit_of_the_whole_map_is_a_sentence_and_no_hatch(folder_of):
+    place = folder_of()
+    cells = [cell | {"leaves_water": 1} for cell in read_table(place / "cells" / "table.csv")]
+    write(place / "cells", cells, columns_of(cells, WORDS, SYMBOLS))
+    atlas = atlas_of(place)
+    assert [text.partition(":")[0] for look, text in legend(atlas) if look in HATCHES] == [LIMITS["loops"]]
+    assert list(atlas.pages[0].hatched) == [LIMITS["loops"]]
+    assert any(line.startswith("On 100 % of the map the top") for line in _warnings(read_folder(place), atlas).lines)
 
 
 def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
