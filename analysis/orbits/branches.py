@@ -9,7 +9,7 @@ h grows by half after three Newton steps or fewer. A branch has come back to its
 orbit, begun at any of its points, lies on the last chord.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +24,7 @@ STRAIGHT = 0.9  # least cosine between tangents of neighbours
 NEAR = 0.5  # longest correction, in steps
 GROW, FEW = 1.5, 3
 ON_CHORD = 0.2  # distance from a chord, in its lengths
+BEGUN = "it was not followed that way"
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,9 +60,10 @@ def follow_branch(
     most: int = 200,
     count: int = 6,
     accuracy: float = ACCURACY,
-    told: Callable[[Orbit], object] | None = None,
+    ahead: int = 0,
+    enough: Callable[[Orbit, Sequence[Event]], bool] | None = None,
 ) -> Branch:
-    """The branch of an orbit, both ways, stable or not, with its folds, flips and torus points.
+    """The branch of an orbit, stable or not, with its folds, flips and torus points.
 
     orbit                  where it begins, low <= its parameter <= high
     low, high              of the parameter; the branch ends with orbits at these values
@@ -70,17 +72,23 @@ def follow_branch(
     most                   orbits each way
     count                  as in `find_orbit`
     accuracy               of events, in lengths of a step
-    told                   is called with every orbit as it is found; where it gives True, the branch ends
+    ahead                  0: both ways; 1, -1: only from the orbit to where the parameter first grows, falls
+    enough                 is asked after every orbit, with the orbit and the events so far that way: whether to end there
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
     Raises ValueError for an orbit that was not found, and for one outside of the range.
     """
     if not orbit.found or not low <= orbit.parameter <= high:
         raise ValueError(f"orbit: one within {low:g} and {high:g} is needed, given {orbit.parameter:g}, {orbit.reason}")
-    follower = _Follower(system, low, high, least, longest, most, count, accuracy, told)
+    step = checked_positive(step, "step")
+    follower = _Follower(system, low, high, least, longest, most, count, accuracy, enough)
     first = follower.place(orbit)
-    ahead, events, end, closed = follower.one_way(first, checked_positive(step, "step"))
-    places, begin = [first, *ahead], end
-    if not closed:
+    places, events, closed, begin, end = [first], [], False, BEGUN, BEGUN
+    if ahead >= 0:
+        further, events, end, closed = follower.one_way(first, step)
+        places += further
+    if closed:
+        begin = end
+    elif ahead <= 0:
         back, earlier_events, begin, _ = follower.one_way(_reversed(first), step)
         places, events = [*map(_reversed, back[::-1]), *places], earlier_events[::-1] + events
     return Branch(tuple(place.orbit for place in places), closed, (begin, end), tuple(events))
@@ -98,7 +106,7 @@ class _Follower:
     limit: int
     count: int
     accuracy: float
-    callback: Callable[[Orbit], object] | None
+    enough: Callable[[Orbit, Sequence[Event]], bool] | None
 
     def place(self, orbit):
         """The orbit with its tangent in the direction of a growing parameter."""
@@ -141,7 +149,7 @@ class _Follower:
                 closed = True
                 reason = "comes back to its beginning"
                 break
-            if self.callback and self.callback(place.orbit):
+            if self.enough and self.enough(place.orbit, events):
                 reason = "followed as far as asked"
                 break
             if easy:

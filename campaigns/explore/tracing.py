@@ -177,7 +177,7 @@ def lost(line: Line, period: int, ahead: float, *starts: object) -> Solved:
         why = orbit.reason or why
     else:
         raise ArithmeticError(why)
-    limits = {"most": MOST_SHORT, "told": lambda orbit: not orbit.stable}
+    limits = {"most": MOST_SHORT, "enough": lambda orbit, _: not orbit.stable}
     branch = follow_branch(system, orbit, line.low, line.high, **STEPS, **limits, **LOCATED)
     events = [event for event in branch.events if (event.parameter - value) * ahead > 0.0]
     return _nearest(events, value, "the orbit stays stable"), []
@@ -214,8 +214,15 @@ def _event_near(line: Line, kind: str, at: float, value: float, points: np.ndarr
     orbit = _found(system, points, value, len(points))
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
     low, high = max(at - wide, line.low), min(at + wide, line.high)
-    branch = follow_branch(system, orbit, min(low, value), max(high, value), **SHORT, most=MOST_SHORT, **LOCATED)
-    events = [event for event in branch.events if event.kind == kind]
+    limits = {"most": MOST_SHORT, "enough": lambda _, events: kind in [event.kind for event in events]}
+    events = []
+    towards = 1 if at > value else -1
+    for ahead in (towards, -towards):  # the other way only where the event may lie behind the orbit on this line
+        ways = SHORT | LOCATED | limits | {"ahead": ahead}
+        branch = follow_branch(system, orbit, min(low, value), max(high, value), **ways)
+        events += [event for event in branch.events if event.kind == kind]
+        if any(abs(event.parameter - at) < abs(value - at) for event in events):
+            break
     return _nearest(events, at, f"no {kind} from {low:.5g} to {high:.5g}"), []
 
 

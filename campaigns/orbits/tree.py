@@ -87,8 +87,7 @@ class Tree:
         """Follow the orbits under runs (motion, value, period, FinalState), and the branches that begin at flips."""
         seeds = self._seeds(starts)
         while seeds and len(self.branches) < self.room:
-            seeds = list(filterfalse(self._is_known, seeds))
-            following, seeds = seeds[: self.plan.how.jobs], seeds[self.plan.how.jobs :]
+            following, seeds = self._next(list(filterfalse(self._is_known, seeds)))
             tasks = []
             for seed in following:
                 tasks.append(line_task(followed, self.line, (seed.value, seed.points, self.most)))
@@ -100,6 +99,20 @@ class Tree:
         for seed in filterfalse(self._is_known, seeds):
             self.failed.append((seed, f"not followed: {self.room} branches are (--branches)"))
         self._meet()
+
+    def _next(self, seeds: Sequence[Seed]) -> tuple[list[Seed], list[Seed]]:
+        """Seeds that are followed side by side, and the others: the first of each period, and as many as there are jobs.
+
+        Two seeds of one period may lie on one branch.
+        """
+        of_periods = {}
+        for seed in seeds:
+            of_periods.setdefault(seed.period, seed)
+        first = [*of_periods.values()]
+        others = [seed for seed in seeds if seed not in first]
+        room = min(max(self.plan.how.jobs, len(first)), self.room - len(self.branches))
+        chosen = [*first, *others][:room]
+        return chosen, [seed for seed in seeds if seed not in chosen]
 
     def _seeds(self, starts: Sequence[tuple]) -> list[Seed]:
         """The orbits under runs."""
