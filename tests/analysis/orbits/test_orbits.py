@@ -138,6 +138,20 @@ def test_folds_and_flips_of_the_henon_map_and_the_doubled_orbit():
     assert "meets the orbit of period 1" in two.ends
 
 
+def test_a_branch_is_followed_one_way_and_no_farther_than_asked():
+    system, limits = OrbitMap(henon), {"low": -1.0, "high": 1.2, "most": 40}
+    first = find_orbit(system, [0.6, 0.2], 0.2)
+    up, down = (follow_branch(system, first, **limits, ahead=ahead) for ahead in (1, -1))
+    both = follow_branch(system, first, **limits)
+    assert [*down.parameters, *up.parameters[1:]] == pytest.approx(both.parameters)
+    assert [[event.kind for event in branch.events] for branch in (up, down)] == [["flip"], ["fold"]]
+    assert up.ends == ("it was not followed that way", both.ends[1])
+    assert down.ends == (both.ends[0], "it was not followed that way")
+    short = follow_branch(system, first, **limits, ahead=-1, enough=lambda _, events: bool(events))
+    assert short.parameters == pytest.approx(down.parameters[-len(short.orbits) :])
+    assert len(short.orbits) < len(down.orbits) and [event.kind for event in short.events] == ["fold"]
+
+
 @pytest.mark.parametrize(
     ("system", "start", "at", "ends", "period", "event"),
     [
