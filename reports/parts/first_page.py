@@ -10,7 +10,8 @@ from tables import ANSWER, any_rows, count, number, number_of, printed
 from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong, with_subscripts
 from .provenance import APPENDIX
 
-_OPTION = re.compile(r"(?<![\w`-])--[a-z][a-z-]*")
+# an option of a command, with a value that follows it: N, 4 or KEY=VALUE
+_OPTION = re.compile(r"(?<![\w`-])--[a-z][a-z-]*( ([A-Z]\b|\d+\b|[\w.]+=[\w.-]*\w))?")
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
