@@ -322,10 +322,10 @@ def chaos(rows: Rows, key: str, symbol: str) -> str:
         if not known:
             continue
         exponents = numbers_of(known, name)
-        doubling = sorted(1.0 / exponent for exponent in exponents if exponent > 0.0)
+        doubling = [float(f"{1.0 / exponent:.2g}") for exponent in exponents if exponent > 0.0]
         sentence = f"largest exponent{method} {span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
         if doubling:
-            sentence += f": an error doubles in {span(doubling, places=0)} waves"
+            sentence += f": an error doubles in {span(doubling)} wave{'' if set(doubling) == {1.0} else 's'}"
         sentences.append(f"{sentence}. Chaotic at {symbol} = {_at(chaotic, judged, key)}.")
         break
     growing = []
