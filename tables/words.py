@@ -25,7 +25,8 @@ VERDICTS = {
 SETTLED, JOINED, UNSETTLED = OUTCOMES = "settled", "joined", "unsettled"  # of a start
 COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # where the regime of a cell of a map comes from
 CAPPED = "wetted cap"  # role of a companion
-OTHER_MOTION = "becomes another motion"  # in a row's message: with smaller elements and steps
+# in a row's message: with smaller elements and steps
+OTHER_MOTION, OTHER_GROWTH = "becomes another motion", "perturbations grow otherwise"
 PEAK, PEAK_ERROR = "tension_top_max_N", "tension_top_max_error_N"
 TANGENT_EXPONENT, TANGENT_ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 WOLF_EXPONENT, WOLF_ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"

@@ -27,6 +27,7 @@ from engine.views import carries_tangents, in_regular_waves
 from tables import (
     CHAOTIC,
     EMPTY,
+    OTHER_GROWTH,
     OTHER_MOTION,
     PEAK,
     PERIODIC,
@@ -55,7 +56,10 @@ OPEN_REASONS = {
     TRANSIENT: f"the motion still changes when the run ends ({LONGER})",
 }
 BESIDE_A_PERIOD = f"chaos stands beside a period and may be a long transient ({LONGER})"
-ANOTHER_ON_A_FINER_GRID = "smaller elements and steps give another motion (more tether.nodes decide)"
+FINER = {  # words of a message -> what is said of its row
+    OTHER_MOTION: "smaller elements and steps give another motion (more tether.nodes decide)",
+    OTHER_GROWTH: "smaller elements and steps may give another regime (column message; more tether.nodes decide)",
+}
 
 
 def sentences(rows: Rows, key: str, symbol: str, scene, companions: Rows = (), ends: Rows = ()) -> list[str]:
@@ -326,7 +330,12 @@ def chaos(rows: Rows, key: str, symbol: str) -> str:
         sentence = f"largest exponent{method} {span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
         if doubling:
             sentence += f": an error doubles in {span(doubling)} wave{'' if set(doubling) == {1.0} else 's'}"
-        sentences.append(f"{sentence}. Chaotic at {symbol} = {_at(chaotic, judged, key)}.")
+        sentence += f". Chaotic at {symbol} = {_at(chaotic, judged, key)}"
+        doubtful = [row for row in chaotic if OTHER_GROWTH in str(row.get("message"))]
+        if doubtful:
+            place = f"at {_at(doubtful, judged, key)} " if len(doubtful) < len(chaotic) else ""
+            sentence += f", but {place}smaller elements and steps do not confirm it"
+        sentences.append(f"{sentence}.")
         break
     growing = []
     for row in judged:
@@ -361,7 +370,8 @@ def undecided(rows: Rows, key: str, symbol: str, scene) -> str:
     for word, reason in OPEN_REASONS.items():
         doubts[reason] = [row for row in good if row.get("regime") == word]
     doubts[BESIDE_A_PERIOD] = _chaos_beside_period(good)
-    doubts[ANOTHER_ON_A_FINER_GRID] = [row for row in good if OTHER_MOTION in str(row.get("message"))]
+    for words, reason in FINER.items():
+        doubts[reason] = [row for row in good if words in str(row.get("message"))]
     for reason, group in doubts.items():
         if group:
             parts.append(f"at {symbol} = {_at(group, good, key)} {reason}")

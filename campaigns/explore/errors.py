@@ -19,8 +19,12 @@ chi, of the row after its transient, and chi', of the companion: mean slack frac
 periods, of a motion that repeats as long as for T_b; s: standard error of chi, from its stretches. 4/3: of stiff lines
 the companion had less than a quarter of the error, where chance does not decide. 3: the stretches are few.
 
-Both are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
-where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter.
+The companion of a chaotic row, and of a periodic one whose line goes slack, carries a perturbation: a slack line may be
+chaotic on few elements and not on many, or the other way round, while the buoy repeats.
+
+All are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
+where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where a perturbation of the
+companion does not grow by two errors beside a chaotic row, or grows by one error beside a periodic one.
 Rows of runs in three dimensions stay empty.
 """
 
@@ -31,23 +35,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analysis import block_maxima, joins
+from analysis import block_maxima, joins, tangent_lyapunov
 from analysis.approaches import NEARER
 from analysis.snaps import NEAR_ZERO
+from analysis.tangent_growth import turned
 from campaigns.answers import kilonewton
 from campaigns.explore.batches import batch
 from campaigns.explore.multipliers import orbit_ahead
-from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR
+from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR, TANGENT, exponents
 from campaigns.explore.starts import OUTCOME, reached, section_of
 from campaigns.finer import finer
 from campaigns.judge import UNFOLLOWED, job_from, periods_of, samples_of
-from campaigns.machinery import Job, Plan, Summary, orbits_in, run_of
+from campaigns.machinery import TANGENTS, Job, Plan, Summary, orbits_in, run_of
 from engine import simulate
 from engine.run.rest import static_tension_N
+from engine.views import carried
 from tables import (
+    CHAOTIC,
     COARSE,
     JOINED,
     MESSAGE,
+    OTHER_GROWTH,
     OTHER_MOTION,
     PEAK,
     PERIODIC,
@@ -55,6 +63,7 @@ from tables import (
     RINGING,
     RUN_KEY,
     STATUS,
+    TANGENT_EXPONENT,
     UNSETTLED,
     WALL_S,
     Column,
@@ -73,9 +82,11 @@ FOR = of_words("of_run", "content key of the run of table.csv whose companion th
 USUAL = Column(
     "tension_usual_max_N", "N", "T_b", f"mean of the largest tensions of every {BLOCK} wave periods at the end", 0
 )
-COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, SLACK, WALL_S, RUN_KEY, MESSAGE)
+COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, SLACK, *TANGENT, WALL_S, RUN_KEY, MESSAGE)
 REPEATING, OTHERS = 12, 40  # wave periods of a companion: at least, of a motion that repeats; of the others
-LEFT_OUT = 0.25  # of the latter: until it has forgotten that its grid was changed
+# wave periods of a companion that carries a perturbation, where one has decided the regime of the row; where an orbit did
+GROWTH, GROWTH_AT_ORBIT = 150, 45
+LEFT_OUT = 0.25  # of these: until it has forgotten that its grid was changed
 TIGHTER = 4  # times, as the square of an element
 LEAST = 5e-4  # of the largest tension
 SLACK_COARSE = 0.05  # an error of the slack fraction above it is told in words
@@ -102,7 +113,8 @@ def errors(plan: Plan, summary: Summary) -> float:
             row[ERROR.name] = finite(error)
             error, words_of_slack = slack_error(companion.slack, result, companion.resolved)
             row[SLACK_ERROR.name] = finite(error)
-            row["message"] = "; ".join(filter(None, (row.get("message"), *words, *words_of_slack))) or None
+            words += [*words_of_slack, *words_of_growth(row, result)]
+            row["message"] = "; ".join(filter(None, (row.get("message"), *words))) or None
     write_table(plan.out / "table.csv", plan.columns, summary.rows)
     return analysis_s
 
@@ -126,8 +138,11 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     if transient is None or run is None:
         return None
     orbits = orbits_in(plan.out)
-    without_ramp = UNFOLLOWED | {"waves.ramp_s": 0.0}  # the waves of the last state have grown
-    scene, period = finer(run.scene, elements=2, steps=TIGHTER, changes=without_ramp), _period(row)
+    period, followed = _period(row), _periods_of_growth(row)
+    changes = UNFOLLOWED | {"waves.ramp_s": 0.0}  # the waves of the last state have grown
+    if followed:
+        changes[TANGENTS] = 1
+    scene = finer(run.scene, elements=2, steps=TIGHTER, changes=changes)
     if period and f"{NEARER}: " in (row.get("evidence") or ""):
         run, transient = orbit_ahead(run, orbits)[0].run, 0  # a run on the orbit, from its first moment on
     if run.final_state is None or scene.motion.dimensions == 3:
@@ -135,6 +150,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     length, motion = OTHERS, None
     if period:
         length = max(REPEATING, 3 * period)
+    length = max(length, followed)
     if row.get("regime"):
         motion = reached(run, orbits)
     length = min(length, round(row["periods"]))
@@ -143,6 +159,16 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     resolved = 0.5 * run.scene.sample_step_s() / run.scene.waves.period_s
     shares = slack_shares(run, transient, period)
     return _Companion(job, row, usual_max_N(run, transient, period), shares, resolved)
+
+
+def _periods_of_growth(row: dict) -> int:
+    """Over how many wave periods a companion carries a perturbation; 0: none."""
+    word = row.get("regime") or ""
+    if word != CHAOTIC and not word.startswith(PERIODIC):
+        return 0
+    if math.isfinite(number_of(row, TANGENT_EXPONENT)):
+        return GROWTH
+    return GROWTH_AT_ORBIT if number_of(row, SLACK.name) > 0.0 else 0
 
 
 def companion_row(trajectory, period: int | None = None, motion=None) -> Row:
@@ -154,6 +180,9 @@ def companion_row(trajectory, period: int | None = None, motion=None) -> Row:
         shares = slack_shares(trajectory, LEFT_OUT * row["periods"], period)
         if len(shares):
             row[SLACK.name] = float(shares.mean())
+        if carried(trajectory):
+            growth = turned(trajectory.tangent.growth_nats[:, 0], round(LEFT_OUT * row["periods"]))
+            row |= exponents(TANGENT, *tangent_lyapunov(growth))
         if motion is not None:
             strobed, measures, _ = section_of(trajectory)
             row[OUTCOME.name] = JOINED
@@ -217,6 +246,19 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
     if error > COARSE * largest_N:
         words.append(f"the largest tension holds to {100.0 * error / largest_N:.0f} % only")
     return error, words
+
+
+def words_of_growth(row: dict, companion: dict) -> list[str]:
+    """What a reader has to be told where a perturbation of the companion grows otherwise than that of the row."""
+    value, error = (number_of(companion, column.name) for column in TANGENT)
+    if not math.isfinite(value):
+        return []
+    agrees = value <= error
+    if row["regime"] == CHAOTIC:
+        agrees = value > 2.0 * error
+    if agrees:
+        return []
+    return [f"{CHANGED} {OTHER_GROWTH}: by {value:+.2f} ± {error:.2f} bits a wave"]
 
 
 def _period(row: dict) -> int | None:

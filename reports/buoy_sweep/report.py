@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from tables import COARSE, OTHER_MOTION, decimals, number, percent
+from tables import COARSE, OTHER_GROWTH, OTHER_MOTION, decimals, number, percent
 
 from ..parts import (
     T_I,
@@ -127,6 +127,10 @@ def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
     yield (
         "with smaller elements and steps the run ends in another motion (column message)",
         sweep.runs_with(lambda run: OTHER_MOTION in (run["message"] or "")),
+    )
+    yield (
+        "with smaller elements and steps perturbations grow where they shrank, or no longer do (column message)",
+        sweep.runs_with(lambda run: OTHER_GROWTH in (run["message"] or "")),
     )
     yield (
         "in three dimensions an element turns by more than π/2: loops are not resolved, so use more `tether.nodes`",

@@ -7,12 +7,22 @@ import numpy as np
 import pytest
 
 from campaigns.explore import errors
-from campaigns.explore.errors import REPEATING, SLACK_COARSE, companion_row, error_N, slack_error, slack_shares
+from campaigns.explore.errors import (
+    GROWTH,
+    GROWTH_AT_ORBIT,
+    REPEATING,
+    SLACK_COARSE,
+    companion_row,
+    error_N,
+    slack_error,
+    slack_shares,
+    words_of_growth,
+)
 from campaigns.explore.starts import settled_of
 from campaigns.machinery.store import Store
 from campaigns.sweep import main as sweep_command
 from engine import load_scene, simulate
-from tables import JOINED, OTHER_MOTION, UNSETTLED
+from tables import JOINED, OTHER_GROWTH, OTHER_MOTION, TANGENT_ERROR, TANGENT_EXPONENT, UNSETTLED
 from tests.campaigns.conftest import rows_of
 from tests.campaigns.fake_engine import sines
 
@@ -75,23 +85,64 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
     assert row["tension_usual_max_N"] == pytest.approx(2510.0, abs=1e-9)  # of a sine, as in test_rows.py
 
 
-def companion_of(run, regime, monkeypatch):
+@pytest.mark.parametrize(
+    ("regime", "finer", "told"),
+    [
+        ("chaotic", (0.21, 0.1), False),
+        ("chaotic", (0.19, 0.1), True),
+        ("chaotic", (-0.3, 0.1), True),
+        ("period-1", (0.09, 0.1), False),
+        ("period-1", (0.11, 0.1), True),
+        ("period-1", (-0.3, 0.1), False),
+        ("chaotic", (np.nan, np.nan), False),
+    ],
+)
+def test_growth_on_a_finer_grid_that_speaks_against_a_regime_is_told(regime, finer, told):
+    """Chaos takes growth by two errors; one error of growth makes a period doubtful."""
+    words = words_of_growth({"regime": regime}, dict(zip((TANGENT_EXPONENT, TANGENT_ERROR), finer, strict=True)))
+    assert [OTHER_GROWTH in sentence for sentence in words] == [True] * told
+    if told:
+        assert f"by {finer[0]:+.2f} ± 0.10 bits a wave" in words[0]
+
+
+def test_a_companion_tells_how_a_perturbation_grows():
+    run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1}), GROWTH)
+    growth_nats = np.full((GROWTH, 1), 0.3 * np.log(2.0))
+    growth_nats[: GROWTH // 4] = 1.0
+    row = companion_row(replace(run, tangent=SimpleNamespace(growth_nats=growth_nats)))
+    assert row[TANGENT_EXPONENT] == pytest.approx(0.3), "without the periods in which the grid is forgotten"
+
+
+def companion_of(run, regime, monkeypatch, **entries):
     """The last state of a run, and what follows it."""
     state = SimpleNamespace(at_zero=lambda: state, digest=lambda: "of a state")
     monkeypatch.setattr(errors, "run_of", lambda *_: replace(run, final_state=state))
-    row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 90.0}
-    return state, errors._companion(SimpleNamespace(out=None), row)
+    row = {"run_key": "of the run", "regime": regime, "transient_periods": 30, "periods": 180.0}
+    return state, errors._companion(SimpleNamespace(out=None), row | entries)
 
 
-@pytest.mark.parametrize(("regime", "periods"), [("period-2", 12), ("period-6", 18), ("chaotic", 40)])
-def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(regime, periods, monkeypatch):
+@pytest.mark.parametrize(
+    ("regime", "exponent", "slack", "periods"),
+    [
+        ("period-2", np.nan, 0.0, 12),
+        ("period-6", np.nan, 0.0, 18),
+        ("period-2", np.nan, 0.1, GROWTH_AT_ORBIT),
+        ("quasi-periodic", 0.0, 0.1, 40),
+        ("period-2", -0.5, 0.1, GROWTH),
+        ("chaotic", 0.2, 0.1, GROWTH),
+    ],
+)
+def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(
+    regime, exponent, slack, periods, monkeypatch
+):
+    """It carries a perturbation where one has decided the regime of its row, or where the line goes slack on an orbit."""
     run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1, "waves.ramp_s": 25.0}), 90)
-    state, companion = companion_of(run, regime, monkeypatch)
+    state, companion = companion_of(run, regime, monkeypatch, **{TANGENT_EXPONENT: exponent, "slack_fraction": slack})
     job = companion.job
     assert job.scene.tether.nodes - 1 == 2 * (run.scene.tether.nodes - 1)
     assert job.scene.solver.rtol == pytest.approx(run.scene.solver.rtol / 4.0)
     assert job.scene.waves.ramp_s == 0.0, "the waves of its last state have grown"
-    assert job.scene.output.tangent_vectors == 0 and job.labels == {"of_run": "of the run"}
+    assert job.scene.output.tangent_vectors == (periods > 40) and job.labels == {"of_run": "of the run"}
     assert job.going(job.scene, None, None, {})[:3] == (job.scene, periods, state)
 
 
