@@ -73,7 +73,7 @@ def follow_branch(
     count                  as in `find_orbit`
     accuracy               of events, in lengths of a step
     ahead                  0: both ways; 1, -1: only from the orbit to where the parameter first grows, falls
-    enough                 is asked after every orbit, with the orbit and the events so far that way: whether to end there
+    enough                 is asked after every orbit, with it and the events so far that way, whether to end there
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
     Raises ValueError for an orbit that was not found, and for one outside of the range.
     """

@@ -23,8 +23,8 @@ The companion of a chaotic row, and of a periodic one whose line goes slack, car
 chaotic on few elements and not on many, or the other way round, while the buoy repeats.
 
 All are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
-where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where a perturbation of the
-companion does not grow by two errors beside a chaotic row, or grows by one error beside a periodic one.
+where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where a perturbation does
+not grow by two errors beside a chaotic row, or grows by one error beside a periodic one.
 Rows of runs in three dimensions stay empty.
 """
 
@@ -84,7 +84,7 @@ USUAL = Column(
 )
 COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, SLACK, *TANGENT, WALL_S, RUN_KEY, MESSAGE)
 REPEATING, OTHERS = 12, 40  # wave periods of a companion: at least, of a motion that repeats; of the others
-# wave periods of a companion that carries a perturbation, where one has decided the regime of the row; where an orbit did
+# wave periods of a companion with a perturbation: where one has decided the regime of the row, and where an orbit did
 GROWTH, GROWTH_AT_ORBIT = 150, 45
 LEFT_OUT = 0.25  # of these: until it has forgotten that its grid was changed
 TIGHTER = 4  # times, as the square of an element

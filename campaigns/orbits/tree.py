@@ -101,9 +101,9 @@ class Tree:
         self._meet()
 
     def _next(self, seeds: Sequence[Seed]) -> tuple[list[Seed], list[Seed]]:
-        """Seeds that are followed side by side, and the others: the first of each period, and as many as there are jobs.
+        """Seeds that are followed side by side, and the others.
 
-        Two seeds of one period may lie on one branch.
+        The first of each period, and as many as there are jobs: two seeds of one period may lie on one branch.
         """
         of_periods = {}
         for seed in seeds:

@@ -49,7 +49,7 @@ def symbols(items: Items) -> Items:
 
 
 def _with_its_word(line: str) -> str:
-    """A line of the answer as print wants it: the word that it begins with in bold type, options of commands as code."""
+    """A line of the answer as print wants it: its first word in bold type, options of commands as code."""
     line = _OPTION.sub(r"`\g<0>`", with_subscripts(printed(line)))
     word, _, text = line.partition(" ")
     if word.isupper() and text.startswith(" "):

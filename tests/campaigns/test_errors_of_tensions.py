@@ -135,7 +135,7 @@ def companion_of(run, regime, monkeypatch, **entries):
 def test_a_companion_goes_on_with_twice_the_elements_at_a_quarter_of_the_tolerance(
     regime, exponent, slack, periods, monkeypatch
 ):
-    """It carries a perturbation where one has decided the regime of its row, or where the line goes slack on an orbit."""
+    """It carries a perturbation where one has decided the regime of its row, or where an orbit goes slack."""
     run = sines(load_scene("tethered_buoy", {"output.tangent_vectors": 1, "waves.ramp_s": 25.0}), 90)
     state, companion = companion_of(run, regime, monkeypatch, **{TANGENT_EXPONENT: exponent, "slack_fraction": slack})
     job = companion.job
