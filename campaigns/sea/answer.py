@@ -147,7 +147,7 @@ def _doubts(cell: Row, options) -> Iterator[str]:
     if noise * WELL_ABOVE > options.distance:
         yield (
             f"Starts that are together are still {noise:.2g} of the motion apart, by the steps of the solver: use a "
-            f"smaller solver.rtol, or --distance above {WELL_ABOVE * noise:.2g}."
+            f"smaller solver.rtol, or --distance above {1.05 * WELL_ABOVE * noise:.2g}."
         )
 
 
