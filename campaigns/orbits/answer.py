@@ -1,6 +1,7 @@
 """What the orbits over a key showed: where each is stable, what ends the motions, and what stands between them."""
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import groupby
@@ -33,13 +34,14 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence]) -
     if unsure:
         yield f"Known to no better than {ACCURATE}: {listed(unsure[:4])}."
     if failed:
-        words = []
+        words = Counter()
         for row in failed:
             name = f"period {number_of(row, 'period'):.0f}"
             if row["motion"]:
                 name = f"motion {row['motion']}"
-            words.append(f"{name} ({row['message']})")
-        yield f"Without a branch: {listed(words)}."
+            words[f"{name} ({row['message']})"] += 1
+        counted = [f"{times} times {text}" if times > 1 else text for text, times in words.items()]
+        yield f"Without a branch: {listed(counted)}."
 
 
 def _is_stable(orbit: Row) -> bool:

@@ -7,13 +7,14 @@ from string import ascii_lowercase
 
 import numpy as np
 
-from campaigns.explore.tracing import Line, Solved, finer, followed, line_task, sharper, under, work
+from campaigns.explore.tracing import STEPS, Line, Solved, finer, followed, line_task, sharper, under, work
 from campaigns.machinery import Plan, Task
 from engine.views import LONGEST_PERIOD
 
 FOLDER = "branches"
 SHARP = 1e-3  # of the range of the key: an event that is known worse is found again at a tenth of the tolerance
 BESIDE = 0.02  # of the range of the key: an orbit so far from a fold is there on another grid, too
+BEYOND = 2.0  # steps from the last orbit of a branch to the flip at which it meets another
 NEAR_M, ON_CHORD = 0.01, 0.1  # of an orbit to a known branch: m of what is seen, and shares of a chord
 
 
@@ -98,7 +99,7 @@ class Tree:
                     seeds += self._add(seed, result, points)
         for seed in filterfalse(self._is_known, seeds):
             self.failed.append((seed, f"not followed: {self.room} branches are (--branches)"))
-        self._meet()
+        self.failed = [failure for failure in self.failed if "leads_to" not in failure[0].begins]
 
     def _next(self, seeds: Sequence[Seed]) -> tuple[list[Seed], list[Seed]]:
         """Seeds that are followed side by side, and the others.
@@ -137,29 +138,40 @@ class Tree:
             if "doubled" in event and 2 * event["period"] <= LONGEST_PERIOD:
                 value, seen, doubled = event["doubled_value"], event["doubled_seen"], points[event["doubled"]]
                 seeds.append(Seed("", value, len(seen), seen, doubled, event))
+        self._meet()
         return seeds
 
     def _meet(self) -> None:
-        """Lead flips to the branches that meet their orbit there; a seed of such a flip has not failed."""
+        """Lead flips to the branches that meet their orbit there."""
         for branch in self.branches:
-            for end, orbit in (("begins", branch.orbits[0]), ("ends", branch.orbits[-1])):
+            for end, orbits in (("begins", branch.orbits), ("ends", branch.orbits[::-1])):
                 if "meets" in branch.result[end]:
-                    flip = self._nearest_flip(orbit)
+                    steps = [self._distance(orbits[0], orbit["seen"], orbit["value"]) for orbit in orbits[1:2]]
+                    flip = self._flip_near(orbits[0], max([STEPS["step"], *steps]))
                     if flip is not None:
                         flip.setdefault("leads_to", branch.name)
-        self.failed = [failure for failure in self.failed if "leads_to" not in failure[0].begins]
 
-    def _nearest_flip(self, orbit: dict) -> dict | None:
-        """The flip nearest in value to an orbit of twice its period; None where there is none."""
-        flips = []
+    def _flip_near(self, orbit: dict, step: float) -> dict | None:
+        """The flip that is nearest to an orbit of twice its period, and not much farther than a step."""
+        nearest, least = None, BEYOND * step
         for branch in self.branches:
             for event in branch.events:
                 if event["kind"] == "flip" and 2 * event["period"] == orbit["period"]:
-                    flips.append(event)
-        return min(flips, key=lambda flip: abs(flip["value"] - orbit["value"]), default=None)
+                    away = self._distance(orbit, np.tile(event["seen"], (2, 1)), event["value"])
+                    if away < least:
+                        nearest, least = event, away
+        return nearest
+
+    def _distance(self, orbit: dict, seen, value: float) -> float:
+        """Of another orbit of its period, begun at any strobe, in what is seen and in the key."""
+        rows = np.array(orbit["seen"])
+        apart = min(np.linalg.norm(np.roll(seen, k, axis=0) - rows, axis=1).max() for k in range(len(rows)))
+        return float(np.hypot(apart, (orbit["value"] - value) / self.line.size))
 
     def _is_known(self, seed: Seed) -> bool:
-        """Whether an orbit lies on a branch; its motion is then one of that branch."""
+        """Whether an orbit lies on a branch, whose motion is then that of the seed, or its flip leads to a branch."""
+        if "leads_to" in seed.begins:
+            return True
         seen = np.array(seed.seen)
         for branch in self.branches:
             for chord in pairwise(branch.orbits):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap
-from campaigns.explore.tracing import sharper
+from campaigns.explore.tracing import followed, sharper
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.orbits.tables import tables
@@ -85,15 +85,42 @@ def test_both_sides_of_a_fold_are_one_branch_and_each_flip_begins_another(tmp_pa
     assert first.computed > 0 and second.computed == 0 and second.there == first.computed + first.there
 
 
-def test_a_flip_leads_to_the_branch_of_twice_its_period_that_meets_it(tmp_path):
+def bubble(z, a):
+    """x -> -(1 + e) x + x^3 with e = 0.9 - 9 a^2: flips at a = +-sqrt(0.1), between which +-sqrt(e) has period 2."""
+    x, y = z
+    slope = -(1.9 - 9.0 * a * a)
+    return np.array([slope * x + x**3, B * y]), lambda vectors: np.diag([slope + 3.0 * x * x, B]) @ vectors
+
+
+def test_a_branch_between_two_flips_is_followed_once_and_both_lead_to_it(tmp_path, monkeypatch):
+    """Also where its last orbits are so far from the flips that those which begin there lie on no chord of it."""
+
+    def met(line, value, points, most):
+        result, points_of = followed(line, value, points, most)
+        if len(points) == 2:
+            kept = [place for place, orbit in enumerate(result["orbits"]) if abs(orbit["seen"][0, 0]) > 0.1]
+            points_of, orbits = ([part[place] for place in kept] for part in (points_of, result["orbits"]))
+            result |= dict.fromkeys(("begins", "ends"), "meets the orbit of period 1") | {"orbits": orbits}
+        return result, points_of
+
+    monkeypatch.setattr("campaigns.orbits.tree.followed", met)
+    grown(tmp_path, starts=[("A", 0.45, 1, np.zeros((1, 2)))], line=HenonLine(low=-0.5, high=0.5, step=bubble))
+    assert [row["branch"] for row in rows_of(tmp_path, "branches/table.csv")] == ["1", "2"]
+    flips = rows_of(tmp_path, "events/table.csv")
+    assert [(flip["kind"], flip["leads_to"]) for flip in flips] == [("flip", "2")] * 2
+    assert sorted(float(flip["a"]) for flip in flips) == pytest.approx([-(0.1**0.5), 0.1**0.5], abs=1e-2)
+
+
+def test_a_branch_that_meets_no_flip_in_reach_leads_none(tmp_path):
     tree = Tree(Plan(Running(tmp_path, 1), None, None, ()), HenonLine(), 1, 1)
-    flip, nearer = ({"kind": "flip", "period": period, "value": value} for period, value in ((2, 0.4), (4, 0.5)))
-    ends = {"begins": "", "ends": ""}
-    once = {"events": [flip, nearer], "orbits": [{"period": 2, "value": 0.3}]} | ends
-    twice = {"events": [], "orbits": [{"period": 4, "value": 0.5}]} | ends | {"begins": "meets a flip"}
+    seen = np.array([[1.0, 0.0], [1.1, 0.0]])
+    near, far = ({"kind": "flip", "period": 1, "value": value, "seen": seen[:1]} for value in (0.45, 0.9))
+    once = {"events": [far, near], "orbits": [{"period": 1, "value": 0.3, "seen": seen[:1]}], "begins": "", "ends": ""}
+    orbits = [{"period": 2, "value": value, "seen": seen} for value in (0.5, 0.6)]
+    twice = {"events": [], "orbits": orbits, "begins": "meets a flip", "ends": "meets a flip"}
     tree.branches = [Branch("1", once, []), Branch("2", twice, [])]
     tree._meet()
-    assert flip["leads_to"] == "2" and "leads_to" not in nearer
+    assert near["leads_to"] == "2" and "leads_to" not in far
 
 
 def test_an_event_is_known_as_well_as_steps_and_a_finer_grid_agree(tmp_path, monkeypatch):
