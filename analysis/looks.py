@@ -125,6 +125,16 @@ def motion_regime(
     return Verdict(word, reason + _on_the_way(growth[:start]), tuple(evidence), period, len(x) - start, 0, start)
 
 
+def doubted(word: str, value: float, error: float) -> bool:
+    """Whether growth of the same motion on another grid (bits per period, standard error) speaks against a word.
+
+    Chaos takes growth by two errors; one error of growth makes a period doubtful. NaN says nothing.
+    """
+    if word == "chaotic":
+        return value <= LATER * error
+    return word.startswith("period") and value > error
+
+
 def looks(periods: int) -> Iterator[int]:
     """The looks at a run of so many periods; the last at its end where that is half-way to the next or further."""
     end = next_look()

@@ -170,6 +170,11 @@ def main(argv: list[str] | None = None) -> int:
         return 130
     for name, text in views.facts(run).items():
         print(f"{name:<9} {text}", flush=True)
+    _show_progress("the verdict on a finer grid")
+    doubt = views.doubt(run)
+    _show_progress("")
+    if doubt:
+        print(f"{'CHECK':<9} {doubt}", flush=True)
     if len(run.columns["time_s"]) > 1:
         _show(run, order.out)
     return 0 if run.status == "ok" else 1
@@ -179,7 +184,7 @@ def _until_verdict(scene, start):
     """The run of a buoy in regular waves, as long as its verdict needs, and MOST_PERIODS at most."""
     run, periods = None, 0
     while periods < MOST_PERIODS:
-        _show_progress(f"{periods} wave periods")
+        _show_progress(f"{periods} waves")
         look = min(views.look_after(periods), MOST_PERIODS)
         later = engine.simulate(scene, look - periods, start=run or start)
         run, periods = later if run is None else run.followed_by(later), look

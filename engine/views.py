@@ -36,6 +36,7 @@ PANELS = {  # of a figure over time -> the column that it shows, and its title
     "radius": ("radius_m", "distance r from the anchor (m)"),
     "angle": ("angle_rad", "angle θ from the vertical (rad)"),
 }
+FOLLOWED = 150  # periods over which a perturbation checks a verdict on a finer grid
 WHOLE_WINDOW = 12  # periods of a spectrum are a multiple of it: motions of period 2, 3, 4 and 6 then do not leak
 
 
@@ -198,6 +199,39 @@ def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) 
     if growth is None and result.regime == "undecided" and carries_tangents(run.scene):
         reasons.append("chaos and tori need output.tangent_vectors = 1")
     return replace(result, reason="; ".join(reasons))
+
+
+def doubt(run: "Trajectory") -> str:
+    """What a perturbation says against the verdict of a run, on twice the elements at a quarter of tolerance and step.
+
+    It goes on from the last state of the run for FOLLOWED waves. "" where it says nothing against the verdict, where
+    that is neither chaos nor a period, and where the line was never slack: then elements have nothing to fold.
+    """
+    from analysis import doubted, tangent_lyapunov
+    from analysis.tangent_growth import turned
+    from engine import simulate
+    from engine.scene import scene_from_toml
+
+    if not (_can_be_judged(run) and carried(run) and run.final_state and run.columns["tension_top_low_N"].min() <= 0.0):
+        return ""
+    scene, word = run.scene, verdict(run).regime
+    if word != "chaotic" and not word.startswith("period"):
+        return ""
+    nodes, step_s = 2 * scene.tether.nodes - 1, scene.solver.step_s
+    changes = {"tether.nodes": nodes, "solver.rtol": scene.solver.rtol / 4.0, "waves.ramp_s": 0.0}
+    if step_s:
+        changes["solver.step_s"] = step_s / 4.0
+    finer = simulate(scene_from_toml(scene.to_toml(), changes), FOLLOWED, start=run.final_state.at_zero())
+    if not carried(finer):
+        return ""
+    (growth,) = tangent_lyapunov(turned(finer.tangent.growth_nats[:, 0], FOLLOWED // 4))
+    if not doubted(word, growth.value, growth.error):
+        return ""
+    rate = f"{growth.value:+.2f} ± {growth.error:.2f} bits a wave"
+    return (
+        f"on {nodes} nodes with smaller steps perturbations grow by {rate}, so the regime may be another: use more "
+        "tether.nodes"
+    )
 
 
 def look_after(periods: int) -> int:

@@ -35,7 +35,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analysis import block_maxima, joins, tangent_lyapunov
+from analysis import block_maxima, doubted, joins, tangent_lyapunov
 from analysis.approaches import NEARER
 from analysis.snaps import NEAR_ZERO
 from analysis.tangent_growth import turned
@@ -49,7 +49,7 @@ from campaigns.judge import UNFOLLOWED, job_from, periods_of, samples_of
 from campaigns.machinery import TANGENTS, Job, Plan, Summary, orbits_in, run_of
 from engine import simulate
 from engine.run.rest import static_tension_N
-from engine.views import carried
+from engine.views import FOLLOWED, carried
 from tables import (
     CHAOTIC,
     COARSE,
@@ -85,7 +85,7 @@ USUAL = Column(
 COLUMNS = (FOR, OUTCOME, STATUS, PERIODS_RUN, USUAL, SLACK, *TANGENT, WALL_S, RUN_KEY, MESSAGE)
 REPEATING, OTHERS = 12, 40  # wave periods of a companion: at least, of a motion that repeats; of the others
 # wave periods of a companion with a perturbation: where one has decided the regime of the row, and where an orbit did
-GROWTH, GROWTH_AT_ORBIT = 150, 45
+GROWTH, GROWTH_AT_ORBIT = FOLLOWED, 45
 LEFT_OUT = 0.25  # of these: until it has forgotten that its grid was changed
 TIGHTER = 4  # times, as the square of an element
 LEAST = 5e-4  # of the largest tension
@@ -251,12 +251,7 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
 def words_of_growth(row: dict, companion: dict) -> list[str]:
     """What a reader has to be told where a perturbation of the companion grows otherwise than that of the row."""
     value, error = (number_of(companion, column.name) for column in TANGENT)
-    if not math.isfinite(value):
-        return []
-    agrees = value <= error
-    if row["regime"] == CHAOTIC:
-        agrees = value > 2.0 * error
-    if agrees:
+    if not doubted(row["regime"] or "", value, error):
         return []
     return [f"{CHANGED} {OTHER_GROWTH}: by {value:+.2f} ± {error:.2f} bits a wave"]
 

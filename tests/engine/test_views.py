@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from engine.__main__ import main
 from engine.natural_frequencies import axial_period_s, impact_Nspm
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
-from engine.views import facts
+from engine.views import FOLLOWED, doubt, facts
 from tests.engine.lines import line
 
 PERIODS, STEPS = 310, 100
@@ -78,6 +79,34 @@ def test_a_run_has_one_number_for_the_growth_of_its_perturbations(ratio, growth)
     exponent = run.exponent()
     for number in re.findall(r"(\S+ ± \S+) bits per period", str(run.verdict())):
         assert number == f"{exponent.value:.3f} ± {exponent.error:.3f}"
+
+
+@pytest.mark.parametrize(
+    ("ratio", "growth", "finer", "doubted"),
+    [
+        (0.5, -0.2, 0.3, True),
+        (0.5, -0.2, -0.3, False),
+        (GOLDEN, 0.3, -0.3, True),
+        (GOLDEN, 0.3, 0.2, False),
+        (GOLDEN, 0.0, 0.3, False),
+    ],
+)
+def test_growth_on_a_finer_grid_that_speaks_against_a_verdict_is_told(ratio, growth, finer, doubted, monkeypatch):
+    """Of a period and of chaos; a torus is not asked."""
+    asked = []
+
+    def simulate_finer(scene, periods, start):
+        asked.append((scene.tether.nodes, scene.solver.rtol, scene.waves.ramp_s, periods, start))
+        return moved(ratio, finer)
+
+    monkeypatch.setattr("engine.simulate", simulate_finer)
+    run = moved(ratio, growth, final_state=SimpleNamespace(at_zero=lambda: "last state"))
+    words = doubt(run)
+    assert asked == [(81, pytest.approx(0.03 / 4.0), 0.0, FOLLOWED, "last state")] * (growth != 0.0)
+    assert bool(words) == doubted and ("on 81 nodes" in words) == doubted
+    run.columns["tension_top_low_N"][:] = 100.0
+    asked.clear()
+    assert doubt(run) == "" and not asked, "a line that was never slack has nothing to fold"
 
 
 def test_a_column_is_told_by_its_name_or_refused_with_all_names():
