@@ -165,14 +165,14 @@ def main(argv: list[str] | None = None) -> int:
             length = order.periods, order.duration
             run = engine.simulate(order.scene, *length, lambda share: _show_progress(f"{share:.0%}"), order.start)
         _show_progress("")
+        for name, text in views.facts(run).items():
+            print(f"{name:<9} {text}", flush=True)
+        _show_progress("on a finer grid")
+        doubt = views.doubt(run)
+        _show_progress("")
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was written", file=sys.stderr)
         return 130
-    for name, text in views.facts(run).items():
-        print(f"{name:<9} {text}", flush=True)
-    _show_progress("the verdict on a finer grid")
-    doubt = views.doubt(run)
-    _show_progress("")
     if doubt:
         print(f"{'CHECK':<9} {doubt}", flush=True)
     if len(run.columns["time_s"]) > 1:

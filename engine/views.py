@@ -210,7 +210,7 @@ def doubt(run: "Trajectory") -> str:
     from analysis import doubted, tangent_lyapunov
     from analysis.tangent_growth import turned
     from engine import simulate
-    from engine.scene import scene_from_toml
+    from engine.scene import SceneError, scene_from_toml
 
     if not (_can_be_judged(run) and carried(run) and run.final_state and run.columns["tension_top_low_N"].min() <= 0.0):
         return ""
@@ -221,7 +221,11 @@ def doubt(run: "Trajectory") -> str:
     changes = {"tether.nodes": nodes, "solver.rtol": scene.solver.rtol / 4.0, "waves.ramp_s": 0.0}
     if step_s:
         changes["solver.step_s"] = step_s / 4.0
-    finer = simulate(scene_from_toml(scene.to_toml(), changes), FOLLOWED, start=run.final_state.at_zero())
+    try:
+        finer_scene = scene_from_toml(scene.to_toml(), changes)
+    except SceneError:  # no scene has so many nodes
+        return ""
+    finer = simulate(finer_scene, FOLLOWED, start=run.final_state.at_zero())
     if not carried(finer):
         return ""
     (growth,) = tangent_lyapunov(turned(finer.tangent.growth_nats[:, 0], FOLLOWED // 4))
