@@ -238,7 +238,15 @@ def motions(rows: Rows, key: str, symbol: str) -> str:
         values, words = numbers_of(members, key), [_regime(row) for row in members]
         head = f"{letter} at {symbol} = {_ends(values)}".lstrip()
         sentences.append(f"{head[:1].upper()}{head[1:]}: {_stretches(values, words)}.")
+    doubtful = _doubted(rows)
+    if doubtful:
+        sentences.append(f"In doubt at {_at(doubtful, rows, key)} (OPEN).")
     return " ".join(sentences)
+
+
+def _doubted(rows: Rows) -> list[Row]:
+    """Rows whose regime smaller elements and steps do not confirm."""
+    return [row for row in rows if OTHER_GROWTH in str(row.get("message"))]
 
 
 def _regime(row: Row) -> str:
@@ -331,7 +339,7 @@ def chaos(rows: Rows, key: str, symbol: str) -> str:
         if doubling:
             sentence += f": an error doubles in {span(doubling)} wave{'' if set(doubling) == {1.0} else 's'}"
         sentence += f". Chaotic at {symbol} = {_at(chaotic, judged, key)}"
-        doubtful = [row for row in chaotic if OTHER_GROWTH in str(row.get("message"))]
+        doubtful = _doubted(chaotic)
         if doubtful:
             place = f"at {_at(doubtful, judged, key)} " if len(doubtful) < len(chaotic) else ""
             sentence += f", but {place}smaller elements and steps do not confirm it"
