@@ -251,7 +251,7 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
 def words_of_growth(row: dict, companion: dict) -> list[str]:
     """What a reader has to be told where a perturbation of the companion grows otherwise than that of the row."""
     value, error = (number_of(companion, column.name) for column in TANGENT)
-    if not doubted(row["regime"] or "", value, error):
+    if not doubted(row.get("regime") or "", value, error):
         return []
     return [f"{CHANGED} {OTHER_GROWTH}: by {value:+.2f} ± {error:.2f} bits a wave"]
 

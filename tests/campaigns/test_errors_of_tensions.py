@@ -95,6 +95,7 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
         ("period-1", (0.11, 0.1), True),
         ("period-1", (-0.3, 0.1), False),
         ("chaotic", (np.nan, np.nan), False),
+        (None, (0.2, 0.1), False),
     ],
 )
 def test_growth_on_a_finer_grid_that_speaks_against_a_regime_is_told(regime, finer, told):
