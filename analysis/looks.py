@@ -125,13 +125,17 @@ def motion_regime(
     return Verdict(word, reason + _on_the_way(growth[:start]), tuple(evidence), period, len(x) - start, 0, start)
 
 
-def doubted(word: str, value: float, error: float) -> bool:
-    """Whether growth of the same motion on another grid (bits per period, standard error) speaks against a word.
+def doubted(word: str, growth: tuple[float, float], finer: tuple[float, float]) -> bool:
+    """Whether the growth of perturbations on a finer grid speaks against the word for a motion.
 
-    Chaos takes growth by two errors; one error of growth makes a period doubtful. NaN says nothing.
+    growth, finer: exponents with standard errors, bits per period. Chaos takes growth by two errors on the finer grid,
+    and one that does not fall there by two errors of the difference; growth by one error makes a period doubtful. NaN
+    says nothing.
     """
+    value, error = finer
     if word == "chaotic":
-        return value <= LATER * error
+        falls = growth[0] - value > LATER * math.hypot(growth[1], error)
+        return falls or value <= LATER * error
     return word.startswith("period") and value > error
 
 

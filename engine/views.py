@@ -229,7 +229,8 @@ def doubt(run: "Trajectory") -> str:
     if not carried(finer):
         return ""
     (growth,) = tangent_lyapunov(turned(finer.tangent.growth_nats[:, 0], FOLLOWED // 4))
-    if not doubted(word, growth.value, growth.error):
+    own = exponent(run)
+    if not doubted(word, (own.value, own.error), (growth.value, growth.error)):
         return ""
     rate = f"{growth.value:+.2f} ± {growth.error:.2f} bits a wave"
     return (

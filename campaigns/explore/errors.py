@@ -24,7 +24,7 @@ chaotic on few elements and not on many, or the other way round, while the buoy 
 
 All are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
 where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where a perturbation does
-not grow by two errors beside a chaotic row, or grows by one error beside a periodic one.
+not grow by two errors beside a chaotic row, or by two errors less, or grows by one error beside a periodic one.
 Rows of runs in three dimensions stay empty.
 """
 
@@ -250,9 +250,10 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
 
 def words_of_growth(row: dict, companion: dict) -> list[str]:
     """What a reader has to be told where a perturbation of the companion grows otherwise than that of the row."""
-    value, error = (number_of(companion, column.name) for column in TANGENT)
-    if not doubted(row.get("regime") or "", value, error):
+    growth, finer_growth = (tuple(number_of(entry, column.name) for column in TANGENT) for entry in (row, companion))
+    if not doubted(row.get("regime") or "", growth, finer_growth):
         return []
+    value, error = finer_growth
     return [f"{CHANGED} {OTHER_GROWTH}: by {value:+.2f} ± {error:.2f} bits a wave"]
 
 

@@ -91,6 +91,9 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
         ("chaotic", (0.21, 0.1), False),
         ("chaotic", (0.19, 0.1), True),
         ("chaotic", (-0.3, 0.1), True),
+        ("chaotic", (0.16, 0.04), False),
+        ("chaotic", (0.14, 0.04), True),
+        ("chaotic", (1.50, 0.04), False),
         ("period-1", (0.09, 0.1), False),
         ("period-1", (0.11, 0.1), True),
         ("period-1", (-0.3, 0.1), False),
@@ -99,11 +102,13 @@ def test_a_companion_that_leaves_the_motion_of_its_row_says_so(swing_m, outcome)
     ],
 )
 def test_growth_on_a_finer_grid_that_speaks_against_a_regime_is_told(regime, finer, told):
-    """Chaos takes growth by two errors; one error of growth makes a period doubtful."""
-    words = words_of_growth({"regime": regime}, dict(zip((TANGENT_EXPONENT, TANGENT_ERROR), finer, strict=True)))
+    """Chaos takes growth by two errors that is no less by two errors; one error of growth makes a period doubtful."""
+    names = TANGENT_EXPONENT, TANGENT_ERROR
+    row = {"regime": regime} | dict(zip(names, (0.25, 0.03), strict=True))
+    words = words_of_growth(row, dict(zip(names, finer, strict=True)))
     assert [OTHER_GROWTH in sentence for sentence in words] == [True] * told
     if told:
-        assert f"by {finer[0]:+.2f} ± 0.10 bits a wave" in words[0]
+        assert f"by {finer[0]:+.2f} ± {finer[1]:.2f} bits a wave" in words[0]
 
 
 def test_a_companion_tells_how_a_perturbation_grows():

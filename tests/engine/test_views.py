@@ -87,7 +87,8 @@ def test_a_run_has_one_number_for_the_growth_of_its_perturbations(ratio, growth)
         (0.5, -0.2, 0.3, True),
         (0.5, -0.2, -0.3, False),
         (GOLDEN, 0.3, -0.3, True),
-        (GOLDEN, 0.3, 0.2, False),
+        (GOLDEN, 0.3, 0.2, True),
+        (GOLDEN, 0.3, 0.4, False),
         (GOLDEN, 0.0, 0.3, False),
     ],
 )
