@@ -52,7 +52,7 @@ def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable) -> Ite
     if cheap:
         yield line("CHECK", f"{cheap} of {len(motions)} motions were classified by one test instead of two.")
     if any(row.get("regime") == CHAOTIC for row in motions):
-        yield line("CHECK", "chaos was found on one grid of the line; campaigns.sweep over one key looks on a finer one.")
+        yield line("CHECK", "chaos was found on one grid of the line; campaigns.sweep over a key looks on a finer one.")
     screened = len(coarse) - len(computed)
     if screened:
         yield line("OPEN", f"{screened} of {len(coarse)} cells were only screened with a massless tether.")
