@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tables import FAILS, PEAK, STATEMENTS, Row, Rows, any_rows, listed, number_of, verdict_counts
 
+CHAOS_OF_ONE_GRID = "Chaos was found on one grid of the line; campaigns.sweep over a key looks on a finer one."
 NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
 
 

@@ -4,11 +4,11 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from campaigns.answers import greatest, kilonewton
+from campaigns.answers import CHAOS_OF_ONE_GRID, greatest, kilonewton
 from campaigns.basins.grid import COLUMNS, PHASE
 from campaigns.explore.load import use_of
 from campaigns.explore.motions import from_rest
-from tables import PEAK, UNSETTLED, Row, Rows, listed, number_of, ranges
+from tables import CHAOTIC, PEAK, UNSETTLED, Row, Rows, listed, number_of, ranges
 
 NONE_FOUND = "No start has settled, so there is no motion to name."
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
@@ -51,6 +51,8 @@ def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows
         yield f"It depends on how it is computed: {'; '.join(unsure)}."
     else:
         yield "Each motion stays at a tenth of the tolerance and on a finer grid of the line."
+    if any(row["regime"] == CHAOTIC for row in motions):
+        yield CHAOS_OF_ONE_GRID
 
 
 def _of_motion(row: Row) -> str:

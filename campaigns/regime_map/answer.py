@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import filterfalse
 from operator import itemgetter
 
-from campaigns.answers import greatest, kilonewton, line, numbers_of
+from campaigns.answers import CHAOS_OF_ONE_GRID, greatest, kilonewton, line, numbers_of
 from campaigns.explore.grid import place_in
 from campaigns.explore.load import reasons, use_of
 from campaigns.regime_map.tables import RATIO
@@ -52,7 +52,7 @@ def sentences(cells: Rows, motions: Rows, keys: Columns, scene: Callable) -> Ite
     if cheap:
         yield line("CHECK", f"{cheap} of {len(motions)} motions were classified by one test instead of two.")
     if any(row.get("regime") == CHAOTIC for row in motions):
-        yield line("CHECK", "chaos was found on one grid of the line; campaigns.sweep over a key looks on a finer one.")
+        yield line("CHECK", CHAOS_OF_ONE_GRID)
     screened = len(coarse) - len(computed)
     if screened:
         yield line("OPEN", f"{screened} of {len(coarse)} cells were only screened with a massless tether.")

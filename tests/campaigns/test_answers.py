@@ -33,6 +33,7 @@ def test_basins_name_the_dangerous_motion_what_leads_to_it_and_what_is_not_sure(
     assert f"It depends on how it is computed: B is found {confirmed}." in answer
     assert "Each motion stays at a tenth of the tolerance" in basins()
     assert "A pulls hardest: no start of the grid leads to more" in basins(tension_top_max_N=3000.0)
+    assert "one grid" in basins(regime="chaotic") and "one grid" not in answer
 
 
 def test_orbits_are_told_with_errors_and_those_known_badly_apart():
