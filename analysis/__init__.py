@@ -21,7 +21,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "fatigue": ["damage_equivalent_load", "rainflow_cycles", "turning_points", "utilisation"],
         "growth": ["Growth", "envelope_of", "growth_or_bursts"],
         "line_spectra": ["LineSpectrum", "spectral_lines"],
-        "looks": ["doubted", "motion_regime", "next_look"],
+        "looks": ["growth_contradicts", "motion_regime", "next_look"],
         "memory": ["long_memory"],
         "motions": ["Settled", "Share", "distance", "grouped", "joins", "matched", "settled", "share_of"],
         "neighbours": ["NeighbourGrowth", "neighbour_growth"],

@@ -125,17 +125,18 @@ def motion_regime(
     return Verdict(word, reason + _on_the_way(growth[:start]), tuple(evidence), period, len(x) - start, 0, start)
 
 
-def doubted(word: str, growth: tuple[float, float], finer: tuple[float, float]) -> bool:
-    """Whether the growth of perturbations on a finer grid speaks against the word for a motion.
+def growth_contradicts(word: str, growth: tuple[float, float], finer: tuple[float, float]) -> bool:
+    """Whether perturbations grow on a finer grid in a way that contradicts the word for a motion.
 
-    growth, finer: exponents with standard errors, bits per period. Chaos takes growth by two errors on the finer grid,
-    and one that does not fall there by two errors of the difference; growth by one error makes a period doubtful. NaN
-    says nothing.
+    growth, finer: exponent and its standard error in bits per period, on the grid of the word and on the finer one.
+    "chaotic" is contradicted if the growth on the finer grid is not above zero by two errors, or is smaller than the
+    other by two errors of the difference. A period is contradicted if it is above zero by one error. NaN contradicts
+    nothing.
     """
     value, error = finer
     if word == "chaotic":
-        falls = growth[0] - value > LATER * math.hypot(growth[1], error)
-        return falls or value <= LATER * error
+        smaller = growth[0] - value > LATER * math.hypot(growth[1], error)
+        return smaller or value <= LATER * error
     return word.startswith("period") and value > error
 
 

@@ -168,7 +168,7 @@ def main(argv: list[str] | None = None) -> int:
         for name, text in views.facts(run).items():
             print(f"{name:<9} {text}", flush=True)
         _show_progress("on a finer grid")
-        doubt = views.doubt(run)
+        doubt = views.doubt_of_verdict(run)
         _show_progress("")
     except KeyboardInterrupt:
         print("\ninterrupted; nothing was written", file=sys.stderr)

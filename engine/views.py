@@ -201,41 +201,40 @@ def verdict(run: "Trajectory", tighter: "Mapping[int, Exponent] | None" = None) 
     return replace(result, reason="; ".join(reasons))
 
 
-def doubt(run: "Trajectory") -> str:
-    """What a perturbation says against the verdict of a run, on twice the elements at a quarter of tolerance and step.
+def doubt_of_verdict(run: "Trajectory") -> str:
+    """What speaks against the verdict of a run on twice the elements at a quarter of the tolerance, in words.
 
-    It goes on from the last state of the run for FOLLOWED waves. "" where it says nothing against the verdict, where
-    that is neither chaos nor a period, and where the line was never slack: then elements have nothing to fold.
+    The run goes on from its last state for FOLLOWED waves on the finer grid, and carries a perturbation. "" where this
+    contradicts nothing, where the verdict is neither chaos nor a period, and where the line was never slack: only the
+    folds of a slack line depend on the elements as much.
     """
-    from analysis import doubted, tangent_lyapunov
+    from analysis import growth_contradicts, tangent_lyapunov
     from analysis.tangent_growth import turned
     from engine import simulate
-    from engine.scene import SceneError, scene_from_toml
+    from engine.scene import SceneError
+    from engine.scene.finer import finer
 
-    if not (_can_be_judged(run) and carried(run) and run.final_state and run.columns["tension_top_low_N"].min() <= 0.0):
+    if not (_can_be_judged(run) and carried(run) and run.final_state):
         return ""
-    scene, word = run.scene, verdict(run).regime
-    if word != "chaotic" and not word.startswith("period"):
+    word = verdict(run).regime
+    told = word == "chaotic" or word.startswith("period")
+    if not told or run.columns["tension_top_low_N"].min() > 0.0:
         return ""
-    nodes, step_s = 2 * scene.tether.nodes - 1, scene.solver.step_s
-    changes = {"tether.nodes": nodes, "solver.rtol": scene.solver.rtol / 4.0, "waves.ramp_s": 0.0}
-    if step_s:
-        changes["solver.step_s"] = step_s / 4.0
     try:
-        finer_scene = scene_from_toml(scene.to_toml(), changes)
+        scene = finer(run.scene, elements=2, steps=4, changes={"waves.ramp_s": 0.0})
     except SceneError:  # no scene has so many nodes
         return ""
-    finer = simulate(finer_scene, FOLLOWED, start=run.final_state.at_zero())
-    if not carried(finer):
+    later = simulate(scene, FOLLOWED, start=run.final_state.at_zero())
+    if not carried(later):
         return ""
-    (growth,) = tangent_lyapunov(turned(finer.tangent.growth_nats[:, 0], FOLLOWED // 4))
+    (growth,) = tangent_lyapunov(turned(later.tangent.growth_nats[:, 0], FOLLOWED // 4))
     own = exponent(run)
-    if not doubted(word, (own.value, own.error), (growth.value, growth.error)):
+    if not growth_contradicts(word, (own.value, own.error), (growth.value, growth.error)):
         return ""
     rate = f"{growth.value:+.2f} ± {growth.error:.2f} bits a wave"
     return (
-        f"on {nodes} nodes with smaller steps perturbations grow by {rate}, so the regime may be another: use more "
-        "tether.nodes"
+        f"on {scene.tether.nodes} nodes with smaller steps perturbations grow by {rate}, so the regime may be another: "
+        "use more tether.nodes"
     )
 
 

@@ -24,7 +24,7 @@ STRAIGHT = 0.9  # least cosine between tangents of neighbours
 NEAR = 0.5  # longest correction, in steps
 GROW, FEW = 1.5, 3
 ON_CHORD = 0.2  # distance from a chord, in its lengths
-BEGUN = "it was not followed that way"
+NOT_FOLLOWED = "it was not followed that way"
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +72,8 @@ def follow_branch(
     most                   orbits each way
     count                  as in `find_orbit`
     accuracy               of events, in lengths of a step
-    ahead                  0: both ways; 1, -1: only from the orbit to where the parameter first grows, falls
-    enough                 is asked after every orbit, with it and the events so far that way, whether to end there
+    ahead                  0: both ways; 1: only the way on which the parameter grows at first; -1: on which it falls
+    enough                 called after each orbit, with this orbit and all events so far that way; True ends the branch
     Returns a Branch. Where it cannot be followed farther, its ends say why: it raises nothing for that.
     Raises ValueError for an orbit that was not found, and for one outside of the range.
     """
@@ -82,7 +82,8 @@ def follow_branch(
     step = checked_positive(step, "step")
     follower = _Follower(system, low, high, least, longest, most, count, accuracy, enough)
     first = follower.place(orbit)
-    places, events, closed, begin, end = [first], [], False, BEGUN, BEGUN
+    places, events, closed = [first], [], False
+    begin = end = NOT_FOLLOWED
     if ahead >= 0:
         further, events, end, closed = follower.one_way(first, step)
         places += further

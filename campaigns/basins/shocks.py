@@ -12,7 +12,7 @@ from typing import NamedTuple
 from campaigns.basins.exploration import Exploration
 from campaigns.explore.motions import MOTION, Motion, write_part
 from campaigns.explore.starts import KICKS
-from campaigns.finer import finer
+from engine.scene.finer import finer
 from tables import MESSAGE, NODES, STATUS, Column, Row
 
 FIRST = 24  # smallest starts of the grid that lead there: on the finer grid some of them may not

@@ -56,7 +56,7 @@ OPEN_REASONS = {
     TRANSIENT: f"the motion still changes when the run ends ({LONGER})",
 }
 BESIDE_A_PERIOD = f"chaos stands beside a period and may be a long transient ({LONGER})"
-FINER = {  # words of a message -> what is said of its row
+ON_A_FINER_GRID = {  # words of a message -> what is said of its row
     OTHER_MOTION: "smaller elements and steps give another motion (more tether.nodes decide)",
     OTHER_GROWTH: "smaller elements and steps may give another regime (column message; more tether.nodes decide)",
 }
@@ -238,13 +238,13 @@ def motions(rows: Rows, key: str, symbol: str) -> str:
         values, words = numbers_of(members, key), [_regime(row) for row in members]
         head = f"{letter} at {symbol} = {_ends(values)}".lstrip()
         sentences.append(f"{head[:1].upper()}{head[1:]}: {_stretches(values, words)}.")
-    doubtful = _doubted(rows)
+    doubtful = _in_doubt(rows)
     if doubtful:
         sentences.append(f"In doubt at {_at(doubtful, rows, key)} (OPEN).")
     return " ".join(sentences)
 
 
-def _doubted(rows: Rows) -> list[Row]:
+def _in_doubt(rows: Rows) -> list[Row]:
     """Rows whose regime smaller elements and steps do not confirm."""
     return [row for row in rows if OTHER_GROWTH in str(row.get("message"))]
 
@@ -337,12 +337,17 @@ def chaos(rows: Rows, key: str, symbol: str) -> str:
         doubling = [float(f"{1.0 / exponent:.2g}") for exponent in exponents if exponent > 0.0]
         sentence = f"largest exponent{method} {span(exponents)} bits a wave (± {max(numbers_of(known, error)):.2g})"
         if doubling:
-            sentence += f": an error doubles in {span(doubling)} wave{'' if set(doubling) == {1.0} else 's'}"
+            waves = "waves"
+            if set(doubling) == {1.0}:
+                waves = "wave"
+            sentence += f": an error doubles in {span(doubling)} {waves}"
         sentence += f". Chaotic at {symbol} = {_at(chaotic, judged, key)}"
-        doubtful = _doubted(chaotic)
+        doubtful = _in_doubt(chaotic)
         if doubtful:
-            place = f"at {_at(doubtful, judged, key)} " if len(doubtful) < len(chaotic) else ""
-            sentence += f", but {place}smaller elements and steps do not confirm it"
+            sentence += ", but "
+            if len(doubtful) < len(chaotic):
+                sentence += f"at {_at(doubtful, judged, key)} "
+            sentence += "smaller elements and steps do not confirm it"
         sentences.append(f"{sentence}.")
         break
     growing = []
@@ -378,7 +383,7 @@ def undecided(rows: Rows, key: str, symbol: str, scene) -> str:
     for word, reason in OPEN_REASONS.items():
         doubts[reason] = [row for row in good if row.get("regime") == word]
     doubts[BESIDE_A_PERIOD] = _chaos_beside_period(good)
-    for words, reason in FINER.items():
+    for words, reason in ON_A_FINER_GRID.items():
         doubts[reason] = [row for row in good if words in str(row.get("message"))]
     for reason, group in doubts.items():
         if group:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from analysis import distance
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, write_part
 from campaigns.explore.starts import Ending, Request, Start
-from campaigns.finer import finer
+from engine.scene.finer import finer
 from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep

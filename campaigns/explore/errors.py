@@ -22,9 +22,9 @@ the companion had less than a quarter of the error, where chance does not decide
 The companion of a chaotic row, and of a periodic one whose line goes slack, carries a perturbation: a slack line may be
 chaotic on few elements and not on many, or the other way round, while the buoy repeats.
 
-All are of the motion of the row. `message` says where its companion leaves that, where E is above COARSE of T_max, and
-where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where a perturbation does
-not grow by two errors beside a chaotic row, or by two errors less, or grows by one error beside a periodic one.
+All are of the motion of the row. `message` says where its companion leaves that motion, where E is above COARSE of
+T_max, where E_slack is above SLACK_COARSE and chi' further from chi than the stretches scatter, and where the growth of
+the perturbation contradicts the regime (`analysis.growth_contradicts`).
 Rows of runs in three dimensions stay empty.
 """
 
@@ -35,7 +35,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analysis import block_maxima, doubted, joins, tangent_lyapunov
+from analysis import block_maxima, growth_contradicts, joins, tangent_lyapunov
 from analysis.approaches import NEARER
 from analysis.snaps import NEAR_ZERO
 from analysis.tangent_growth import turned
@@ -44,11 +44,11 @@ from campaigns.explore.batches import batch
 from campaigns.explore.multipliers import orbit_ahead
 from campaigns.explore.rows import ERROR, SLACK, SLACK_ERROR, TANGENT, exponents
 from campaigns.explore.starts import OUTCOME, reached, section_of
-from campaigns.finer import finer
 from campaigns.judge import UNFOLLOWED, job_from, periods_of, samples_of
 from campaigns.machinery import TANGENTS, Job, Plan, Summary, orbits_in, run_of
 from engine import simulate
 from engine.run.rest import static_tension_N
+from engine.scene.finer import finer
 from engine.views import FOLLOWED, carried
 from tables import (
     CHAOTIC,
@@ -138,9 +138,9 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     if transient is None or run is None:
         return None
     orbits = orbits_in(plan.out)
-    period, followed = _period(row), _periods_of_growth(row)
+    period, periods_of_growth = _period(row), _periods_of_growth(row)
     changes = UNFOLLOWED | {"waves.ramp_s": 0.0}  # the waves of the last state have grown
-    if followed:
+    if periods_of_growth:
         changes[TANGENTS] = 1
     scene = finer(run.scene, elements=2, steps=TIGHTER, changes=changes)
     if period and f"{NEARER}: " in (row.get("evidence") or ""):
@@ -150,7 +150,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     length, motion = OTHERS, None
     if period:
         length = max(REPEATING, 3 * period)
-    length = max(length, followed)
+    length = max(length, periods_of_growth)
     if row.get("regime"):
         motion = reached(run, orbits)
     length = min(length, round(row["periods"]))
@@ -168,7 +168,9 @@ def _periods_of_growth(row: dict) -> int:
         return 0
     if math.isfinite(number_of(row, TANGENT_EXPONENT)):
         return GROWTH
-    return GROWTH_AT_ORBIT if number_of(row, SLACK.name) > 0.0 else 0
+    if number_of(row, SLACK.name) > 0.0:
+        return GROWTH_AT_ORBIT
+    return 0
 
 
 def companion_row(trajectory, period: int | None = None, motion=None) -> Row:
@@ -249,12 +251,17 @@ def error_N(row: dict, usual_N: float, companion: dict) -> tuple[float, list]:
 
 
 def words_of_growth(row: dict, companion: dict) -> list[str]:
-    """What a reader has to be told where a perturbation of the companion grows otherwise than that of the row."""
-    growth, finer_growth = (tuple(number_of(entry, column.name) for column in TANGENT) for entry in (row, companion))
-    if not doubted(row.get("regime") or "", growth, finer_growth):
+    """What a reader has to be told where the growth of a perturbation on the finer grid contradicts the regime."""
+    value, error = _growth_of(companion)
+    if not growth_contradicts(row.get("regime") or "", _growth_of(row), (value, error)):
         return []
-    value, error = finer_growth
     return [f"{CHANGED} {OTHER_GROWTH}: by {value:+.2f} ± {error:.2f} bits a wave"]
+
+
+def _growth_of(row: dict) -> tuple[float, float]:
+    """The exponent of a row, and its standard error."""
+    value, error = TANGENT
+    return number_of(row, value.name), number_of(row, error.name)
 
 
 def _period(row: dict) -> int | None:

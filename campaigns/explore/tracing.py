@@ -214,15 +214,18 @@ def _event_near(line: Line, kind: str, at: float, value: float, points: np.ndarr
     orbit = _found(system, points, value, len(points))
     wide = max(AROUND * abs(at - value), NEAREST * line.size)
     low, high = max(at - wide, line.low), min(at + wide, line.high)
-    limits = {"most": MOST_SHORT, "enough": lambda _, events: kind in [event.kind for event in events]}
+
+    def has_event(_, events) -> bool:
+        return any(event.kind == kind for event in events)
+
+    limits = SHORT | LOCATED | {"most": MOST_SHORT, "enough": has_event}
     events = []
     towards = 1 if at > value else -1
-    for ahead in (towards, -towards):  # the other way only where the event may lie behind the orbit on this line
-        ways = SHORT | LOCATED | limits | {"ahead": ahead}
-        branch = follow_branch(system, orbit, min(low, value), max(high, value), **ways)
+    for ahead in (towards, -towards):
+        branch = follow_branch(system, orbit, min(low, value), max(high, value), ahead=ahead, **limits)
         events += [event for event in branch.events if event.kind == kind]
         if any(abs(event.parameter - at) < abs(value - at) for event in events):
-            break
+            break  # else it may have moved to the other side of the orbit
     return _nearest(events, at, f"no {kind} from {low:.5g} to {high:.5g}"), []
 
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import engine.scene
-from campaigns.finer import finer
+from engine.scene.finer import finer
 from engine.views import carried, carries_tangents
 from tables import OPEN, UNSETTLED
 

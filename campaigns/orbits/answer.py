@@ -40,8 +40,12 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence]) -
             if row["motion"]:
                 name = f"motion {row['motion']}"
             words[f"{name} ({row['message']})"] += 1
-        counted = [f"{times} times {text}" if times > 1 else text for text, times in words.items()]
-        yield f"Without a branch: {listed(counted)}."
+        parts = []
+        for text, times in words.items():
+            if times > 1:
+                text = f"{times} times {text}"
+            parts.append(text)
+        yield f"Without a branch: {listed(parts)}."
 
 
 def _is_stable(orbit: Row) -> bool:

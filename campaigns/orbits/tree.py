@@ -106,14 +106,14 @@ class Tree:
 
         The first of each period, and as many as there are jobs: two seeds of one period may lie on one branch.
         """
-        of_periods = {}
+        first_of_period = {}
         for seed in seeds:
-            of_periods.setdefault(seed.period, seed)
-        first = [*of_periods.values()]
+            first_of_period.setdefault(seed.period, seed)
+        first = [*first_of_period.values()]
         others = [seed for seed in seeds if seed not in first]
-        room = min(max(self.plan.how.jobs, len(first)), self.room - len(self.branches))
-        chosen = [*first, *others][:room]
-        return chosen, [seed for seed in seeds if seed not in chosen]
+        most = min(max(self.plan.how.jobs, len(first)), self.room - len(self.branches))
+        ordered = first + others
+        return ordered[:most], ordered[most:]
 
     def _seeds(self, starts: Sequence[tuple]) -> list[Seed]:
         """The orbits under runs."""
@@ -146,8 +146,10 @@ class Tree:
         for branch in self.branches:
             for end, orbits in (("begins", branch.orbits), ("ends", branch.orbits[::-1])):
                 if "meets" in branch.result[end]:
-                    steps = [self._distance(orbits[0], orbit["seen"], orbit["value"]) for orbit in orbits[1:2]]
-                    flip = self._flip_near(orbits[0], max([STEPS["step"], *steps]))
+                    step = STEPS["step"]
+                    if len(orbits) > 1:
+                        step = max(step, _apart(orbits[0], orbits[1], self.line.size))
+                    flip = self._flip_near(orbits[0], step)
                     if flip is not None:
                         flip.setdefault("leads_to", branch.name)
 
@@ -156,20 +158,14 @@ class Tree:
         nearest, least = None, BEYOND * step
         for branch in self.branches:
             for event in branch.events:
-                if event["kind"] == "flip" and 2 * event["period"] == orbit["period"]:
-                    away = self._distance(orbit, np.tile(event["seen"], (2, 1)), event["value"])
+                if event["kind"] == "flip":
+                    away = _apart(orbit, event, self.line.size, rounds=2)
                     if away < least:
                         nearest, least = event, away
         return nearest
 
-    def _distance(self, orbit: dict, seen, value: float) -> float:
-        """Of another orbit of its period, begun at any strobe, in what is seen and in the key."""
-        rows = np.array(orbit["seen"])
-        apart = min(np.linalg.norm(np.roll(seen, k, axis=0) - rows, axis=1).max() for k in range(len(rows)))
-        return float(np.hypot(apart, (orbit["value"] - value) / self.line.size))
-
     def _is_known(self, seed: Seed) -> bool:
-        """Whether an orbit lies on a branch, whose motion is then that of the seed, or its flip leads to a branch."""
+        """Whether the orbit of a seed lies on a branch, which then takes its motion, or its flip leads to a branch."""
         if "leads_to" in seed.begins:
             return True
         seen = np.array(seed.seen)
@@ -267,12 +263,16 @@ def _crossings(branch: Branch, value: float) -> list[int]:
     return places
 
 
-def _apart(orbit: dict, event: dict, size: float) -> float:
-    """Distance of an orbit of a branch from an event on it, in what is seen; other periods are infinitely far."""
-    if orbit["period"] != event["period"]:
+def _apart(orbit: dict, other: dict, size: float, rounds: int = 1) -> float:
+    """Distance of an orbit from another one, or from an event, in what is seen and in the key.
+
+    The other one is run through so many times; it may begin at any strobe. Other periods are infinitely far.
+    """
+    if orbit["period"] != rounds * other["period"]:
         return np.inf
-    distance = np.linalg.norm(np.array(orbit["seen"]) - np.array(event["seen"]), axis=1).max()
-    return float(np.hypot(distance, (orbit["value"] - event["value"]) / size))
+    rows, seen = np.array(orbit["seen"]), np.tile(other["seen"], (rounds, 1))
+    distance = min(np.linalg.norm(np.roll(seen, k, axis=0) - rows, axis=1).max() for k in range(len(rows)))
+    return float(np.hypot(distance, (orbit["value"] - other["value"]) / size))
 
 
 def _same(seen, candidate) -> bool:

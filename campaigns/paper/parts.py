@@ -56,7 +56,6 @@ SOURCES = (
     "campaigns/explore",
     "campaigns/answers.py",
     "campaigns/figure_data.py",
-    "campaigns/finer.py",
     "campaigns/judge.py",
     "campaigns/statements.py",
     "campaigns/study.py",

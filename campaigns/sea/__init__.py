@@ -22,9 +22,9 @@ from functools import partial
 
 from campaigns.explore.grid import Grid, grid_of
 from campaigns.explore.sweep import kick_speed, table_of
-from campaigns.finer import finer
 from campaigns.machinery import TANGENTS, Job, Jobs, Plan, Summary, cli, run
 from campaigns.study import Measures, Order, Study
+from engine.scene.finer import finer
 from engine.views import carries_tangents
 from tables import LARGE, Row, Rows, names
 

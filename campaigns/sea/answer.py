@@ -9,6 +9,7 @@ from campaigns.sea.cells import WELL_ABOVE
 from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows
 
 SCATTERED = 0.05  # of the largest tension: a larger difference of runs in the same waves is reported
+ROUNDED_UP = 1.05  # times a number, in print with two digits: no less than the number
 FAILED = "No run ended, so there is nothing to say of this sea."
 
 
@@ -147,7 +148,7 @@ def _doubts(cell: Row, options) -> Iterator[str]:
     if noise * WELL_ABOVE > options.distance:
         yield (
             f"Starts that are together are still {noise:.2g} of the motion apart, by the steps of the solver: use a "
-            f"smaller solver.rtol, or --distance above {1.05 * WELL_ABOVE * noise:.2g}."
+            f"smaller solver.rtol, or --distance above {ROUNDED_UP * WELL_ABOVE * noise:.2g}."
         )
 
 

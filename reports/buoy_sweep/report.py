@@ -129,7 +129,7 @@ def _numerical_limits(sweep: Sweep) -> Iterator[Limit]:
         sweep.runs_with(lambda run: OTHER_MOTION in (run["message"] or "")),
     )
     yield (
-        "with smaller elements and steps perturbations grow where they shrank, or no longer do (column message)",
+        "with smaller elements and steps perturbations grow otherwise, so the regime may be another (column message)",
         sweep.runs_with(lambda run: OTHER_GROWTH in (run["message"] or "")),
     )
     yield (

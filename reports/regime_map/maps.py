@@ -61,7 +61,7 @@ def read_atlas(folder: Folder) -> Atlas | None:
     """The maps of a folder; None where it has no cell that can be read."""
     part = folder.part("cells")
     axes = [name.removeprefix("width_") for name in part.columns if name.startswith("width_")]
-    if len(axes) != 2 or not {*axes, "level", "source", "regime_rest"} <= set(part.columns):
+    if not part.table or len(axes) != 2 or not {*axes, "level", "source", "regime_rest"} <= set(part.columns):
         return None
     keys = [part.columns[name] for name in axes]
     first = next(iter(part.columns))

@@ -9,12 +9,12 @@ from campaigns import orbits
 from campaigns.explore.grid import varied
 from campaigns.explore.motions import MOTION
 from campaigns.explore.tracing import Line, Scenes, line_task, work
-from campaigns.finer import finer
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.orbits import main
 from campaigns.orbits.tree import _on, _same
 from engine import load_scene, simulate
+from engine.scene.finer import finer
 from reports.orbits.report import report
 from reports.parts.content import Figure, Table
 from tables import RUN_KEY, write_table

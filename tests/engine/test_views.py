@@ -12,7 +12,7 @@ from engine.__main__ import main
 from engine.natural_frequencies import axial_period_s, impact_Nspm
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
-from engine.views import FOLLOWED, doubt, facts
+from engine.views import FOLLOWED, doubt_of_verdict, facts
 from tests.engine.lines import line
 
 PERIODS, STEPS = 310, 100
@@ -102,12 +102,12 @@ def test_growth_on_a_finer_grid_that_speaks_against_a_verdict_is_told(ratio, gro
 
     monkeypatch.setattr("engine.simulate", simulate_finer)
     run = moved(ratio, growth, final_state=SimpleNamespace(at_zero=lambda: "last state"))
-    words = doubt(run)
+    words = doubt_of_verdict(run)
     assert asked == [(81, pytest.approx(0.03 / 4.0), 0.0, FOLLOWED, "last state")] * (growth != 0.0)
     assert bool(words) == doubted and ("on 81 nodes" in words) == doubted
     run.columns["tension_top_low_N"][:] = 100.0
     asked.clear()
-    assert doubt(run) == "" and not asked, "a line that was never slack has nothing to fold"
+    assert doubt_of_verdict(run) == "" and not asked, "a line that was never slack has nothing to fold"
 
 
 def test_a_column_is_told_by_its_name_or_refused_with_all_names():
