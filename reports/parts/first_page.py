@@ -10,8 +10,8 @@ from tables import ANSWER, any_rows, count, number, number_of, printed
 from .content import Bullets, Heading, Items, Report, Table, Text, heads, strong, with_subscripts
 from .provenance import APPENDIX
 
-# an option of a command, with a value that follows it: N, 4 or KEY=VALUE
-_OPTION = re.compile(r"(?<![\w`-])--[a-z][a-z-]*( ([A-Z]\b|\d+\b|[\w.]+=[\w.-]*\w))?")
+# an option of a command, and N or a number behind it; KEY=VALUE would make the code too long for a narrow page
+_OPTION = re.compile(r"(?<![\w`-])--[a-z][a-z-]*( ([A-Z]|\d+)\b)?")
 
 
 def opened(report: Report, directory: Path, provenance: Mapping) -> Report:
