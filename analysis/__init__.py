@@ -23,7 +23,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "line_spectra": ["LineSpectrum", "spectral_lines"],
         "looks": ["growth_contradicts", "motion_regime", "next_look"],
         "memory": ["long_memory"],
-        "motions": ["Settled", "Share", "distance", "grouped", "joins", "matched", "settled", "share_of"],
+        "motions": ["Settled", "Share", "distance", "grouped", "joins", "matched", "remains", "settled", "share_of"],
         "neighbours": ["NeighbourGrowth", "neighbour_growth"],
         "orbit_diagrams": ["DensityImage", "OrbitDiagram", "density_image", "orbit_diagram", "scale_density"],
         "periods": ["PeriodEstimate", "detect_period"],

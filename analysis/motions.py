@@ -30,6 +30,7 @@ LIKE = 1.5  # distance across two windows, in distances of neighbours within
 COMES_NEARER = 0.7  # what is left, in the later half, of the steps towards a period or of the distance from an orbit
 CLOSE = 20.0  # tolerances within which steps towards a period count
 LAST = 8  # rows that have to lie in a cloud, or beyond one period near an orbit
+ENDED = 1e-3  # a step from round to round below which it has none
 THERE = 0.02  # distance from an orbit at which a run need not come nearer
 DECAY, FADES = 12, 0.1  # periods of a window of a decay, and the least share of the distance that it loses in one
 AS_CLOSE = 2.0  # mean distance of the last rows from a cloud, in distances of its neighbours
@@ -129,6 +130,29 @@ def joins(strobed: ArrayLike, measures: ArrayLike, known: Sequence[Settled], *, 
         if mean_distance is not None:
             reached[index] = mean_distance
     return min(reached, key=reached.get, default=None)
+
+
+def remains(strobed: ArrayLike, measures: ArrayLike, motion: Settled, *, threshold: float = APART) -> bool:
+    """Whether a run that began on a motion is on it still, although its system has been changed a little.
+
+    It has joined the motion (`joins`). Or the orbit has moved with the system: the last `period + 8` rows lie within
+    the threshold of the old one, and their steps from round to round have ended or die out.
+
+    strobed (n + 1, d), measures (n, e)   of the run, as in `settled`
+    Raises as `joins`.
+    """
+    if joins(strobed, measures, [motion]) is not None:
+        return True
+    if not motion.period:
+        return False
+    count = motion.period + LAST
+    x, e = checked_columns(strobed[-count - 1 :], "strobed"), checked_columns(measures[-count:], "measures")
+    if len(e) < count or _off_orbit(x, e, motion, count, count).max() > threshold:
+        return False
+    rows = _rows(x[:-1], e, motion.scale, _size(motion.measures))
+    steps = rows[motion.period :] - rows[: -motion.period]
+    early, late = _rms(steps[: LAST // 2]), _rms(steps[-(LAST // 2) :])
+    return bool(late <= max(COMES_NEARER * early, ENDED))
 
 
 def distance(a: Settled, b: Settled) -> float:

@@ -35,7 +35,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from analysis import block_maxima, growth_contradicts, joins, tangent_lyapunov
+from analysis import block_maxima, growth_contradicts, remains, tangent_lyapunov
 from analysis.approaches import NEARER
 from analysis.snaps import NEAR_ZERO
 from analysis.tangent_growth import turned
@@ -188,7 +188,7 @@ def companion_row(trajectory, period: int | None = None, motion=None) -> Row:
         if motion is not None:
             strobed, measures, _ = section_of(trajectory)
             row[OUTCOME.name] = JOINED
-            if joins(strobed, measures, [motion]) is None:
+            if not remains(strobed, measures, motion):
                 row[OUTCOME.name] = UNSETTLED
     return row
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import Settled, distance, grouped, joins, matched, settled, share_of
+from analysis import Settled, distance, grouped, joins, matched, remains, settled, share_of
 from tests.analysis.systems import circle_map, henon, wells
 
 PERIODS = 200
@@ -105,6 +105,24 @@ def test_a_decay_is_joined_where_its_geometric_limit_is_the_orbit(limit, reached
     """Three windows of a dozen periods, at distances of limit + 0.4, limit + 0.2 and limit + 0.1."""
     x = np.append(np.repeat(limit + np.array([0.4, 0.2, 0.1]), 12), limit + 0.1)[:, None]
     assert joins(x, np.ones((36, 1)), [motion_at(0.0)]) == reached
+
+
+PASSED = np.arange(13.0)
+
+
+@pytest.mark.parametrize(
+    ("distance_from_orbit", "is_there"),
+    [
+        (0.06 * (1.0 - 0.6**PASSED), True),  # its orbit has moved by 0.06
+        (0.12 * (1.0 - 0.6**PASSED), False),  # another orbit
+        (0.03 * 1.1**PASSED, False),  # leaves an orbit that repels
+        (0.007 * PASSED, False),  # goes on
+    ],
+)
+def test_a_run_remains_on_an_orbit_that_has_moved_a_little(distance_from_orbit, is_there):
+    x, measures, orbit = distance_from_orbit[:, None], np.ones((12, 1)), motion_at(0.0)
+    assert joins(x, measures, [orbit]) is None
+    assert remains(x, measures, orbit) == is_there
 
 
 @pytest.mark.parametrize(("confidence", "z"), [(0.95, 1.959964), (0.99, 2.575829)])
