@@ -12,7 +12,7 @@ from ..record import arc_lengths, is_spatial
 from ..scene.models import Scene
 from ..spatial import lift
 from ..time.held_start import held_away, why_not_held
-from ..time.statics import static_equilibrium, why_no_rest
+from ..time.statics import largest_turn, static_equilibrium, why_no_rest
 from ..time.status import OK, STATICS_FAILED, TURN_UNRESOLVED
 from ..trajectory.columns import Columns
 
@@ -52,11 +52,6 @@ def rest_of(scene: Scene) -> Rest:
         status = TURN_UNRESOLVED
     words = fault(record, scene) if status == STATICS_FAILED else ""
     return Rest(status, words, Y, tension_at(float(Y[-1, EPS]), scene.tether.tension), turn)
-
-
-def largest_turn(Y: np.ndarray) -> float:
-    """Largest turn (rad) in one element of a state (n, 6 or 13)."""
-    return float(np.abs(np.diff(Y[:, PHI])).max() if Y.shape[1] == 6 else lift.turns(Y).max())
 
 
 def static_tension_N(scene: Scene, columns: Columns) -> float:

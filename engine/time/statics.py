@@ -68,7 +68,7 @@ def _least_pressed(record, scene, tables):
         if code != OK and not bedded:
             break
         least = tension_at(float(Y[:, col.EPS].min()), scene.tether.tension) if code == OK else -math.inf
-        folded = bedded and _folded(Y)
+        folded = bedded and _folded(record, Y)
         if least >= -weight and not folded:
             return OK, Y
         if best is None or (not folded, least) > best[:2]:
@@ -88,7 +88,7 @@ def _rest(record, scene, tables, span, sinking):
         found = _settle_on_bed(record, scene, tables, Y, sinking)
         if found == OK or best is None:
             code, best = found, Y
-        if found == OK and not _folded(Y):
+        if found == OK and not _folded(record, Y):
             break
     return code, best
 
@@ -117,8 +117,15 @@ def _rest_in_plane(record, scene, h, span, sinking):
     return lift.state_in_space(record, h, Y, _azimuth(scene, record))
 
 
-def _folded(Y):
-    """Does a line turn by more than a right angle in one element?"""
+def largest_turn(Y: np.ndarray) -> float:
+    """Largest turn (rad) in one element of a state (n, 6 or 13)."""
+    return float(np.abs(np.diff(Y[:, col.PHI])).max() if Y.shape[1] == 6 else lift.turns(Y).max())
+
+
+def _folded(record, Y):
+    """Does a line turn by more than a right angle in one element? Without bending a whole turn is none."""
+    if record["bent"]:
+        return largest_turn(Y) > 0.5 * math.pi
     q = lift.stretch_vectors(Y)
     return bool(np.min(np.sum(q[1:] * q[:-1], axis=1)) < 0.0)
 
@@ -219,12 +226,16 @@ def _in_plane(record, scene, h, force, span):
         x = math.hypot(x, y) if is_spatial(record) else x  # along its azimuth
         if span == HANGING and math.hypot(x, z) < length:
             return _catenary(Y, s, x, z, record["w0"], scene.tether.tension)
-        return _to_a_place(Y, s, x, z, record["w0"])
+        below = (
+            1.0 if (record["w0"] >= 0) == (x >= 0) else -1.0
+        )  # a heavy line hangs below the chord, a light one above
+        return _to_a_place(Y, s, x, z, below)
     up, height = afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
+    downstream = _downstream(scene.current) or (1.0 if record["w0"] >= 0 else -1.0)
     if height is not None:
-        leaning = span == LEANING
-        x = math.sqrt(max(length**2 - height**2, 0.0)) if leaning else 0.0
-        return _to_a_place(Y, s, x, height if leaning else min(height, span * length), record["w0"])
+        if span == LEANING:
+            return _to_a_place(Y, s, downstream * math.sqrt(max(length**2 - height**2, 0.0)), height, downstream)
+        return _to_a_place(Y, s, 0.0, min(height, span * length), downstream)
     Nx = np.full(len(s), force[0] if record["end"] == FREE else 0.0)
     Nz = up - record["w0"] * (length - s)
     T = np.hypot(Nx, Nz)
@@ -238,8 +249,20 @@ def _in_plane(record, scene, h, force, span):
     return Y
 
 
-def _to_a_place(Y, s, x, z, w0):
-    """A line stretched straight from the anchor to (x, z), m, or bent to an arc."""
+def _downstream(current):
+    """1.0 or -1.0: the way along x in which a current flows on the whole; 0.0 where it flows in none.
+
+    The bight of a slack line lies there. One that begins upstream may settle with a whole turn in an element.
+    """
+    if current is None:
+        return 0.0
+    along = current.velocity_x_mps if current.law == "table" else np.atleast_2d(current.velocity_mps)[:, 0]
+    return float(np.sign(np.mean(along)))
+
+
+def _to_a_place(Y, s, x, z, sag):
+    """A line stretched straight from the anchor to (x, z), m, or bent to an arc; sag: 1.0 for a bight on the right of
+    the way there, -1.0 on the left."""
     length, chord = s[-1], math.hypot(x, z)
     direction = math.atan2(z, x) if chord > 0 else 0.0
     if chord >= length:
@@ -247,7 +270,6 @@ def _to_a_place(Y, s, x, z, w0):
         Y[:, col.PHI] = direction
     else:
         half = _arc(chord / length)
-        sag = 1.0 if (w0 >= 0) == (x >= 0) else -1.0  # heavy hangs below the chord, light above
         Y[:, col.PHI] = direction + sag * half * (2 * s / length - 1)
         Y[:, col.KAPPA] = 2 * sag * half / length
     return Y

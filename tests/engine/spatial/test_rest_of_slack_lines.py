@@ -55,6 +55,37 @@ def test_a_line_between_near_ends_rests_as_a_catenary(nodes, density_kgpm3, bend
     assert rest_of(chain).top_N == pytest.approx(top_of_catenary(5.2356, x, z, abs(weight_Npm)), rel=2e-3)
 
 
+@pytest.mark.parametrize("current", ["uniform", "profile", "table"])
+@pytest.mark.parametrize("speed_mps", [0.05, 0.4, 0.8])
+@pytest.mark.parametrize("space", [{}, SPACE])
+def test_a_slack_line_under_a_buoy_rests_downstream(space, speed_mps, current):
+    """In a current along -x as in its mirror image. Its bight began upstream, and an element kept a whole turn."""
+    rope = {"length_m": 109.2, "area_m2": 2.24e-4, "density_kgpm3": 1380.0, "diameter_m": 0.0197, "nodes": 41}
+    buoy = {"diameter_m": 1.22, "mass_kg": 487.0, "added_mass_kg": 487.0, "drag": 0.2, "submergence": "spherical-cap"}
+    floor = {"stiffness_Npm3": 1.5e4, "damping_Nspm3": 1e3}
+    water = STILL | {"water.depth_m": 96.8, "buoy": buoy, "floor": floor} | space
+    tensions = []
+    for u in (speed_mps, -speed_mps):
+        laws = {
+            "uniform": {"law": "uniform", "velocity_mps": [u, 0.0, 0.0]},
+            "profile": {"law": "profile", "height_m": [0.0, 96.8], "velocity_mps": [[0.0] * 3, [u, 0.0, 0.0]]},
+            "table": {
+                "law": "table",
+                "x_m": [0.0],
+                "height_m": [0.0],
+                "time_s": [0.0],
+                "velocity_x_mps": [[[u]]],
+                "velocity_z_mps": [[[0.0]]],
+            },
+        }
+        rest = rest_of(
+            line(water, {"current": laws[current]}, tension=linear(4.2e5), bending_stiffness_Nm2=7.5, **rope)
+        )
+        assert rest.status == 0 and rest.turn < 1.0
+        tensions.append(rest.top_N)
+    assert tensions[0] == pytest.approx(tensions[1], rel=1e-6)
+
+
 def test_whole_turns_are_taken_out_of_the_elements():
     angles = np.array([0.1, 0.2, 0.3, 0.4, 0.5])
     Y = np.zeros((5, 13))
