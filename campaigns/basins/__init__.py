@@ -74,7 +74,9 @@ def cases(order: Order) -> Iterator[Job]:
         return
     scene = judged_scene(order, REST)
     if scene is not None:
-        labels = {"steepness": scene.waves.steepness, "dimensions": scene.motion.dimensions}
+        from engine.physics.sea import steepness_of  # half a second, which a list of options does not need
+
+        labels = {"steepness": steepness_of(scene), "dimensions": scene.motion.dimensions}
         yield judged_job(order, labels, scene)
 
 

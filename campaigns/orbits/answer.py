@@ -7,7 +7,7 @@ from functools import partial
 from itertools import groupby
 
 from campaigns.answers import kilonewton, numbers_of
-from tables import Column, Row, listed, number_of
+from tables import Column, Row, count, listed, number_of
 
 NONE = "No periodic motion has an orbit that could be found: {}."
 ACCURATE = 2e-4  # of an event, and of its value where that is above 1, as in the report
@@ -23,7 +23,8 @@ def sentences(rows: Sequence[Row], key: Column, parts: Mapping[str, Sequence]) -
         yield NONE.format(listed({str(row["message"]) for row in failed}) or "no run is periodic")
         return
     stable = sum(map(_is_stable, rows))
-    yield f"{len(rows)} orbits on {len(branches)} branches, {stable} of them stable, {len(rows) - stable} not."
+    on = f"{count(len(rows), 'orbit')} on {count(len(branches), 'branch', 'branches')}"
+    yield f"{on}, {stable} of them stable, {len(rows) - stable} not."
     for branch in branches[: MOST - 4]:
         yield _branch(branch, _on_branch(rows, branch), key, _on_branch(parts["events"], branch))
     yield from _between(parts["orbits"], key)

@@ -100,6 +100,14 @@ def _wave_number_in(scene, period_s):
     return wave_number(period_s, scene.water.depth_m, scene.gravity_mps2)
 
 
+def steepness_of(scene: Scene) -> float:
+    """Wave number times amplitude of the regular wave of a scene, whichever of the two it gives."""
+    waves = scene.waves
+    if waves.steepness is not None:
+        return waves.steepness
+    return _wave_number_in(scene, waves.period_s) * waves.amplitude_m
+
+
 def components_of(scene: Scene) -> tuple[np.ndarray, ...]:
     """The waves of a scene, one or many: periods (s), amplitudes (m), phases and directions (rad), each (n,)."""
     waves = scene.waves

@@ -14,13 +14,14 @@ from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.shocks import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
 from engine import load_scene, simulate, simulate_each
+from engine.physics.waves import wave_number
 from reports.basins.report import report
 from reports.parts.content import Figure, Table
 from tests.campaigns.conftest import finished, order_of, ran, rows_of
 from tests.reports.conftest import of_kind
 
 COARSE = {"tether.nodes": 9, "water.depth_m": 22.5}
-QUICK = ["--set", "tether.nodes=9", "water.depth_m=21", "waves.steepness=0.05", "--grid", "3", "--kick-speed", "1"]
+QUICK = ["--set", "tether.nodes=9", "water.depth_m=21", "waves.amplitude_m=0.3", "--grid", "3", "--kick-speed", "1"]
 
 
 @pytest.mark.parametrize("pair", PAIRS)
@@ -114,6 +115,9 @@ def test_a_scene_with_one_motion(tmp_path):
     ]  # fmt: skip
     assert {(row["motion"], row["status"]) for row in rows} == {("A", "ok")} and len(rows) == 9
     assert (motion["share"], motion["found_by"], motion["regime"]) == ("1.0", "rest", "period-1")
+    kA = 0.3 * wave_number(5.0, 21.0, 9.81)
+    assert float(motion["steepness"]) == pytest.approx(kA, rel=1e-9)
+    assert motion["confirmed"].endswith(f"checked at {kA:.4g}")
     assert not (tmp_path / "shock").exists() and not (tmp_path / "edge").exists()
     earlier = finished(tmp_path / "starts") | finished(tmp_path / "motions")
     assert ran(basins, tmp_path, *QUICK) == rows

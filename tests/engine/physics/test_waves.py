@@ -18,7 +18,7 @@ import pytest
 from scipy.integrate import quad
 
 from engine import goes_in_lanes
-from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m
+from engine.physics.sea import HIGHEST, LOWEST, components, components_of, elevation_m, steepness_of
 from engine.physics.submergence import surface
 from engine.physics.waves import wave_number
 from engine.run.batch import kind_of
@@ -149,6 +149,7 @@ def test_the_surface_that_wets_a_buoy_is_that_of_the_waves_also_while_they_grow(
 def test_steepness_is_amplitude_times_wave_number_and_an_axis_is_an_axis():
     """Anything across an axis would be a seed of motion out of the plane."""
     assert np.array_equal(waves_at(scene(), 3.0, [[1.0, 9.0]]), waves_at(scene(amplitude_m=A), 3.0, [[1.0, 9.0]]))
+    assert steepness_of(scene()) == pytest.approx(steepness_of(scene(amplitude_m=A)), rel=1e-12)
     X = np.insert(LINES["leaning"], 1, 3.0, axis=1)
     for angle, across in ((0.0, [1, 4]), (np.pi, [1, 4]), (np.pi / 2, [0, 3])):
         assert not waves_at(scene(SPACE, direction_rad=angle), 3.1, X)[:, across].any()
