@@ -135,7 +135,7 @@ class _Companion(NamedTuple):
 def _companion(plan: Plan, row: dict) -> _Companion | None:
     """The companion of a row; None where there can be none."""
     transient, run = row.get("transient_periods"), run_of(plan.out, row)
-    if transient is None or run is None:
+    if transient is None or run is None or run.scene.motion.dimensions == 3:
         return None
     orbits = orbits_in(plan.out)
     period, periods_of_growth = _period(row), _periods_of_growth(row)
@@ -145,7 +145,7 @@ def _companion(plan: Plan, row: dict) -> _Companion | None:
     scene = finer(run.scene, elements=2, steps=TIGHTER, changes=changes)
     if period and f"{NEARER}: " in (row.get("evidence") or ""):
         run, transient = orbit_ahead(run, orbits)[0].run, 0  # a run on the orbit, from its first moment on
-    if run.final_state is None or scene.motion.dimensions == 3:
+    if run.final_state is None:
         return None
     length, motion = OTHERS, None
     if period:

@@ -54,10 +54,10 @@ def judgement_of(
 ) -> Judgement | None:
     """How a run of a buoy in regular waves is judged (`campaigns.judge`); None of any other line.
 
-    It gets a verdict if it reached its end and lasts for two looks; in three dimensions, where no perturbations are
-    carried, for 40 periods.
-    transient_periods: wave periods left out. None: those that the verdict has found; a periodic motion then has its
-    orbit, and one that only comes nearer to its orbit is judged by that.
+    It gets a verdict if it reached its end and lasts for two looks. In three dimensions, where no perturbations are
+    carried and no orbit is looked for, it is judged as a record of unknown origin: 40 periods after the transient.
+    transient_periods: wave periods left out. None: those that the verdict has found, in three dimensions a third; a
+    periodic motion then has its orbit, and one that only comes nearer to its orbit is judged by that.
     checks: how it went on at a tighter tolerance, for a run that is chaotic.
     full: wave periods after which a run ends undecided, where Wolf's exponent and the tests for records of unknown
     origin are asked for too; the verdict does not rest on them. None: they are not made.
@@ -71,12 +71,15 @@ def judgement_of(
     if carries_tangents(scene):
         if transient_periods is None or (carried(trajectory) and periods >= next_look(next_look())):
             verdict = motion_of(trajectory, checks)
-    elif scene.motion.dimensions == 3 and periods - transient >= LEAST_JUDGED:
-        verdict, wolf = record_regime(trajectory, transient)
+    elif scene.motion.dimensions == 3:
+        if transient_periods is None:
+            transient = int(periods) // 3
+        if periods - transient >= LEAST_JUDGED:
+            verdict, wolf = record_regime(trajectory, transient)
     judgement = Judgement(transient, verdict, wolf=wolf)
     if verdict is None:
         return judgement
-    if transient_periods is None:
+    if transient_periods is None and carries_tangents(scene):
         judgement = _with_orbit(trajectory, judgement, orbits)
         transient = judgement.verdict.transient
     judgement = replace(judgement, transient=transient, tangent=tangent_of(trajectory, transient))

@@ -62,6 +62,15 @@ def test_the_rope_and_the_buoy_leave_the_plane_after_the_transient(scene):
     assert (row["buoy_lateral_max_m"], row["rope_lateral_max_m"]) == (0.5, 0.75)
 
 
+def test_a_run_in_three_dimensions_repeats_though_nothing_else_confirms_it(scene):
+    """Its transient, of which it knows nothing, is a third."""
+    run = sines(load_scene("tethered_buoy", {"motion.dimensions": 3}), 150)
+    run.columns["tension_top_high_N"][run.columns["time_s"] < 49.0 * scene.waves.period_s] = 9000.0
+    row = judged_row(run)
+    assert (row["regime"], row["transient_periods"]) == ("period-1", 50)
+    assert row["tension_top_max_N"] < 9000.0
+
+
 @pytest.mark.parametrize("mean", [2000.0, 500.0, 250.0, 0.0, -600.0])
 def test_slack_and_compression_of_a_sine(scene, mean):
     """500 sin lies below a level for acos(-level/500)/pi of the time; 100 samples a period, errors of second order."""
