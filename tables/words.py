@@ -38,20 +38,29 @@ ANSWER, PROVENANCE = "answer.txt", "provenance.json"
 EMPTY = "–"  # in print, where a table has no entry
 
 
-def number(value: float | None, digits: int = 4) -> str:
-    """A value with `digits` significant digits, without an exponent where it can be read without one; a dash for none.
+def typed(value: float | None, digits: int = 4) -> str:
+    """A value with `digits` significant digits, as one would type it: without an exponent where it can be read so.
 
-    >>> number(20.391234), number(1611.0), number(2.5e-9), number(float("nan"))
-    ('20.39', '1611', '2.5e-9', '–')
+    >>> typed(20.391234), typed(-12000.0), typed(2.5e-9), typed(float("nan"))
+    ('20.39', '-12000', '2.5e-9', '–')
     """
     if value is None or not math.isfinite(value):
         return EMPTY
     if value == int(value) and abs(value) < 1e7:
-        return _minus(str(int(value)))
+        return str(int(value))
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-4 <= abs(value) < 1e7:
         text = f"{value:.0f}"
-    return _minus(text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e"))
+    return text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """The same in print, with its sign.
+
+    >>> number(-1611.0)
+    '−1611'
+    """
+    return _minus(typed(value, digits))
 
 
 def verdict_counts(statements: Iterable[Mapping[str, object]]) -> str:

@@ -45,6 +45,7 @@ from tables import (
     number_of,
     of_kicks,
     ranges,
+    typed,
 )
 
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
@@ -115,7 +116,7 @@ def snaps(rows: Rows, key: str, symbol: str) -> str:
             continue
         words = f"{span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
         if len(snapping) < len(members):
-            words += f" from {symbol} = {snapping[0][key]:.4g} on"
+            words += f" from {symbol} = {typed(snapping[0][key])} on"
         largest = greatest(snapping, "snap_peak_max_N")
         if largest is not None:
             words += f", up to {kilonewton(largest['snap_peak_max_N'])}"
@@ -198,7 +199,7 @@ def _from_rest(rows: Rows, key: str, symbol: str, ended: bool) -> str:
     large = sorted((pair for pair in pairs if pair[0] > least), key=itemgetter(0), reverse=True)
     words = []
     for _, below, above in sorted(large[:NAMED], key=lambda pair: pair[1][key]):
-        place = f"between {below[key]:.4g} and {above[key]:.4g} ({_change(below, above)})"
+        place = f"between {typed(below[key])} and {typed(above[key])} ({_change(below, above)})"
         early = _letter(below) != _letter(above) and _letter(below) in letters[above[key]]
         if not ended:
             words.append(place)
@@ -256,8 +257,8 @@ def _regime(row: Row) -> str:
 
 def _ends(values: Sequence[float]) -> str:
     if values[0] == values[-1]:
-        return f"{values[0]:.4g}"
-    return f"{values[0]:.4g} to {values[-1]:.4g}"
+        return typed(values[0])
+    return f"{typed(values[0])} to {typed(values[-1])}"
 
 
 def _stretches(values: Sequence[float], words: Sequence[str]) -> str:
@@ -273,7 +274,7 @@ def _stretches(values: Sequence[float], words: Sequence[str]) -> str:
     for place, (word, members) in enumerate(stretches):
         span = f"at {_ends(members)}"
         if place == 0 and len(members) > 1:
-            span = f"to {members[-1]:.4g}"
+            span = f"to {typed(members[-1])}"
         parts.append(f"{word} {span}")
     return ", ".join(parts)
 
@@ -314,8 +315,8 @@ def starts(rows: Rows, key: str, symbol: str, scene) -> str:
     interval = f" (95 % interval {low:.0f} to {high:.0f} %)" if math.isfinite(low) else ""
     other = "the motion from rest" if from_rest(usual) else f"motion {usual['motion']}"
     return (
-        f"{sentence}. At {symbol} = {worst[key]:.4g}, {kicks} kicks{interval} end in motion {worst['motion']}, which "
-        f"pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
+        f"{sentence}. At {symbol} = {typed(worst[key])}, {kicks} kicks{interval} end in motion {worst['motion']}, "
+        f"which pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
     )
 
 

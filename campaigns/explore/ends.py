@@ -7,7 +7,7 @@ from analysis import distance
 from campaigns.explore.motions import CARRIED, DOWN, MOTION, UP, Motion, Motions, write_part
 from campaigns.explore.starts import Ending, Request, Start
 from engine.scene.finer import finer
-from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words
+from tables import MESSAGE, RUN_KEY, SHEET, STATUS, Column, Columns, Row, of_words, typed
 
 SHARPNESS = 128.0  # a range is known to this part of the whole sweep
 MOST = 320  # wave periods of a bisection: near its end a motion settles slowly
@@ -205,7 +205,7 @@ def confirm(motions: Motions) -> None:
         words.setdefault(motion, []).append(_confirmation(motion, change, ending.motion))
     for motion, sentences in words.items():
         (value,) = motions.name_of(motion.place).values()
-        motion.branch.confirmed = f"{' and '.join(sentences)}, checked at {value:.4g}"
+        motion.branch.confirmed = f"{' and '.join(sentences)}, checked at {typed(value)}"
 
 
 def _confirmation(motion: Motion, change: str, result: Motion | None) -> str:

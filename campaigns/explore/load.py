@@ -22,6 +22,7 @@ from tables import (
     count,
     listed,
     number_of,
+    typed,
 )
 
 FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
@@ -62,7 +63,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
 
 def place_of(row: Row, keys: Mapping[str, str]) -> str:
     """ "kA = 0.1, H = 22": the values of the varied columns, which keys gives with their symbols."""
-    return ", ".join(f"{symbol} = {row[key]:.4g}" for key, symbol in keys.items())
+    return ", ".join(f"{symbol} = {typed(row[key])}" for key, symbol in keys.items())
 
 
 def of_motion(row: Row) -> str:
@@ -99,7 +100,7 @@ def use_of(row: Row, scene, searched: bool) -> str:
         checks["a settled motion"] = row.get("regime") not in (None, "", *OPEN)
         checks |= {"other motions": searched, "an irregular sea": False}
     elif waves is not None:
-        checks[f"a sea longer than its {number_of(row, 'end_time_s') / 60.0:.2g} min or of another seed"] = False
+        checks[f"a sea longer than its {typed(number_of(row, 'end_time_s') / 60.0, 2)} min or of another seed"] = False
     if scene.water is not None:
         checks["the sea bed"] = scene.floor is not None
     checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)

@@ -7,7 +7,7 @@ from functools import partial
 from itertools import groupby
 
 from campaigns.answers import kilonewton, numbers_of
-from tables import Column, Row, count, listed, number_of
+from tables import Column, Row, count, listed, number_of, typed
 
 NONE = "No periodic motion has an orbit that could be found: {}."
 ACCURATE = 2e-4  # of an event, and of its value where that is above 1, as in the report
@@ -69,7 +69,9 @@ def _branch(branch: Row, orbits: Sequence[Row], key: Column, events: Sequence[Ro
             spans[0] = (min(first[0], last[0]), max(first[1], last[1]))
     stability = "never stable"
     if spans:
-        stability = f"stable at {key.symbol} = {listed(f'{low:.4g} to {high:.4g}' for low, high in sorted(spans))}"
+        stability = (
+            f"stable at {key.symbol} = {listed(f'{typed(low)} to {typed(high)}' for low, high in sorted(spans))}"
+        )
     sentence += f": {stability}"
     if events:
         sentence += f"; {listed(_event(event, key) for event in events)}"
@@ -116,7 +118,8 @@ def _between(orbits: Sequence[Row], key: Column) -> Iterator[str]:
             words = stable if _is_stable(row) else unstable
             words.append(f"period {name} ({kilonewton(number_of(row, 'tension_top_max_N'))}, {multiplier(row)})")
         if unstable and stable:
-            yield f"At {key.symbol} = {value:.4g} stable: {listed(stable)}; unstable, and between: {listed(unstable)}."
+            at = f"{key.symbol} = {typed(value)}"
+            yield f"At {at} stable: {listed(stable)}; unstable, and between: {listed(unstable)}."
             return
 
 

@@ -25,6 +25,7 @@ from tables import (
     listed,
     number_of,
     of_kicks,
+    typed,
 )
 
 
@@ -122,6 +123,6 @@ def _at(row: Row, keys: Columns) -> str:
     for key, value in zip(keys, place_in(row, keys), strict=True):
         text = value
         if not isinstance(value, str):
-            text = f"{value:.4g}"
+            text = typed(value)
         words.append(f"{key.symbol} = {text} {key.unit}".rstrip())
     return ", ".join(words)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from campaigns.answers import greatest, kilonewton, line
 from campaigns.sea.cells import WELL_ABOVE
-from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows
+from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows, typed
 
 SCATTERED = 0.05  # of the largest tension: a larger difference of runs in the same waves is reported
 ROUNDED_UP = 1.05  # times a number, in print with two digits: no less than the number
@@ -169,7 +169,7 @@ def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
     ):
         worst = greatest(cells, name)
         if worst is not None:
-            place = " and ".join(f"{key.key} = {worst[key.key]:.4g}" for key in options.grid.keys)
+            place = " and ".join(f"{key.key} = {typed(worst[key.key])}" for key in options.grid.keys)
             yield f"The {quantity} is largest at {place}: {in_print(worst[name])}."
     refused = sum(not math.isfinite(cell["storm_maximum_N"]) for cell in cells)
     if refused:
