@@ -30,7 +30,7 @@ OTHER_MOTION, OTHER_GROWTH = "becomes another motion", "perturbations grow other
 PEAK, PEAK_ERROR = "tension_top_max_N", "tension_top_max_error_N"
 TANGENT_EXPONENT, TANGENT_ERROR = "lyapunov_tangent_bits_per_period", "lyapunov_tangent_error"
 WOLF_EXPONENT, WOLF_ERROR = "lyapunov_wolf_bits_per_period", "lyapunov_wolf_error"
-BUOY_HEIGHT = "max_buoy_height_above_water_m"
+BUOY_HEIGHT, EMERGED = "max_buoy_height_above_water_m", "max_buoy_emergence"
 COARSE = 0.05  # of the largest tension: an error above it is told in words
 SMALL, LARGE = PAPER_STEEPNESS = 0.016, 0.13  # kA of sections 4.2.1 and 4.2.2 of the paper
 BODIES = {"buoy": "y_m", "rope": "offplane_m"}  # what leaves the plane of the waves -> column of a trajectory

@@ -14,6 +14,7 @@ import numpy as np
 
 from campaigns.answers import greatest
 from campaigns.explore.judgement import Judgement
+from campaigns.explore.load import leaves_water
 from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, SLACK, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.explore.starts import run_within
@@ -126,10 +127,10 @@ def jobs_of_companions(plan: Plan, rows: Rows, key: str, periods: int) -> list[J
     length, jobs, largest = min(periods, COMPANION_PERIODS), [], []
     peak = of_largest_tension(rows)
     scene = peak and run_of(plan.out, peak).scene
-    if scene is not None and scene.buoy.submergence == "full":
+    if scene is not None:
         for row in rows:
-            if not number_of(row, HEIGHT.name) > scene.buoy.diameter_m:
-                continue  # it does not fly
+            if not leaves_water(row, scene):
+                continue
             labels = {"role": CAPPED, "steepness": row["steepness"], "motion": row.get("motion")}
             capped = unfollowed(scene, {key: row["steepness"], "buoy.submergence": "spherical-cap"})
             jobs.append(job_from(labels, capped, length, start_of(plan, row)))

@@ -8,11 +8,13 @@ from collections.abc import Iterator, Mapping
 
 from campaigns.answers import greatest, kilonewton, known_rows
 from engine.natural_frequencies import natural_frequencies
+from engine.trajectory.excursions import EMERGES
 from engine.views import in_regular_waves
 from tables import (
     BUOY_HEIGHT,
     CAPPED,
     COARSE,
+    EMERGED,
     OPEN,
     OTHER_MOTION,
     PEAK,
@@ -25,7 +27,7 @@ from tables import (
     typed,
 )
 
-FLIES = "the buoy leaves the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
+FLIES = "the buoy comes out of the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
 def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
@@ -95,7 +97,7 @@ def use_of(row: Row, scene, searched: bool) -> str:
     checks = {grid: math.isfinite(error), "loops": math.isfinite(number_of(row, "loop_releases"))}
     if scene.buoy is not None and waves is not None:
         wetted = row.get("role") == CAPPED or scene.buoy.submergence != "full"
-        checks["wetted buoy"] = wetted or math.isfinite(number_of(row, BUOY_HEIGHT))
+        checks["wetted buoy"] = wetted or number_of(row, EMERGED) <= EMERGES
     if in_regular_waves(scene):
         checks["a settled motion"] = row.get("regime") not in (None, "", *OPEN)
         checks |= {"other motions": searched, "an irregular sea": False}
@@ -111,11 +113,18 @@ def use_of(row: Row, scene, searched: bool) -> str:
     return f"Checked: {listed(passed)}; not checked: {listed(missing)}."
 
 
+def leaves_water(row: Row, scene) -> bool:
+    """Whether a sphere that keeps its whole buoyancy comes out of the water."""
+    if scene.buoy is None or scene.buoy.submergence != "full":
+        return False
+    # the height is all that a folder of an earlier version has
+    return number_of(row, EMERGED) > EMERGES or number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m
+
+
 def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
-    if scene is not None and scene.buoy is not None and scene.buoy.submergence == "full":
-        if row.get("role") != CAPPED and number_of(row, BUOY_HEIGHT) > scene.buoy.diameter_m:
-            yield FLIES
+    if scene is not None and row.get("role") != CAPPED and leaves_water(row, scene):
+        yield FLIES
     loops = number_of(row, "loop_releases")
     if loops > 0 and number_of(row, "dimensions") != 3:
         yield f"{count(int(loops), 'loop')} released in a plane (motion.dimensions)"

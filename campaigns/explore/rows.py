@@ -17,8 +17,10 @@ from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of, samples_of
 from campaigns.machinery import filled
 from engine.run.rest import static_tension_N
+from engine.trajectory.excursions import emergence
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
+    EMERGED,
     LINE_COUNTS,
     MESSAGE,
     PERIODS_RUN,
@@ -108,6 +110,12 @@ HEIGHT = Column(
     "max_buoy_height_above_water_m", "m", "height",
     "highest point of the sphere above still water over the whole run; negative if it stays below", 2,
 )  # fmt: skip
+EMERGENCE = Column(
+    EMERGED, "", "emerged",
+    "largest share of the sphere's diameter above the linear wave over the whole run: 0 below it, from 1 on in "
+    "the air; empty where the water acts on the wetted cap", 2, SHEET,
+)  # fmt: skip
+OUT_OF_WATER = HEIGHT, EMERGENCE
 UTILISATION = Column(
     "utilisation", "", "T_max/MBL",
     "largest tension after the transient, divided by tether.breaking_load_N; empty where the scene has none", 3,
@@ -136,7 +144,7 @@ COLUMNS = (
     *MULTIPLIERS,
     *OFFPLANE,
     UTILISATION,
-    HEIGHT,
+    *OUT_OF_WATER,
     *LINE_COUNTS,
     Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3, PLANE),
     Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3, PLANE),
@@ -188,7 +196,7 @@ def buoy_row(trajectory, judgement) -> Row:
 def begun_row(trajectory) -> tuple[Row, dict]:
     """A row with statistics, buoy height and length of a run in waves; and the `sound_part` of its columns."""
     row, columns = counted(trajectory), sound_part(trajectory.columns)
-    row[HEIGHT.name] = height_m(trajectory.scene, columns)
+    row |= out_of_water(trajectory.scene, columns)
     if len(columns["time_s"]):
         row[PERIODS_RUN.name] = periods_of(trajectory.scene, columns)
     return row, columns
@@ -210,12 +218,12 @@ def regime_of(judgement) -> Row:
     return row
 
 
-def height_m(scene, columns) -> float | None:
-    """How high the top of the buoy has risen above still water; None without buoy, water or samples."""
+def out_of_water(scene, columns) -> Row:
+    """The columns OUT_OF_WATER of a run; {} without buoy, water or samples."""
     if scene.buoy is None or scene.water is None or not len(columns["time_s"]):
-        return None
+        return {}
     top_m = scene.anchor.position_m[2] + float(np.max(columns["z_m"])) + 0.5 * scene.buoy.diameter_m
-    return top_m - scene.water.depth_m
+    return {HEIGHT.name: top_m - scene.water.depth_m, EMERGED: emergence(scene, columns)}
 
 
 def after_transient(trajectory, columns, transient_periods: int) -> Row:

@@ -5,8 +5,10 @@ from collections import Counter
 from collections.abc import Iterator
 
 from campaigns.answers import greatest, kilonewton, line
+from campaigns.explore.load import FLIES
 from campaigns.sea.cells import WELL_ABOVE
-from tables import TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows, typed
+from engine.trajectory.excursions import EMERGES
+from tables import EMERGED, TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows, number_of, typed
 
 SCATTERED = 0.05  # of the largest tension: a larger difference of runs in the same waves is reported
 ROUNDED_UP = 1.05  # times a number, in print with two digits: no less than the number
@@ -105,6 +107,13 @@ def _snaps(cell: Row) -> str:
 
 
 def _load(cell: Row) -> str:
+    """The three-hour maximum, and what speaks against it."""
+    if number_of(cell, EMERGED) > EMERGES:
+        return f"{_storm(cell)} Not for design: {FLIES}."
+    return _storm(cell)
+
+
+def _storm(cell: Row) -> str:
     storm_N = cell["storm_maximum_N"]
     if not math.isfinite(storm_N):
         return f"no three-hour maximum: {cell['storm_reason']}."
@@ -171,6 +180,9 @@ def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
         if worst is not None:
             place = " and ".join(f"{key.key} = {typed(worst[key.key])}" for key in options.grid.keys)
             yield f"The {quantity} is largest at {place}: {in_print(worst[name])}."
+    dry = sum(number_of(cell, EMERGED) > EMERGES for cell in cells)
+    if dry:
+        yield f"No load of {dry} states is for design: {FLIES}."
     refused = sum(not math.isfinite(cell["storm_maximum_N"]) for cell in cells)
     if refused:
         yield f"{refused} states have no three-hour maximum; the column storm_reason says why."

@@ -27,7 +27,7 @@ from analysis.seas import Responses
 from analysis.tangent_growth import turned
 from campaigns.explore.grid import place_in
 from campaigns.explore.motions import write_part
-from campaigns.explore.rows import TANGENT, exponents
+from campaigns.explore.rows import EMERGENCE, TANGENT, exponents
 from campaigns.explore.sweep import table_of
 from campaigns.machinery import Plan, Summary, filled, run_of, stage
 from campaigns.sea.regular import DESIGN, Folds, design_loads, folds_of, one_set, significant_height_m
@@ -36,7 +36,7 @@ from campaigns.sea.rows import EQUIVALENT, GROWING, MEAN, SEA, SNAPS, finite_row
 from campaigns.study import Order
 from engine.physics.sea import envelope_m
 from engine.views import carried, state_of
-from tables import MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, number_of, of_words
+from tables import EMERGED, MESSAGE, REGIMES, SHEET, STATUS, Column, Row, Rows, number_of, of_words
 
 FOLDER = "cells"
 MOTION_PERIODS = 3  # peak periods of a piece of a record: a motion of period 3 has its largest tension in each piece
@@ -84,6 +84,7 @@ COLUMNS = (
     Column("storm_reason", "", "by", "how the maximum was found, or why there is none", None, SHEET),
     EQUIVALENT,
     Column("utilisation", "", "u", "design tension over design strength, DNV-OS-E301, consequence class 1", 2),
+    EMERGENCE,
     Column("regular_N", "N", "T_reg", "largest tension in the regular wave of the height H_s, of all its motions", 0),
     Column("regular_high_N", "N", "T_1.86", "largest tension in the regular wave of 1.86 H_s, of all its motions", 0),
     Column("regular_high_motions", "", "motions high", "the same in the wave of 1.86 H_s", None, SHEET),
@@ -220,6 +221,7 @@ def cell_row(rows: Rows, digests: Sequence[Digest], options, folds: Folds | None
         cell |= _visits("large", seas) | _visits("forecast", seas)
     if rest:
         cell |= _loads(rest, options) | {"load_scatter": _scatter(digests)}
+    cell[EMERGED] = max(number_of(run.row, EMERGED) for run in digests)
     return finite_row(cell)
 
 

@@ -15,7 +15,7 @@ from analysis import (
 from analysis.seas import mean_of_seas
 from analysis.tangent_growth import turned
 from campaigns.explore.grid import place_in
-from campaigns.explore.rows import HEIGHT, SLACK, TANGENT, begun_row, exponents
+from campaigns.explore.rows import OUT_OF_WATER, SLACK, TANGENT, begun_row, exponents
 from campaigns.explore.rows import SNAPS as SNAPS_OF_RUNS
 from engine.run.rest import static_tension_N
 from engine.views import carried, snaps_of
@@ -71,7 +71,7 @@ _MEASURED = (
     Column("peaks", "", "peaks", "peaks of the tension: one between two up-crossings of its mean", 0, SHEET),
     Column("peak_p99_N", "N", "T_99", "peak that one in a hundred exceeds", 0, SHEET),
     EQUIVALENT,
-    HEIGHT,
+    *OUT_OF_WATER,
     *STATISTICS,
     RUN_KEY,
     MESSAGE,

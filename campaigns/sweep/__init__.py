@@ -110,7 +110,7 @@ def measures(order: Order) -> Measures:
         if in_sea(order.cases[0].scene):
             loads = (*seas.COLUMNS, *loads)
             order = replace(order, transient=order.given_transient)
-        measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, rows.HEIGHT, *STATISTICS, RUN_KEY, MESSAGE)
+        measured = (rows.DIMENSIONS, STATUS, rows.TRANSIENT, *loads, *rows.OUT_OF_WATER, *STATISTICS, RUN_KEY, MESSAGE)
         columns = (*keys, *(column for column in measured if column.name not in names(keys)))
     row = partial(sweep_row, transient_periods=order.transient)
     return motions.measures_of(order, columns, row, "campaigns/sweep")
@@ -128,10 +128,9 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     of an irregular sea its ramp at least.
     """
     from campaigns.explore.rows import (
-        HEIGHT,
         UTILISATION,
         buoy_row,
-        height_m,
+        out_of_water,
         settled,
         snap_columns,
         sound_part,
@@ -143,7 +142,7 @@ def sweep_row(trajectory, judgement, transient_periods: int | None) -> Row:
     if judgement is not None:
         return buoy_row(trajectory, judgement)
     row, columns = counted(trajectory), sound_part(trajectory.columns)
-    row[HEIGHT.name] = height_m(scene, columns)
+    row |= out_of_water(scene, columns)
     transient_s = 0.0
     if scene.waves is not None:
         transient_s = max(scene.waves.ramp_s, (transient_periods or 0) * scene.waves.period_s)

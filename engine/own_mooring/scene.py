@@ -1,8 +1,8 @@
 """The scene of a mooring: what follows from its lengths, and the commented text.
 
 The buoy is a sphere in sea water at the end of one rope. With the rope stretched by the whole lift it reaches up to
-L (1 + lift/EA) + D/2. If this is above the troughs of the waves, the buoy floats, and the water acts on its wetted cap;
-if it is below, the buoy stays submerged, and the water acts on the whole sphere.
+L (1 + lift/EA) + D/2. If this is above the troughs of the waves, the buoy floats; if it is below, it stays submerged.
+The water acts on the wetted cap either way: it is the whole sphere until a higher wave leaves a part of it dry.
 """
 
 import math
@@ -97,11 +97,6 @@ class Mooring:
     def kind(self) -> str:
         """SURFACE where the buoy can reach a trough, else SUBMERGED."""
         return SURFACE if self.reach_m >= self.trough_m else SUBMERGED
-
-    @property
-    def submergence(self) -> str:
-        """The value of buoy.submergence."""
-        return "spherical-cap" if self.kind == SURFACE else "full"
 
     @property
     def trough_m(self) -> float:

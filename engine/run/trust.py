@@ -14,7 +14,7 @@ from ..record import AT_Z, HELD, lengths_of
 from ..scene.models import Scene
 from ..time.folds import words_of_folds
 from ..time.ringing import HEARD
-from ..time.status import OK, OUT_AT_REST, WAVES_ON_ELEMENT
+from ..time.status import OK, WAVES_ON_ELEMENT
 from ..trajectory.columns import Columns
 from .companions import NOTED, ROUNDING, SLACK, compression_N, other_grids, slack_samples, steps_too_long
 from .rest import rest_of
@@ -59,7 +59,6 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     doubtful = (
         _few_samples(run, columns),
         _waves_on_element(run),
-        _out_at_rest(run),
         _regular_waves(run),
         *_sea(run, columns),
     )
@@ -122,16 +121,6 @@ def _waves_on_element(run):
     if force_N <= HEARD * tension_at(1.0 / record["per_strain"], run.scene.tether.tension):
         return ""
     return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
-
-
-def _out_at_rest(run):
-    """Says that a buoy without a cap began at rest more than half out of still water, or nothing."""
-    record, scene = run.record, run.scene
-    moved = run.started is not None or any(scene.start.buoy_displacement_m)
-    if scene.buoy is None or not record["wet"] or record["spherical_cap"] or moved:
-        return ""
-    height_m = scene.anchor.position_m[2] + run.output.samples[0, AT_Z] - scene.water.depth_m
-    return "" if height_m <= 0.0 else OUT_AT_REST.format(height=height_m)
 
 
 def _undamped(run, columns):

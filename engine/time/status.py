@@ -18,10 +18,6 @@ WAVES_ON_ELEMENT = (  # of a run that is ok
     "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
     "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )
-OUT_AT_REST = (
-    "at rest the centre of the buoy is {height:.2g} m above the water, and all of the sphere is loaded as in water: "
-    "buoy.submergence = 'spherical-cap' loads what is below the wave"
-)
 ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     OK: "",
     NEWTON_FAILED: "Newton's method did not converge at t = {t:.6g} s, at the smallest step tried ({dt:.2g} s): "

@@ -1,7 +1,8 @@
-"""Where a run left what its laws are made for, in words: a whole sphere in the air, a line below the bed.
+"""Where a run left what its laws are made for, in words: a sphere out of the water, a line below the bed.
 
-A sphere counts as in the air where its lowest point is above the linear wave: its top is then more than a diameter
-above the water, and nothing of its constant buoyancy, eq. (30), is there. Less than that is a part of it.
+A sphere counts as in the air where its lowest point is above the linear wave: nothing of its constant buoyancy,
+eq. (30), is there. Of one that is out of the water in part a part of it is not there. That can spoil the tension as
+much: of a buoy of 4 m on 95 m of rope in 100 m of water, two thirds out, in a sea of 6 m, 308 kN stand for 447.
 """
 
 from collections.abc import Iterator
@@ -15,11 +16,16 @@ AIR = (
     "the sphere was in the air for {share:.2g} % of the time from t = {first:.5g} to {last:.5g} s, its lowest point up "
     "to {most:.2g} m above the water, and kept its whole buoyancy there (buoy.submergence = 'full'): "
 )
+PART = (
+    "the sphere was up to {share:.0f} % of its diameter out of the water, and kept its whole buoyancy "
+    "(buoy.submergence = 'full'): "
+)
 CAP = "'spherical-cap' loads what is below the wave"
 BED = (
     "the line was up to {most:.2g} m below the bed (first at t = {first:.5g} s), because the scene has no floor: "
     "floor.stiffness_Npm3 = 1e5 adds one"
 )
+EMERGES = 0.05  # share of its diameter by which a sphere is out of the water: 0.7 % of its volume
 
 
 def with_excursions(own_message: str, scene: Scene, columns: Columns, status: str) -> tuple[str, str]:
@@ -59,10 +65,19 @@ def excursions_of(scene: Scene, columns: Columns) -> Iterator[str]:
         first, last = time_s[flying][[0, -1]]
         words = AIR.format(share=100.0 * flying.mean(), first=first, last=last, most=height[flying].max())
         yield words + CAP
+    elif (share := emergence(scene, columns) or 0.0) > EMERGES:
+        yield PART.format(share=100.0 * share) + CAP
     depth = -scene.anchor.position_m[2] - columns["line_lowest_m"]
     buried = depth > scene.tether.diameter_m
     if scene.floor is None and buried.any():
         yield BED.format(most=depth[buried].max(), first=time_s[buried][0])
+
+
+def emergence(scene: Scene, columns: Columns) -> float | None:
+    """Largest share of the diameter of a sphere without a cap above the linear wave, 1 in the air; None without one."""
+    if scene.buoy is None or scene.buoy.submergence != "full" or scene.water is None or not len(columns["time_s"]):
+        return None
+    return max(0.0, 1.0 + float(height_above_wave(scene, columns).max()) / scene.buoy.diameter_m)
 
 
 def height_above_wave(scene: Scene, columns: Columns) -> np.ndarray:

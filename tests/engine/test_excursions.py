@@ -9,7 +9,7 @@ import pytest
 from engine import SceneError, Trajectory, simulate
 from engine.physics.sea import elevation_m
 from engine.run import Run
-from engine.trajectory.excursions import excursions_of, with_excursions
+from engine.trajectory.excursions import emergence, excursions_of, with_excursions
 from tests.engine.lines import STILL, held, line, ran
 
 TABLE = {"time_s": [0.0, 1.0], "height_m": [0.0, 60.0], "x_m": [0.0], "velocity_z_mps": [[[0.0], [0.0]]] * 2}
@@ -72,14 +72,16 @@ def test_a_sphere_is_in_the_air_where_its_lowest_point_is_above_the_wave(waves, 
     scene = line({**waves, "water.depth_m": 23.0, "anchor.position_m": [0.0, 0.0, anchor_m]})
     columns = places(scene, np.linspace(-5.0, 5.0, 401), np.zeros(401))
     touching = scene.water.depth_m + elevation_m(scene, *(columns[name] for name in ("time_s", "x_m", "y_m")))
-    columns["z_m"] = touching + 0.75 - anchor_m - 1e-6
-    assert excursions(scene, columns) == ""
+    for dry, words in ((0.05, ""), (0.06, "up to 6 % of its diameter"), (1.0, "up to 100 % of its diameter")):
+        columns["z_m"] = touching + (dry - 0.5) * 1.5 - anchor_m - 1e-6
+        assert emergence(scene, columns) == pytest.approx(dry, abs=1e-6)
+        assert words in excursions(scene, columns) and bool(words) == bool(excursions(scene, columns))
     columns["z_m"][100:200] += 0.5
     words = excursions(scene, columns)
     assert "25 % of the time from t = 10 to 19.9 s" in words and "up to 0.5 m above" in words
-    assert "'spherical-cap'" in words
+    assert "'spherical-cap'" in words and emergence(scene, columns) == pytest.approx(1.0 + 0.5 / 1.5, abs=1e-6)
     floats = scene.model_copy(update={"buoy": scene.buoy.model_copy(update={"submergence": "spherical-cap"})})
-    assert excursions(floats, columns) == ""
+    assert excursions(floats, columns) == "" and emergence(floats, columns) is None
 
 
 def test_a_run_that_fails_in_the_air_has_this_for_its_reason_and_one_in_the_water_its_advice():

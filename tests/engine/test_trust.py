@@ -63,7 +63,8 @@ def test_a_small_part_of_the_largest_tension_is_not_told():
 )
 def test_waves_that_are_not_linear_are_told(period_s, steepness, statement):
     """T = 50 s in 21 m: L = 712 m, and H L^2/depth^3 = 198 of kA = 0.016; deep water breaks at 0.142 pi."""
-    scene = line({"waves.period_s": period_s, "waves.steepness": steepness, "tether.nodes": 9})
+    wave = {"waves.period_s": period_s, "waves.steepness": steepness, "buoy.submergence": "spherical-cap"}
+    scene = line(wave, {"tether.nodes": 9})
     message = simulate(scene, duration_s=0.1).message
     assert (statement in message) if statement else message == ""
 

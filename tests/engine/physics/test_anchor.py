@@ -46,8 +46,8 @@ def lowest_point(anchor_m):
 
 
 @pytest.mark.parametrize("anchor_m", [0.0, 11.0])
-@pytest.mark.parametrize("cap, depth_m, warned", [({}, -1e-3, True), ({}, 1e-3, False), (CAP, -1e-3, False)])
-def test_a_run_says_that_its_buoy_is_more_than_half_out_of_the_water(cap, depth_m, warned, anchor_m):
-    place = {"anchor.position_m": [0.0, 0.0, anchor_m], "water.depth_m": lowest_point(anchor_m) + 0.75 + depth_m}
+@pytest.mark.parametrize("cap, dry_m, warned", [({}, 0.076, True), ({}, 0.074, False), (CAP, 0.076, False)])
+def test_a_run_says_that_a_twentieth_of_its_buoy_is_out_of_the_water(cap, dry_m, warned, anchor_m):
+    place = {"anchor.position_m": [0.0, 0.0, anchor_m], "water.depth_m": lowest_point(anchor_m) + 1.5 - dry_m}
     run = simulate(line(STILL, place, cap, nodes=5), duration_s=0.1)
     assert ("spherical-cap" in run.message) == warned, run.message
