@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 from tables import EMPTY, PEAK, PEAK_ERROR, TANGENT_ERROR, TANGENT_EXPONENT, WOLF_ERROR, WOLF_EXPONENT, count, number
 
-from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, printed_cells, series, shown_on
-from .figures import axis_of, evidence_table
+from ..parts import Explorer, ExplorerColumn, Heading, Items, Sheet, Text, link, plain, printed_cells, series, shown_on
+from .figures import evidence_table
 from .runs import END_PERIODS, STEEPNESS, Run, Sweep
 
 # columns that a sheet shows in its title, its drawing, its table or its message
@@ -30,7 +30,8 @@ def explorer(sweep: Sweep) -> Explorer:
         if any(run.known(column) for run in sweep.judged):
             lower.append(("σ (bits per wave period)", tuple(series(rows, column)), tuple(series(rows, error))))
             break
-    return Explorer(axis_of(sweep), "strobed r (m)", tuple(columns), tuple(lower))
+    axis = f"{plain(sweep.key.head)} ({sweep.key.unit or EMPTY})"
+    return Explorer(axis, "strobed r (m)", tuple(columns), tuple(lower))
 
 
 def sheet_items(sweep: Sweep) -> Items:

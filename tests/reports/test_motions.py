@@ -12,6 +12,7 @@ from campaigns.explore.rows import COLUMNS, STEEPNESS
 from reports import build, content_of
 from reports.buoy_sweep.figures import orbit_figure
 from reports.buoy_sweep.runs import read_sweep
+from reports.buoy_sweep.sheets import explorer as explorer_of
 from reports.figures.quantities import colours_of, panels_over
 from reports.parts.content import Explorer, Heading, Sheet, Table, plain
 from reports.parts.style import VERMILION
@@ -118,6 +119,8 @@ def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     ]
     (explorer,) = of_kind(items, Explorer)
     assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
+    length = Column("steepness", "m", "l_0")  # its label is drawn by the page, which knows no mathematics
+    assert explorer_of(read_sweep(several, length)).x_label == "l0 (m)"
     motions, *_ = tables = of_kind(items, Table)
     assert [row[0] for row in motions.rows] == ["A", "B"]
     assert motions.rows[1][5:7] == ["2 of 8 to 8 of 8", "kick and rest"]
