@@ -84,6 +84,12 @@ class Mooring:
         return (self.displaced_kg - self.buoy_kg) * GRAVITY_MPS2
 
     @property
+    def hanging_N(self) -> float:
+        """Weight in sea water of the rope between the bed and the buoy."""
+        weight_Npm = (self.rope.density_kgpm3 - SEA_KGPM3) * self.rope.area_m2 * GRAVITY_MPS2
+        return weight_Npm * min(self.length_m, self.depth_m)
+
+    @property
     def stretch(self) -> float:
         """Length of the rope under the whole lift, over its length without load."""
         return 1.0 + self.lift_N / self.rope.stiffness_N
@@ -109,11 +115,14 @@ class Mooring:
         return (self.trough_m - 0.5 * self.buoy_diameter_m) / self.stretch
 
     def faults(self, kind: str | None = None) -> list[str]:
-        """What cannot be, a line each with its option: a buoy that sinks or is not of this kind, a wave that breaks."""
+        """What cannot be, a line each: a buoy that sinks, also with its rope, or of another kind, a breaking wave."""
         lines = []
         if self.buoy_kg >= self.displaced_kg:
             most = f"less than the {self.displaced_kg:.4g} kg of sea water that the sphere displaces, or it sinks"
             lines.append(f"--buoy-mass: given {self.buoy_kg:g}; allowed: {most}")
+        elif self.lift_N <= self.hanging_N:
+            lifts = f"a buoy that lifts more than the {self.hanging_N:.4g} N of its rope in the water; this one lifts"
+            lines.append(f"--buoy-diameter: given {self.buoy_diameter_m:g}; allowed: {lifts} {self.lift_N:.4g} N")
         breaking_N = self.rope.breaking_load_N
         if self.kind == SUBMERGED and self.lift_N >= breaking_N:
             bears = f"a rope that bears the {self.lift_N:.4g} N with which the buoy pulls; this one breaks at"

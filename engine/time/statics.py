@@ -29,7 +29,9 @@ TOLERANCE = 1e-9
 CLOSE, BALANCED = 1e-6, 1e-9  # a line at rest moves less (m), against a resistance less than this share of its load
 MOST = 300  # a stiff line on its way to a clamp passes shear far above its load, by one scale an iteration
 MOST_TURNS = 12  # a bight that the grid does not resolve keeps a folded node
-LEANING, HANGING = 1.0, 0.0  # in place of a share of its length: a straight line; a held one as a catenary
+# in place of a share of its length: a straight line; a held one as a catenary; one that lies on its bed and then rises
+LEANING, HANGING, LYING = 1.0, 0.0, -1.0
+SHARPEST = 2  # elements in which it turns upwards
 NARROWEST = 1e-3  # of its length: the ends of a catenary are not nearer to each other
 MOST_STRAIN = 10.0  # up to which the engine looks for the strain under a load (`scales.strain_at`)
 NEARLY_NOTHING = -0.99  # a strain at which next to nothing is left of the line
@@ -84,8 +86,8 @@ def _rest(record, scene, tables, span, sinking):
     A rest that is folded so seldom lasts.
     """
     code, best = STATICS_FAILED, None
-    for Y in _guesses(record, scene, lengths_of(record, tables), span, sinking):
-        found = _settle_on_bed(record, scene, tables, Y, sinking)
+    for Y, above in _guesses(record, scene, lengths_of(record, tables), span, sinking):
+        found = _settle_on_bed(record, scene, tables, Y, sinking if above else 0.0)
         if found == OK or best is None:
             code, best = found, Y
         if found == OK and not _folded(record, Y):
@@ -94,14 +96,18 @@ def _rest(record, scene, tables, span, sinking):
 
 
 def _guesses(record, scene, h, span, sinking):
-    """States from which a rest is looked for: the first guess, a catenary, of a line in space its rest in a plane."""
-    yield first_guess(record, scene, h, span)
+    """States from which a rest is looked for, and whether they hang above a bed: the first guess, a catenary, a line
+    that lies on its bed and then rises, of a line in space its rest in a plane."""
+    yield first_guess(record, scene, h, span), True
     if record["end"] == HELD and record["w0"] != 0.0:
-        yield first_guess(record, scene, h, HANGING)
+        yield first_guess(record, scene, h, HANGING), True
+    if record["end"] == BUOY and has_extras(record) and record["floored"] and record["w0"] > 0.0:
+        corner = SHARPEST + SPANS.index(span) * len(SINKING) + SINKING.index(sinking)
+        yield first_guess(record, scene, h, LYING, corner), False
     if is_spatial(record):
         flat = _rest_in_plane(record, scene, h, span, sinking)
         if flat is not None:
-            yield flat
+            yield flat, True
 
 
 def _rest_in_plane(record, scene, h, span, sinking):
@@ -131,9 +137,9 @@ def _folded(record, Y):
 
 
 def _settle_on_bed(record, scene, tables, Y, sinking):
-    """As `settle`, with a bed: first one so soft that its line sinks into it, then stiffer ones."""
+    """As `settle`, with a bed: first one so soft that its line sinks into it, then stiffer ones; 0: with its own."""
     soft = record.copy()
-    if has_extras(record) and record["floored"]:
+    if sinking and has_extras(record) and record["floored"]:
         softer = sinking * float(np.sum(lengths_of(record, tables))) / float(record["bed_onset"])
         while softer > 1.0:
             soft["bed_stiffness"], soft["bed_onset"] = record["bed_stiffness"] / softer, record["bed_onset"] * softer
@@ -199,17 +205,20 @@ def settle(record: np.void, scene: Scene, tables: np.ndarray, Y: np.ndarray) -> 
     return STATICS_FAILED
 
 
-def first_guess(record: np.void, scene: Scene, h: np.ndarray, span: float = SPANS[0]) -> np.ndarray:
+def first_guess(
+    record: np.void, scene: Scene, h: np.ndarray, span: float = SPANS[0], corner: int = SHARPEST
+) -> np.ndarray:
     """State (n, 6 or 13) from which `settle` starts: loads carried along a line, or an arc where the ends are slack.
 
     In space it lies in the vertical plane through the held end, or through the force on a free one. span: share of its
     length that a slack line under a floating buoy spans upright; LEANING: straight, at the height at which it floats;
-    HANGING: a slack line between held ends is a catenary in place of an arc.
+    HANGING: a slack line between held ends is a catenary in place of an arc; LYING: one under a floating buoy lies on
+    its bed, and turns upwards within `corner` elements.
     """
     if not is_spatial(record):
-        return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span)
+        return _in_plane(record, scene, h, (float(record["end_x"]), float(record["end_z"])), span, corner)
     force = (math.hypot(float(record["end_x"]), float(record["end_y"])), float(record["end_z"]))
-    return lift.state_in_space(record, h, _in_plane(record, scene, h, force, span), _azimuth(scene, record))
+    return lift.state_in_space(record, h, _in_plane(record, scene, h, force, span, corner), _azimuth(scene, record))
 
 
 def _azimuth(scene, record):
@@ -218,7 +227,7 @@ def _azimuth(scene, record):
     return math.atan2(across[1], across[0]) if across and (across[0] or across[1]) else 0.0
 
 
-def _in_plane(record, scene, h, force, span):
+def _in_plane(record, scene, h, force, span, corner):
     s = np.concatenate([[0.0], np.cumsum(h)])
     Y, length = np.zeros((len(s), 6)), s[-1]
     if record["end"] == HELD:
@@ -235,6 +244,8 @@ def _in_plane(record, scene, h, force, span):
     if height is not None:
         if span == LEANING:
             return _to_a_place(Y, s, downstream * math.sqrt(max(length**2 - height**2, 0.0)), height, downstream)
+        if span == LYING:
+            return _lying(Y, s, min(height, length), downstream, corner)
         return _to_a_place(Y, s, 0.0, min(height, span * length), downstream)
     Nx = np.full(len(s), force[0] if record["end"] == FREE else 0.0)
     Nz = up - record["w0"] * (length - s)
@@ -246,6 +257,16 @@ def _in_plane(record, scene, h, force, span):
     against = np.cos(angle - heaviest) < 0
     Y[:, col.EPS] = np.where(against, 0.0, Y[:, col.EPS])
     Y[:, col.PHI] = np.where(against, heaviest, heaviest + np.angle(np.exp(1j * (angle - heaviest))))
+    return Y
+
+
+def _lying(Y, s, height, downstream, corner):
+    """A line that lies downstream on its bed, as far as it is not needed to rise upright to a height (m)."""
+    width = corner * s[-1] / (len(s) - 1)
+    risen = np.clip(0.5 + (s - (s[-1] - height)) / width, 0.0, 1.0)
+    lying = 0.0 if downstream > 0.0 else math.pi
+    Y[:, col.PHI] = lying + (0.5 * math.pi - lying) * risen
+    Y[:, col.KAPPA] = np.where((risen > 0.0) & (risen < 1.0), (0.5 * math.pi - lying) / width, 0.0)
     return Y
 
 
