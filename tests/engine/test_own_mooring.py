@@ -10,6 +10,7 @@ from engine import load_scene
 from engine.__main__ import main
 from engine.own_mooring import ropes
 from engine.own_mooring.scene import SUBMERGED, SURFACE, Mooring, scene_text
+from engine.run.rest import rest_of
 from engine.scene import scene_from_toml
 
 LB_N, LB_PER_100FT_KGPM = 4.4482, 0.45359 / 30.48
@@ -68,6 +69,24 @@ def test_a_buoy_floats_where_the_stretched_rope_lets_it_reach_a_trough(share):
     lift_N = 1025.0 * math.pi * 27.0 / 12.0 * 9.81
     top_m = length_m * (1.0 + lift_N / (1.18e8 * 0.05**2)) + 1.5
     assert (top_m > 57.0) == floats
+
+
+@pytest.mark.parametrize(
+    ("material", "diameter_mm", "length_m", "depth_m", "buoy_diameter_m"),
+    [
+        ("nylon", 7.7, 368.4, 325.9, 0.33),
+        ("nylon", 10.7, 203.3, 129.6, 0.3),
+        ("polyester", 18.9, 90.7, 60.7, 1.46),
+        ("wire", 4.5, 416.1, 305.5, 0.55),
+    ],
+)
+def test_a_slack_rope_in_still_water_bears_its_weight(material, diameter_mm, length_m, depth_m, buoy_diameter_m):
+    """The buoy carries it from the bed up to itself; the rest lies. An element kept a turn of 3.1 to 9.4 rad."""
+    rope = ropes.rope_of(material, 1e-3 * diameter_mm)
+    wanted = mooring(buoy_diameter_m=buoy_diameter_m, depth_m=depth_m, rope=rope, length_m=length_m)
+    rest = rest_of(scene_from_toml(scene_text(wanted, "mine")))
+    assert rest.status == 0 and rest.turn < 0.5 * math.pi
+    assert rest.top_N == pytest.approx(wanted.hanging_N, rel=0.02)  # its draught is not known
 
 
 @pytest.mark.parametrize(

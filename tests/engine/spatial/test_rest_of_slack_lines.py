@@ -86,24 +86,6 @@ def test_a_slack_line_under_a_buoy_rests_downstream(space, speed_mps, current):
     assert tensions[0] == pytest.approx(tensions[1], rel=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("length_m", "depth_m", "diameter_m", "area_m2", "stiffness_N"),
-    [(90.7, 60.7, 1.46, 2.07e-4, 3.9e5), (368.4, 325.9, 0.33, 3.7e-5, 7.0e3), (59.1, 39.1, 1.08, 2.2e-4, 4.1e4)],
-)
-def test_a_slack_line_under_a_buoy_in_still_water_bears_its_weight(length_m, depth_m, diameter_m, area_m2, stiffness_N):
-    """The buoy carries the line from the bed up to itself; the rest lies. An element kept a turn of 3.1 to 5.5 rad."""
-    rope = {"length_m": length_m, "area_m2": area_m2, "density_kgpm3": 1380.0, "diameter_m": 0.02, "nodes": 41}
-    displaced_kg = 1025.0 * math.pi * diameter_m**3 / 6.0
-    buoy = {"diameter_m": diameter_m, "mass_kg": 0.5 * displaced_kg, "added_mass_kg": 0.5 * displaced_kg, "drag": 0.2}
-    floor = {"stiffness_Npm3": 1e4, "damping_Nspm3": 1e3}
-    water = STILL | {"water.depth_m": depth_m, "floor": floor, "buoy": buoy | {"submergence": "spherical-cap"}}
-    bending_Nm2 = stiffness_N * area_m2 / (4.0 * math.pi)
-    rest = rest_of(line(water, tension=linear(stiffness_N), bending_stiffness_Nm2=bending_Nm2, **rope))
-    weight_N = (1380.0 - 1027.0) * 9.81 * area_m2 * depth_m
-    assert rest.status == 0 and rest.turn < 0.5 * math.pi
-    assert rest.top_N == pytest.approx(weight_N, rel=0.05)  # its draught is not known
-
-
 def test_whole_turns_are_taken_out_of_the_elements():
     angles = np.array([0.1, 0.2, 0.3, 0.4, 0.5])
     Y = np.zeros((5, 13))
