@@ -39,7 +39,7 @@ SCREEN_NODES = 9
 FINER_ELEMENTS, FINER_STEPS = 2, 4
 FINER_HOURS, FINER_SEAS = 0.25, 4  # of each finer run, and the most of them
 EXPONENT_SEAS, EXPONENT_HOURS = 3, 2.0  # with a perturbation, at least: from three seas on their scatter counts
-MOST_HOURS = 12.0
+SEEDS, MOST_HOURS = 8, 12.0
 
 
 @dataclass
@@ -47,7 +47,11 @@ class Options(cli.Options):
     """The options of this campaign. grid: the keys of a map, read from --vary; without one there is one sea state."""
 
     vary: list = cli.option("KEY LO HI COUNT", "a key of the scene and its values, both ends included; once or twice")
-    seeds: int = cli.option("N", "seas of each state, with seeds 1 to N", cli.whole(1, 1000), 8)
+    seeds: int | None = cli.option(
+        "N",
+        f"seas of each state, with seeds 1 to N (default: {SEEDS}; listed and measured waves are one sea)",
+        cli.whole(1, 1000),
+    )
     starts: int = cli.option("N", "starts in each sea: from rest, and N - 1 kicks", cli.whole(1, 100), 4)
     hours: float = cli.option("H", "length of every run after the transient, hours", cli.POSITIVE, 0.25)
     most_hours: float | None = cli.option(
@@ -137,9 +141,13 @@ def cases(order: Order) -> Iterator[Job]:
             order.tell(f"campaigns.sea: given {order.name!r} as it is; allowed: {allowed}")
             return
         listed = _seed_key(scene) is None and scene.waves.significant_steepness is None
+        if options.seeds is None:
+            options.seeds = 1 if listed else SEEDS
         if listed and options.seeds > 1:
             order.tell(f"--seeds: given {options.seeds} for listed waves; allowed: 1, or waves of a spectrum")
             return
+        if listed:
+            options.most_hours = 0.0
         yield from _runs(order, place, range(1, options.seeds + 1), options.starts)
 
 

@@ -8,7 +8,7 @@ from campaigns.answers import greatest, kilonewton, line
 from campaigns.explore.load import FLIES
 from campaigns.sea.cells import WELL_ABOVE
 from engine.trajectory.excursions import EMERGES
-from tables import EMERGED, TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows, number_of, typed
+from tables import EMERGED, TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows, count, number_of, typed
 
 SCATTERED = 0.05  # of the largest tension: a larger difference of runs in the same waves is reported
 ROUNDED_UP = 1.05  # times a number, in print with two digits: no less than the number
@@ -53,10 +53,10 @@ def _memory(cell: Row, options) -> str:
             memory = f"the starts come together after about {_rounded(periods)} periods in {seas - apart_seas:.0f} seas"
         return f"This scene carries no perturbation, so there is no exponent; {memory}."
     if sign != "−":
-        return (
-            "It is not decided whether this sea makes the buoy forget how it began: --most-hours above "
-            f"{options.most_hours:g} draws more seas."
-        )
+        decides = "longer runs (--hours) or more seas (--seeds) decide"
+        if options.most_hours:
+            decides = f"--most-hours above {options.most_hours:g} draws more seas"
+        return f"It is not decided whether this sea makes the buoy forget how it began: {decides}."
     if options.starts < 2:
         return "In this sea the buoy forgets a small difference of the start; with --starts 4 it is seen how fast."
     if not math.isfinite(periods):
@@ -161,12 +161,12 @@ def _doubts(cell: Row, options) -> Iterator[str]:
         )
 
 
-def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
-    """cells: those with runs that ended; count: of all."""
+def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
+    """cells: those with runs that ended; of_all: how many there are."""
     signs = Counter(cell["sign"] for cell in cells)
-    undecided = count - signs["−"] - signs["+"]
+    undecided = of_all - signs["−"] - signs["+"]
     words = (
-        f"Of {count} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and {undecided} "
+        f"Of {of_all} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and {undecided} "
         "are not decided"
     )
     if undecided:
@@ -182,7 +182,7 @@ def _of_map(cells: Rows, count: int, options) -> Iterator[str]:
             yield f"The {quantity} is largest at {place}: {in_print(worst[name])}."
     dry = sum(number_of(cell, EMERGED) > EMERGES for cell in cells)
     if dry:
-        yield f"No load of {dry} states is for design: {FLIES}."
+        yield f"No load of {count(dry, 'state')} is for design: {FLIES}."
     refused = sum(not math.isfinite(cell["storm_maximum_N"]) for cell in cells)
     if refused:
         yield f"{refused} states have no three-hour maximum; the column storm_reason says why."

@@ -59,6 +59,13 @@ def test_a_sea_whose_start_is_not_forgotten_says_so(entries, words):
     assert words in starts
 
 
+def test_no_load_of_a_sphere_that_comes_out_of_the_water_is_for_design():
+    dry, wet = SEA | {"max_buoy_emergence": 0.06}, SEA | {"max_buoy_emergence": 0.05}
+    loads = [next(of_sea([cell], OPTIONS)) for cell in (dry, wet, SEA)]
+    assert ["Not for design: the buoy comes out" in load for load in loads] == [True, False, False]
+    assert any("No load of 1 state is for design" in words for words in of_sea([dry, wet], OPTIONS))
+
+
 def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_open():
     answer = "\n".join(of_sea([SEA], OPTIONS))
     assert answer.startswith("LOAD     most probable three-hour maximum 12 kN (90 % interval 11 to 14)")

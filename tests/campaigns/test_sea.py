@@ -55,6 +55,13 @@ def test_long_runs_carry_perturbations_for_the_hours_that_are_needed_and_few_are
     assert all(case.scene.output.tangent_vectors for case in refined)
 
 
+def test_listed_waves_are_one_sea_and_no_other_is_drawn(tmp_path):
+    waves = "waves.components=[{period_s=5,amplitude_m=0.3},{period_s=6,amplitude_m=0.2}]"
+    order = order_of(sea, "--set", waves, "--no-regular", "--out", tmp_path / "new")
+    plain = [(case.labels["sea"], case.labels["start"]) for case in order.cases if not case.labels["solver"]]
+    assert plain == [(1, start) for start in range(4)] and order.options.most_hours == 0.0
+
+
 @pytest.mark.parametrize(("workers", "together"), [(2, 4), (3, 4), (4, 3)])
 def test_runs_that_share_lanes_go_to_one_worker_and_every_worker_gets_runs(tmp_path, workers, together):
     """together: of the four runs that share lanes, those of one worker."""
