@@ -166,8 +166,8 @@ def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
     signs = Counter(cell["sign"] for cell in cells)
     undecided = of_all - signs["−"] - signs["+"]
     words = (
-        f"Of {of_all} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and {undecided} "
-        "are not decided"
+        f"Of {of_all} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and "
+        f"{undecided} are not decided"
     )
     if undecided:
         words += f"; --most-hours above {options.most_hours:g} draws more seas of these"
