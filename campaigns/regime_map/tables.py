@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from campaigns.explore.motions import Motion, write_part
-from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, TANGENT
+from campaigns.explore.rows import EXTREMES, OUT_OF_WATER, REGIME, TANGENT
 from campaigns.explore.sweep import columns_of
 from campaigns.machinery import Plan
 from campaigns.regime_map.cells import CellGrid
@@ -60,7 +60,9 @@ OF_A_CELL = (
     SHARE,
     Column("exponent_max_per_period", "bits/period", "σ", "largest exponent of the motions that have one", 3),
     Column("loops", "", "loops", "1 where a motion released loops, else 0", 0),
-    Column("leaves_water", "", "out", "1 where the sphere of a motion rises above still water, else 0", 0),
+    Column(
+        "leaves_water", "", "out", "1 where a sphere rises above still water or, uncapped, out of a wave, else 0", 0
+    ),
     Column("wall_s", "s", "wall", "time of the judged runs of the cell", 2),
     of_words("run_key_rest", "content key of the run from rest", "key"),
     STATUS,
@@ -144,7 +146,7 @@ def _cell(map_, motions: Sequence[Motion], rest: dict) -> Row:
         RATIO.name: None,
         "exponent_max_per_period": max(exponents, default=None),
         "loops": int(_any_above_zero(rows, LOOPS)),
-        "leaves_water": int(_any_above_zero(rows, HEIGHT)),
+        "leaves_water": int(_any_above_zero(rows, *OUT_OF_WATER)),
         "wall_s": sum(row.get(WALL_S.name) or 0.0 for row in rows),
         "run_key_rest": rest["run_key"],
         "status": rest["status"],
@@ -157,8 +159,8 @@ def _cell(map_, motions: Sequence[Motion], rest: dict) -> Row:
     return cell
 
 
-def _any_above_zero(rows: Sequence[dict], column: Column) -> bool:
-    return any(number_of(row, column.name) > 0.0 for row in rows)
+def _any_above_zero(rows: Sequence[dict], *columns: Column) -> bool:
+    return any(number_of(row, column.name) > 0.0 for row in rows for column in columns)
 
 
 def write_strobes(map_) -> None:

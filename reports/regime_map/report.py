@@ -124,7 +124,7 @@ def _pull(cell: tuple) -> float:
 
 _LIMIT_SENTENCES = {
     "loops": "loops are released, in a plane: a real line leaves it, so regime and exponent may differ there",
-    "leaves_water": "the top of the sphere comes above still water: `buoy.submergence` says how it is treated",
+    "leaves_water": "the sphere comes out of the water: `buoy.submergence` says how it is treated",
 }
 
 
