@@ -14,7 +14,7 @@ from ..parts import Folder, at, entries, series
 from ..parts.style import BLUE, GRID, INK, MAP_PERIODS, ORANGE, REGIME_COLOURS, VERMILION
 
 PULL, _EXPONENT = "tension_over_static", "exponent_max_per_period"
-LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere above still water"}
+LIMITS = {"loops": "loops released, in a plane", "leaves_water": "sphere out of the water"}
 _FINE = 100  # places on a curve from one point to the next, at which its cell is looked for
 _WHOLE = 0.995  # share of a map that is called all of it
 

@@ -141,7 +141,7 @@ def test_a_limit_of_the_whole_map_is_a_sentence_and_no_hatch(folder_of):
     atlas = atlas_of(place)
     assert [text.partition(":")[0] for look, text in legend(atlas) if look in HATCHES] == [LIMITS["loops"]]
     assert list(atlas.pages[0].hatched) == [LIMITS["loops"]]
-    assert any(line.startswith("On 100 % of the map the top") for line in _warnings(read_folder(place), atlas).lines)
+    assert any(line.startswith("On 100 % of the map the sphere") for line in _warnings(read_folder(place), atlas).lines)
 
 
 def test_lines_lie_between_cells_that_differ_and_nowhere_else(drawn):
