@@ -55,7 +55,7 @@ def typed(value: float | None, digits: int = 4) -> str:
 
 
 def number(value: float | None, digits: int = 4) -> str:
-    """The same in print, with its sign.
+    """As `typed`, with the minus sign of print.
 
     >>> number(-1611.0)
     '−1611'

@@ -121,7 +121,7 @@ class Mooring:
             most = f"less than the {self.displaced_kg:.4g} kg of sea water that the sphere displaces, or it sinks"
             lines.append(f"--buoy-mass: given {self.buoy_kg:g}; allowed: {most}")
         elif self.lift_N <= self.hanging_N:
-            lifts = f"a buoy that lifts more than the {self.hanging_N:.4g} N of its rope in the water; this one lifts"
+            lifts = f"a buoy that lifts more than the {self.hanging_N:.4g} N its rope weighs in water; this one lifts"
             lines.append(f"--buoy-diameter: given {self.buoy_diameter_m:g}; allowed: {lifts} {self.lift_N:.4g} N")
         breaking_N = self.rope.breaking_load_N
         if self.kind == SUBMERGED and self.lift_N >= breaking_N:

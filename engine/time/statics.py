@@ -102,6 +102,7 @@ def _guesses(record, scene, h, span, sinking):
     if record["end"] == HELD and record["w0"] != 0.0:
         yield first_guess(record, scene, h, HANGING), True
     if record["end"] == BUOY and has_extras(record) and record["floored"] and record["w0"] > 0.0:
+        # every attempt turns upwards in more elements than the last one: none is right for all lines
         corner = SHARPEST + SPANS.index(span) * len(SINKING) + SINKING.index(sinking)
         yield first_guess(record, scene, h, LYING, corner), False
     if is_spatial(record):
@@ -235,10 +236,9 @@ def _in_plane(record, scene, h, force, span, corner):
         x = math.hypot(x, y) if is_spatial(record) else x  # along its azimuth
         if span == HANGING and math.hypot(x, z) < length:
             return _catenary(Y, s, x, z, record["w0"], scene.tether.tension)
-        below = (
-            1.0 if (record["w0"] >= 0) == (x >= 0) else -1.0
-        )  # a heavy line hangs below the chord, a light one above
-        return _to_a_place(Y, s, x, z, below)
+        # a heavy line hangs below the chord, a light one above
+        sag = 1.0 if (record["w0"] >= 0) == (x >= 0) else -1.0
+        return _to_a_place(Y, s, x, z, sag)
     up, height = afloat(record, scene, s) if record["end"] == BUOY else (force[1], None)
     downstream = _downstream(scene.current) or (1.0 if record["w0"] >= 0 else -1.0)
     if height is not None:
@@ -271,7 +271,7 @@ def _lying(Y, s, height, downstream, corner):
 
 
 def _downstream(current):
-    """1.0 or -1.0: the way along x in which a current flows on the whole; 0.0 where it flows in none.
+    """1.0 or -1.0: the way along x in which a current flows in the mean; 0.0 if it flows in neither.
 
     The bight of a slack line lies there. One that begins upstream may settle with a whole turn in an element.
     """

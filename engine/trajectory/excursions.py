@@ -1,8 +1,8 @@
 """Where a run left what its laws are made for, in words: a sphere out of the water, a line below the bed.
 
 A sphere counts as in the air where its lowest point is above the linear wave: nothing of its constant buoyancy,
-eq. (30), is there. Of one that is out of the water in part a part of it is not there. That can spoil the tension as
-much: of a buoy of 4 m on 95 m of rope in 100 m of water, two thirds out, in a sea of 6 m, 308 kN stand for 447.
+eq. (30), is there. A sphere that is partly out of the water has too much buoyancy, too. This can spoil the tension as
+much: with two thirds of a buoy of 4 m dry, a sea of H_s = 6 m pulled with 308 kN in place of 447 kN (docs/scenes.md).
 """
 
 from collections.abc import Iterator
@@ -60,12 +60,12 @@ def excursions_of(scene: Scene, columns: Columns) -> Iterator[str]:
     if scene.water is None or not len(time_s):
         return
     height = height_above_wave(scene, columns)
-    flying = height > 0.0
+    flying, share = height > 0.0, _share_out(scene, height)
     if flying.any():
         first, last = time_s[flying][[0, -1]]
         words = AIR.format(share=100.0 * flying.mean(), first=first, last=last, most=height[flying].max())
         yield words + CAP
-    elif (share := emergence(scene, columns) or 0.0) > EMERGES:
+    elif share is not None and share > EMERGES:
         yield PART.format(share=100.0 * share) + CAP
     depth = -scene.anchor.position_m[2] - columns["line_lowest_m"]
     buried = depth > scene.tether.diameter_m
@@ -75,9 +75,17 @@ def excursions_of(scene: Scene, columns: Columns) -> Iterator[str]:
 
 def emergence(scene: Scene, columns: Columns) -> float | None:
     """Largest share of the diameter of a sphere without a cap above the linear wave, 1 in the air; None without one."""
-    if scene.buoy is None or scene.buoy.submergence != "full" or scene.water is None or not len(columns["time_s"]):
+    if scene.water is None or not len(columns["time_s"]):
         return None
-    return max(0.0, 1.0 + float(height_above_wave(scene, columns).max()) / scene.buoy.diameter_m)
+    return _share_out(scene, height_above_wave(scene, columns))
+
+
+def _share_out(scene, height):
+    """`emergence` from the heights of `height_above_wave`."""
+    highest_m = float(height.max())
+    if highest_m == -np.inf:
+        return None
+    return max(0.0, 1.0 + highest_m / scene.buoy.diameter_m)
 
 
 def height_above_wave(scene: Scene, columns: Columns) -> np.ndarray:
