@@ -18,7 +18,7 @@ from benchmarks.known_flows import chaotic_flows, with_noise
 from benchmarks.known_records import REGULAR
 from benchmarks.shared import command_line
 from benchmarks.write_tables import publish
-from campaigns.time_series.study import judged, least_tolerance, seen
+from campaigns.time_series.study import judged, seen
 
 CYCLES = 300
 NOISE = {0.0: (12, 24, 48), 0.01: (24,), 0.05: (24,)}  # share of the standard deviation: samples a cycle
@@ -64,7 +64,7 @@ def words_of(records, show):
     for known in records:
         x = np.asarray(known.series, dtype=float)
         view = seen(x, known.step, known.period)
-        verdict = judged(x, view, least_tolerance(view), 0)
+        verdict, _ = judged(x, view)
         words["period-N" if verdict.period else verdict.regime] += 1
         if show:
             summary = f"{verdict.regime} ({view.kind}, {len(view.points)}) {evidence_text(verdict)}"

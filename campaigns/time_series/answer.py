@@ -14,6 +14,7 @@ import hashlib
 import json
 import platform
 import textwrap
+from collections.abc import Iterator
 from dataclasses import asdict, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -22,7 +23,7 @@ import numpy as np
 import pandas
 
 from analysis.poincare import PHASES
-from campaigns.time_series.study import MAXIMA, SAMPLES, STROBED, Study
+from campaigns.time_series.study import MAXIMA, MOST_TOLERANCE, OF_NOISE, SAMPLES, STROBED, Study, noise_tolerance
 from engine.atomic import write_atomic
 from tables import Column, dictionary, names
 
@@ -128,20 +129,28 @@ def _measures(study: Study) -> list[tuple]:
 def _notes(study: Study) -> list[str]:
     """What the reader could do for a better answer."""
     notes, view, record = [], study.seen, study.record
-    noise, undecided = view.noise / np.ptp(record.values), study.verdict.regime == "undecided"
+    undecided = study.verdict.regime == "undecided"
     if record.unit != "s":
         notes.append("time is counted in samples: --time COLUMN or --step SECONDS puts it in seconds")
     if undecided and len(view.points) < 200:
         needed = "chaos can be shown with 200 points or more on the section, any regime with 40"
         notes.append(f"{needed}; here are {len(view.points)}")
-    if undecided and view.kind != SAMPLES and 1e-4 < noise < 0.05:
-        note = f"the noise is {noise:.1g} of the range, and repetition was asked within {study.tolerance:.1g} of it"
-        notes.append(f"{note}: --tolerance {8 * noise:.1g} asks whether the motion repeats within its noise")
+    notes.extend(_notes_on_noise(study))
     if view.kind == MAXIMA:
         notes.append("of a motion that is forced with a known period, --period sees more: the section once per period")
     if study.used < len(record.values):
         notes.append(f"exponents and dimension are those of the last {study.used} samples")
     return notes
+
+
+def _notes_on_noise(study: Study) -> Iterator[str]:
+    """What noise hides of a period, a torus or the answer."""
+    share = study.seen.noise / np.ptp(study.record.values)
+    noise, tolerance = f"the noise is {share:.1g} of the range", OF_NOISE * share
+    if study.tolerance == noise_tolerance(study.record.values, study.seen):
+        yield f"{noise}: a torus thinner than {tolerance:.1g} of it looks like a period"
+    elif study.verdict.regime == "undecided" and study.seen.kind != SAMPLES and MOST_TOLERANCE < tolerance < 0.4:
+        yield f"{noise}: --tolerance {tolerance:.1g} asks whether the motion repeats, but a torus as thin looks so too"
 
 
 def write_files(study: Study, directory: Path, settings: dict[str, object]) -> None:

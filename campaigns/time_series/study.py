@@ -16,6 +16,9 @@ The verdict is that of `verdicts.regime` on this section. At maxima two things a
   Before "chaotic" stands, the height of the last maximum, seen at even times, has to be forgotten, too.
 - A motion whose maxima are all alike need not repeat itself: they may come unevenly. A period seen at maxima also needs
   them to keep time (`_even_times`).
+
+A record that is left undecided may be a period with noise: whether it repeats within OF_NOISE times its noise is asked
+then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period.
 """
 
 from dataclasses import dataclass, replace
@@ -34,6 +37,7 @@ from analysis.embedding import (
 )
 from analysis.evidence import Evidence, memory_evidence, outlier_evidence
 from analysis.exponents import Exponent, no_exponent
+from analysis.periods import detect_period
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
@@ -50,6 +54,7 @@ MOST_SAMPLES = 30_000
 MOST_POINTS = 6_000
 SURROGATES = 39
 TOLERANCE = 1e-3
+OF_NOISE, MOST_TOLERANCE = 8.0, 0.1
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
 ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
@@ -87,8 +92,8 @@ class Study:
 def study(record: Record, period: float | None = None, tolerance: float | None = None) -> Study:
     """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
 
-    tolerance: share of the range within which a motion repeats; None: 0.001, or what splines leave of a sine sampled as
-    coarsely. The same record gives the same study.
+    tolerance: share of the range within which a motion repeats; None: `least_tolerance`, and where that decides nothing
+    `noise_tolerance`. The same record gives the same study.
     """
     x, step = record.values, record.step
     view = seen(x, step, period)
@@ -104,8 +109,7 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
         vectors = delay_vectors(last, embedding.lag, embedding.dimension)[-MOST_POINTS:]
         dimension = correlation_dimension(vectors, max(1, round(embedding.mean_period)))
     power = _spectrum(x, step, view, period)
-    tolerance = least_tolerance(view) if tolerance is None else tolerance
-    verdict = judged(x, view, tolerance)
+    verdict, tolerance = judged(x, view, tolerance)
     irregular = zero_one_test(view.points[-MOST_POINTS:, 0])
     return Study(
         record=record,
@@ -138,8 +142,30 @@ def _spectrum(x, step, view, period):
     return spectrum(x[-half - 1 :], step, half * step, start_periods=0, periods=1)
 
 
-def judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
-    """The Verdict on a record (n,) by its section; tolerance: as in `study`."""
+def noise_tolerance(x: np.ndarray, view: Seen) -> float | None:
+    """OF_NOISE times the noise on a record (n,), as a share of its range; None where that is too little or too much."""
+    tolerance = OF_NOISE * view.noise / np.ptp(x)
+    if view.kind != SAMPLES and least_tolerance(view) < tolerance <= MOST_TOLERANCE:
+        return tolerance
+    return None
+
+
+def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[Verdict, float]:
+    """The Verdict on a record (n,) by its section, and the tolerance at which it stands; tolerance: as in `study`."""
+    if tolerance is not None:
+        return _judged(x, view, tolerance), tolerance
+    least, of_noise = least_tolerance(view), noise_tolerance(x, view)
+    verdict = _judged(x, view, least)
+    if verdict.regime == "undecided" and of_noise is not None:
+        repeats = detect_period(view.points[-MOST_POINTS:], tolerance=of_noise, scale=np.ptp(x))
+        if repeats.period is not None:
+            within_noise = _judged(x, view, of_noise)
+            if within_noise.period is not None:
+                return within_noise, of_noise
+    return verdict, least
+
+
+def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     outliers = outlier_evidence(x)
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
