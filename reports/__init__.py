@@ -54,9 +54,8 @@ def content_of(directory: str | Path):
 
     directory = Path(directory)
     provenance = provenance_of(directory)
-    campaign = provenance.get(
-        "campaign", "buoy_sweep"
-    )  # without one, the reader of any content lists all that is wrong
+    # without a campaign the reader of any content lists all that is wrong
+    campaign = provenance.get("campaign", "buoy_sweep")
     name = campaign
     if campaign not in CONTENTS and provenance.get("vary"):
         name = "sweep"

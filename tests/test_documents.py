@@ -63,6 +63,13 @@ def test_every_page_that_the_code_names_exists():
     assert missing == []
 
 
+@pytest.mark.parametrize("page_name", PAGES)
+def test_every_name_that_a_page_places_in_a_file_is_there(page_name):
+    placed = re.findall(r"`([\w.]+)`,? (?:\(|in |of )`([\w/]+\.py)`", " ".join(text(page_name).split()))
+    missing = [name for name, path in placed if not re.search(rf"\b{name.split('.')[-1]}\b", text(path))]
+    assert missing == []
+
+
 @pytest.mark.parametrize("number", range(1, 41))
 def test_the_theory_states_every_equation_of_the_paper(number):
     assert re.search(rf"\\tag\{{{number}\}}|eqs?\. [^.]*\({number}\)", text("THEORY.md"))

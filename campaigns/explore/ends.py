@@ -210,8 +210,10 @@ def confirm(motions: Motions) -> None:
 
 def _confirmation(motion: Motion, change: str, result: Motion | None) -> str:
     """What a motion becomes with a change of the numerical method, in words."""
+    if result is motion and change == TIGHTER:
+        return f"at {change}"
     if result is motion:
-        return f"{('on', 'at')[change == TIGHTER]} {change}"
+        return f"on {change}"
     if result is not None:
         return f"NOT with {change}, where it becomes {result.branch.letter}"
     return f"not settled with {change}"
