@@ -5,27 +5,29 @@
     python -m campaigns.out_of_plane --set water.depth_m=22.0 solver.rtol=0.003
 
 Protocol: the buoy is pushed at t = 0 (1e-5 m/s across the waves, as in the paper). One thing at a time is varied: the
-size and the direction of the push, the depth, the bending stiffness, the nodes. Planar runs carry an infinitesimal
+size and the direction of the push, the depth, the bending stiffness, the nodes. A rope of another length than the
+paper's has one depth, that of its scene. Planar runs carry an infinitesimal
 perturbation across their plane, whose exponent needs no push, and those with loop releases are compared with their
 counterparts in three dimensions. Nothing is random.
 """
 
 from argparse import SUPPRESS
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from itertools import product
 
+import engine
 from campaigns.explore.space import SEED_MPS, velocity
 from campaigns.explore.sweep import ROW_SOURCES
 from campaigns.judge import LEAST_JUDGED, judged_scene
 from campaigns.machinery import Job, Plan, Summary, cli
 from campaigns.study import Lengths, Measures, Order, Study
-from tables import LARGE, SMALL, Rows, number_of, read_table, write_table
+from tables import LARGE, SMALL, Rows, number_of, read_table, typed, write_table
 
 DEPTHS_M = (21.0, 21.6, 22.0, 22.5, 25.0)
 LOOPING_DEPTHS_M = (21.0, 21.6, 22.0)  # where planar runs of the large wave have to release loops
-STIFFNESSES_NM2 = (0.1, 0.4, 4.0)
+SOFTER, STIFFER = 0.25, 10.0  # times the bending stiffness
 NODES = (41, 81, 161)
 PUSH_NODES = 81  # on 41 the rope answers a small push before the first loop by what the steps happen to be
 SEEDS_MPS = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
@@ -72,19 +74,32 @@ class Variant:
         return keys
 
 
-def variants(base: Variant) -> list[Variant]:
-    """Every run, each once. base: the large wave in the scene as it is; it leads, its small counterpart follows."""
+def depths_of(order: Order) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Depths (m) that are varied, because the paper states none, and those of them where runs are compared."""
+    scene = order.base()
+    if scene.tether.length_m == engine.load_scene(STUDY.scene).tether.length_m:
+        return DEPTHS_M, LOOPING_DEPTHS_M
+    return (scene.water.depth_m,), (scene.water.depth_m,)
+
+
+def variants(base: Variant, depths_m: Sequence[float], looping_depths_m: Sequence[float]) -> list[Variant]:
+    """Every run, each once. base: the large wave in the scene as it is; it leads, its small counterpart follows.
+
+    depths_m, looping_depths_m: as of `depths_of`.
+    """
     small = replace(base, steepness=SMALL)
     fine = replace(base, nodes=max(base.nodes, PUSH_NODES))
     runs = [base, small]
     # the longest runs first, so that no worker is left with one at the end
-    runs += varied(base, nodes=reversed(NODES), depth_m=LOOPING_DEPTHS_M)
-    all_depths_m = (base.depth_m, *DEPTHS_M)
+    runs += varied(base, nodes=reversed(NODES), depth_m=looping_depths_m)
+    all_depths_m = (base.depth_m, *depths_m)
+    EI = base.bending_stiffness_Nm2
+    stiffnesses_Nm2 = (SOFTER * EI, EI, STIFFER * EI)
     runs += varied(in_plane(base), in_plane(small), depth_m=all_depths_m)
     runs += varied(fine, small, seed_mps=SEEDS_MPS)
-    runs += varied(base, small, depth_m=DEPTHS_M)
-    runs += varied(base, bending_stiffness_Nm2=STIFFNESSES_NM2, depth_m=all_depths_m)
-    runs += varied(small, bending_stiffness_Nm2=STIFFNESSES_NM2)
+    runs += varied(base, small, depth_m=depths_m)
+    runs += varied(base, bending_stiffness_Nm2=stiffnesses_Nm2, depth_m=all_depths_m)
+    runs += varied(small, bending_stiffness_Nm2=stiffnesses_Nm2)
     runs += varied(base, small, seed_direction=("mirrored", "oblique"))
     runs += varied(base, seed_direction=("along",))
     runs += varied(small, nodes=NODES)
@@ -103,10 +118,10 @@ def in_plane(case: Variant) -> Variant:
     return replace(case, dimensions=2, seed_mps=0.0, seed_direction="")
 
 
-def compared(case: Variant, base: Variant) -> bool:
+def compared(case: Variant, base: Variant, looping_depths_m: Sequence[float]) -> bool:
     """Whether a variant takes part in the comparison of planar runs with runs in three dimensions."""
     spatial = replace(base, depth_m=case.depth_m)
-    return case.depth_m in LOOPING_DEPTHS_M and case in (spatial, in_plane(spatial))
+    return case.depth_m in looping_depths_m and case in (spatial, in_plane(spatial))
 
 
 @dataclass
@@ -122,7 +137,7 @@ def cases(order: Order) -> Iterator[Job]:
     base = base_of(order)
     if base is None:
         return
-    for case in variants(base):
+    for case in variants(base, *depths_of(order)):
         scene = judged_scene(order, case.changes(), least=0)
         if scene is not None:
             periods = order.periods
@@ -145,9 +160,10 @@ def measures(order: Order) -> Measures:
     from campaigns.out_of_plane.rows import COLUMNS, offplane_row
 
     base = base_of(order)
+    _, looping_depths_m = depths_of(order)
     judged = set()
     for case in order.cases:
-        if compared(variant(case.labels), base):
+        if compared(variant(case.labels), base, looping_depths_m):
             judged.add(case.scene.key())
     row = partial(offplane_row, transient_periods=order.transient, judged=frozenset(judged))
     sources = (*ROW_SOURCES, "campaigns/out_of_plane/rows.py")
@@ -160,7 +176,8 @@ def variant(row: Mapping[str, object]) -> Variant:
 
 
 def parameters(order: Order) -> dict:
-    return {"base": asdict(base_of(order)), "looping_depths_m": list(LOOPING_DEPTHS_M)}
+    _, looping_depths_m = depths_of(order)
+    return {"base": asdict(base_of(order)), "looping_depths_m": list(looping_depths_m)}
 
 
 def beside(order: Order) -> Iterator[Callable]:
@@ -198,9 +215,13 @@ def answer(order: Order, rows: Rows) -> Iterator[str]:
         buoy, rope = greatest(good, "buoy_lateral_max_m"), greatest(good, "rope_lateral_max_m")
         if buoy is not None and rope is not None:
             buoy_m, rope_m = number_of(buoy, "buoy_lateral_max_m"), number_of(rope, "rope_lateral_max_m")
-            sentence = "kA = {:g}: the buoy leaves the plane by at most {:.2g} m, the rope by {:.2g} m."
-            yield sentence.format(steepness, buoy_m, rope_m)
+            words = f"kA = {steepness:g}: the buoy leaves the plane by at most {buoy_m:.2g} m ({_place(buoy)})"
+            yield f"{words}, the rope by {rope_m:.2g} m ({_place(rope)})."
     yield from verdicts(order.how.out, quoted=4)
+
+
+def _place(row: Mapping[str, object]) -> str:
+    return f"H = {typed(row['depth_m'])} m, EI = {typed(row['bending_stiffness_Nm2'])} N m2, {row['nodes']} nodes"
 
 
 STUDY = Study(

@@ -43,7 +43,8 @@ def test_everything_the_question_needs_is_run_once():
     assert len({scene.key() for scene in scenes.values()}) == len(order.cases)
     planar = [run for run in scenes if run.dimensions == 2]
     assert len(planar) == 10 and all(scenes[run].output.lateral_growth for run in planar)
-    compared = [run for run in scenes if out_of_plane.compared(run, out_of_plane.base_of(order))]
+    _, depths_m = out_of_plane.depths_of(order)
+    compared = [run for run in scenes if out_of_plane.compared(run, out_of_plane.base_of(order), depths_m)]
     pairs = [(depth, dimensions) for depth in (21.0, 21.6, 22.0) for dimensions in (2, 3)]
     assert sorted((run.depth_m, run.dimensions) for run in compared) == pairs
 
@@ -61,6 +62,12 @@ def test_another_scene_becomes_the_base_of_what_is_varied():
     base = out_of_plane.base_of(order)
     assert (base.depth_m, base.nodes) == (23.0, 61)
     assert {23.0, 21.0} <= {case.labels["depth_m"] for case in order.cases}
+
+
+def test_a_rope_of_another_length_stays_in_its_depth():
+    order = order_of(out_of_plane, "--set", "tether.length_m=39", "water.depth_m=40", "tether.bending_stiffness_Nm2=2")
+    assert {case.labels["depth_m"] for case in order.cases} == {40.0}
+    assert {case.labels["bending_stiffness_Nm2"] for case in order.cases} == {0.5, 2.0, 20.0}
 
 
 def test_rows_say_decay_with_its_rate_and_bursts_with_their_size(rows):

@@ -15,8 +15,10 @@ def test_the_planar_run_is_good_enough_for_the_buoy_but_not_for_its_path(tmp_pat
     words = ["--jobs", "2", "--no-report", "--out", str(tmp_path / "out")]
     order = order_of(out_of_plane, *words)
     assert order.periods - order.transient == 200
-    base = out_of_plane.base_of(order)
-    order.cases = [case for case in order.cases if out_of_plane.compared(out_of_plane.variant(case.labels), base)]
+    base, (_, depths_m) = out_of_plane.base_of(order), out_of_plane.depths_of(order)
+    variants = [out_of_plane.variant(case.labels) for case in order.cases]
+    pairs = zip(order.cases, variants, strict=True)
+    order.cases = [case for case, variant in pairs if out_of_plane.compared(variant, base, depths_m)]
     assert out_of_plane.STUDY.conduct(order, words) == 0
     rows = {row["run_key"]: row for row in read_table(tmp_path / "out" / "table.csv")}
     pairs = read_table(tmp_path / "out" / "pairs.csv")
