@@ -64,7 +64,7 @@ ON_A_FINER_GRID = {  # words of a message -> what is said of its row
 
 
 def sentences(rows: Rows, key: str, symbol: str, scene, companions: Rows = (), ends: Rows = ()) -> list[str]:
-    """The lines, of the rows over a column `key` of the table, in words `symbol`; scene: of one of the runs.
+    """The lines, of the rows over a column `key` of the table, in words `symbol`; scene: of the largest tension.
 
     companions, ends: rows of its folders of these names.
     """

@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import engine
+from campaigns.answers import greatest, lasting
+from campaigns.explore.grid import place_in
 from campaigns.machinery import Job, Jobs, Plan, Summary, cli, run
 from campaigns.study import Measures, Order
 from engine.views import carries_tangents, in_regular_waves
-from tables import Columns, Rows, names, read_table
+from tables import PEAK, Columns, Rows, names, read_table
 
 ROW_SOURCES = ("analysis", "engine", "campaigns/explore", "campaigns/judge.py")
 BUDGET = 1500  # wave periods after which a run ends undecided
@@ -187,7 +189,16 @@ def answer(order: Order, rows: Rows, symbol: str, *folders: str) -> list[str]:
     if kicks_of(order) is not None:
         folders = *folders, "ends"
     (key,) = names(order.options.grid.columns)
-    return sentences(rows, key, symbol, order.cases[0].scene, **tables_of(order.how.out, *folders))
+    return sentences(rows, key, symbol, scene_of_peak(order, rows), **tables_of(order.how.out, *folders))
+
+
+def scene_of_peak(order: Order, rows: Rows):
+    """The scene of the largest tension; without one, that of the first run."""
+    peak, columns = greatest(lasting(rows), PEAK), order.options.grid.columns
+    for case in order.cases:
+        if peak is not None and place_in(peak, columns) == place_in(case.labels, columns):
+            return case.scene
+    return order.cases[0].scene
 
 
 def measures_of(order: Order, columns: Columns, row: Callable | None = None, *sources: str) -> Measures:

@@ -185,7 +185,7 @@ def answer(order: Order, rows: Rows) -> list[str]:
     from campaigns.explore.load import load
     from campaigns.sweep import seas
 
-    keys, scene = names(order.options.grid.columns), order.cases[0].scene
+    keys, scene = names(order.options.grid.columns), motions.scene_of_peak(order, rows)
     symbols = dict(zip(keys, keys, strict=True))
     if in_sea(scene):
         return seas.sentences(rows, symbols, scene)

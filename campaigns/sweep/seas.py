@@ -38,13 +38,13 @@ def statistics(scene, columns, transient_s: float) -> Row:
 def sentences(rows: Rows, symbols: Mapping[str, str], scene) -> list[str]:
     """The lines SEA, LOAD, TENSION, SNAPS and OPEN of a sweep.
 
-    symbols: of what is varied, by column; scene: of one of the runs.
+    symbols: of what is varied, by column; scene: of the largest tension.
     """
     good = lasting(rows)
     if not good:
         return lines(NOTHING_LASTS)
     texts = {
-        "SEA": _sea(good, scene),
+        "SEA": _sea(good, symbols, scene),
         "LOAD": load(good, symbols, scene),
         "TENSION": _tension(good, symbols),
         "SNAPS": _snaps(good, symbols),
@@ -53,11 +53,12 @@ def sentences(rows: Rows, symbols: Mapping[str, str], scene) -> list[str]:
     return lines(texts)
 
 
-def _sea(rows: Rows, scene) -> str:
-    return (
-        f"significant elevation {span(numbers_of(rows, SURFACE.name))} m, peak period {scene.waves.period_s:.3g} s; "
-        f"one run for each value, the first {rows[0]['transient_periods']:.3g} peak periods left out (--transient)."
-    )
+def _sea(rows: Rows, symbols: Mapping[str, str], scene) -> str:
+    words = f"significant elevation {span(numbers_of(rows, SURFACE.name))} m"
+    if "waves.period_s" not in symbols:
+        words += f", peak period {scene.waves.period_s:.3g} s"
+    left_out = f"the first {rows[0]['transient_periods']:.3g} peak periods left out (--transient)"
+    return f"{words}; one run for each value, {left_out}."
 
 
 def _tension(rows: Rows, symbols: Mapping[str, str]) -> str:

@@ -17,6 +17,7 @@ import pytest
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from engine import Trajectory, load_scene, simulate
+from engine.natural_frequencies import natural_frequencies
 from reports import build
 from reports.figures.quantities import measured
 from reports.parts.content import Figure, Table, plain
@@ -256,3 +257,11 @@ def test_from_python_a_sweep_refuses_as_the_command_does(tmp_path, scene, key, v
     with pytest.raises(ValueError, match=fault):
         sweep_command.sweep(scene, key, values, **{"out": tmp_path / "out"} | options)
     assert not (tmp_path / "out").exists()
+
+
+def test_a_tension_is_over_the_static_one_of_its_own_scene():
+    """Which is proportional to gravity."""
+    order = order_of(sweep_command, "--vary", "gravity_mps2", "2", "8", "2")
+    static_N = natural_frequencies(order.cases[0].scene).static_tension_N
+    rows = [{"status": "ok", "gravity_mps2": g, "tension_top_max_N": 3.0 * g / 2.0 * static_N} for g in (2.0, 8.0)]
+    assert "3.0 times static, gravity_mps2 = 8" in sweep_command.STUDY.answer(order, rows)[0]
