@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import growth_contradicts, motion_regime, tangent_lyapunov
+from analysis import motion_regime, tangent_lyapunov
 from analysis.exponents import Exponent
 from analysis.looks import CLOSE
 from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth, normal
@@ -52,26 +52,6 @@ def test_one_look_is_enough_for_a_torus_whose_growth_is_below_the_bound_by_three
     (exponent,) = tangent_lyapunov(growth[280:])
     growth = (growth - exponent.value * np.log(2.0)) * 0.06 / (errors * exponent.error)
     assert motion_regime(circle_map(0.5, 0.6180339, 466), growth, scale=2.0).regime == word
-
-
-@pytest.mark.parametrize(
-    ("word", "finer", "contradicted"),
-    [
-        ("period-2", (0.012, 0.01), True),
-        ("period-2", (0.008, 0.01), False),
-        ("chaotic", (0.19, 0.1), True),
-        ("chaotic", (0.45, 0.2), False),
-        ("chaotic", (0.45, 0.1), True),
-        ("chaotic", (0.55, 0.1), False),
-        ("chaotic", (np.nan, np.nan), False),
-        ("quasi-periodic", (0.5, 0.01), False),
-    ],
-)
-def test_a_period_is_contradicted_by_growth_of_one_error_and_chaos_by_less_than_two_or_too_little(
-    word, finer, contradicted
-):
-    """Chaos that grows by 0.75 +- 0.1 on its own grid grows too little by two errors of the difference below 0.47."""
-    assert growth_contradicts(word, (0.75, 0.1), finer) == contradicted
 
 
 def test_a_shear_does_not_make_a_torus_chaotic():
