@@ -34,6 +34,9 @@ def test_a_line_counts_from_one_per_cent_of_the_variance(share, free):
     line = np.sqrt(2.0 * share) * np.cos(2.0 * np.pi * 0.1234567 * k)
     motion = line + np.sqrt(2.0 * (1.0 - share)) * np.cos(0.5 * np.pi * k + 1.0)
     assert incommensurate_evidence(motion[:, None], 16).passed is free
+    assert "100%" in incommensurate_evidence((-1.0) ** k[:, None], 16).sentence, (
+        "a motion from side to side is its line"
+    )
 
 
 @pytest.mark.parametrize(("bands", "word"), [(1, "quasi-periodic"), (2, "undecided")])
