@@ -55,8 +55,9 @@ def turning_points(low: ArrayLike, high: ArrayLike) -> np.ndarray:
     """
     low, high = checked_series(low, "low"), checked_series(high, "high")
     middle = 0.5 * (low + high)
-    rises = np.append(np.diff(middle) > 0.0, False)
-    risen = np.insert(np.diff(middle) > 0.0, 0, False)
+    rising = np.diff(middle) > 0.0
+    rises = np.concatenate([rising, ~rising[-1:]])
+    risen = np.concatenate([~rising[:1], rising])
     peaks, troughs = risen & ~rises, ~risen & rises
     kept = np.flatnonzero(peaks | troughs)
     return np.where(peaks[kept], high[kept], low[kept])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from analysis import correlation_dimension
+from analysis.correlation_sums import _sampling_error
 from tests.analysis.systems import henon, normal, states
 
 
@@ -33,6 +34,13 @@ def test_a_line_and_a_circle_have_dimension_1(points):
     assert correlation_dimension(place @ [[1.0, -2.0, 3.0]]).value == pytest.approx(1.0, abs=0.03)
     circle = np.hstack([np.cos(2 * np.pi * place), np.sin(2 * np.pi * place)])
     assert correlation_dimension(circle).value == pytest.approx(1.0, abs=0.05)
+
+
+def test_four_parts_of_a_record_know_the_slope_twice_as_well_as_one():
+    place = np.linspace(0.0, 2.0, 41)
+    parts = (1000.0 * np.exp(np.outer(1.0 + 0.1 * normal(seed, 4), place)) for seed in range(400))
+    errors = [_sampling_error(pairs, place, place >= 0.0) for pairs in parts]
+    assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(0.05, rel=0.1)
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3])

@@ -52,8 +52,10 @@ def test_a_sine_is_equivalent_to_its_own_range(slope):
 
 
 def test_a_turning_point_is_the_extreme_between_samples():
-    low, high = [0, 0.9, 1.4, 0.2, -0.7, -0.2, 0.4], [0.1, 1.2, 1.9, 1.4, 0.2, 0.3, 0.9]
+    low = np.array([0, 0.9, 1.4, 0.2, -0.7, -0.2, 0.4])
+    high = np.array([0.1, 1.2, 1.9, 1.4, 0.2, 0.3, 0.9])
     assert turning_points(low, high) == pytest.approx([0.0, 1.9, -0.7, 0.9])
+    assert turning_points(-high, -low) == pytest.approx([0.0, -1.9, 0.7, -0.9]), "a fall at the ends counts as a rise"
 
 
 def test_a_line_is_used_by_its_mean_and_dynamic_parts():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis import motion_regime
+from analysis import motion_regime, tangent_lyapunov
 from analysis.exponents import Exponent
 from analysis.looks import CLOSE
 from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth, normal
@@ -42,6 +42,16 @@ def test_tori_are_quasi_periodic_and_stay_so(coupling, rotation):
     assert motion_regime(section, growth, scale=2.0).regime == "quasi-periodic"
     assert motion_regime(section + 1e-3 * normal(0, *section.shape), growth, scale=2.0,
                          tolerance=0.01).regime == "quasi-periodic"  # fmt: skip
+
+
+@pytest.mark.parametrize(("errors", "word"), [(2.5, "undecided"), (3.5, "quasi-periodic")])
+def test_one_look_is_enough_for_a_torus_whose_growth_is_below_the_bound_by_three_errors(errors, word):
+    """Perturbations are carried too late for the look before the last one."""
+    growth = np.full(465, np.nan)
+    growth[270:] = normal(0, 195)
+    (exponent,) = tangent_lyapunov(growth[280:])
+    growth = (growth - exponent.value * np.log(2.0)) * 0.06 / (errors * exponent.error)
+    assert motion_regime(circle_map(0.5, 0.6180339, 466), growth, scale=2.0).regime == word
 
 
 def test_a_shear_does_not_make_a_torus_chaotic():

@@ -4,13 +4,14 @@ Rosenstein's exponent, and the scaling region without which there is none.
 """
 
 from itertools import product
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis.divergence import _slope_of, rosenstein_lyapunov, scaling_region
 from analysis.wolf_pairs import wolf_run
-from analysis.wolf_plateau import wolf_lyapunov
+from analysis.wolf_plateau import _plateau, wolf_lyapunov
 from tests.analysis.systems import TRUTH, noisy, normal, record
 
 CHAOTIC = [name for name in TRUTH if TRUTH[name]]
@@ -80,11 +81,24 @@ def test_the_convergence_curve_ends_at_the_value_and_is_the_running_mean():
     assert run.time_s[-1] <= (len(ROSSLER) - 1) * STEP
 
 
+def test_settings_that_scatter_add_their_standard_deviation_to_the_error():
+    def run(m, e, lengths=1.0):
+        value = 1.0 + 0.1 * normal(m + e)
+        return SimpleNamespace(value=value, error=0.0, end_length=np.ones(1), size=10.0, noise_bias=0.0)
+
+    exponent = _plateau(run, {"dimensions": range(0, 3000, 1000), "evolutions": range(300)})
+    assert exponent.error == pytest.approx(0.1, rel=0.1)
+
+
 def test_noise_shortens_nothing_below_the_floor():
     run = wolf_run(noisy(ROSSLER, 0.01, 0), STEP, 14, 3, 28, 60, noise=0.01 * np.std(ROSSLER))
     start = run.end_length / np.exp(run.growth)
     assert np.mean(start >= run.floor * (1 - 1e-9)) > 0.99
     assert run.floor == pytest.approx(2.0 * 0.01 * np.std(ROSSLER) * np.sqrt(6.0))
+    # noise adds 2 sigma^2 to a squared length in each of three dimensions: growth without that
+    added = 6.0 * (0.01 * np.std(ROSSLER)) ** 2
+    growth = 0.5 * np.log((run.end_length**2 - added) / (start**2 - added))
+    assert run.noise_bias == pytest.approx(np.nanmean(growth - run.growth) / (28 * STEP), rel=0.1)
 
 
 def test_the_error_by_rosenstein_is_that_of_the_mean_over_independent_pairs():
@@ -104,6 +118,12 @@ def test_a_line_between_two_plateaus_is_found_with_its_slope():
     assert region.slope == pytest.approx(0.7, rel=0.08)
     assert region.span > 4.0
     assert T[region.begin] > 3.0 and T[region.end] < 12.2
+
+
+def test_the_error_of_a_line_is_the_scatter_of_the_slopes_of_its_quarters():
+    """Of t + 0.05 t^2 up to 4 they are 1.05, 1.15, 1.25 and 1.35."""
+    t = 0.1 * np.arange(41)
+    assert scaling_region(t, t + 0.05 * t**2).error == pytest.approx(np.std([1.05, 1.15, 1.25, 1.35]))
 
 
 def test_a_swing_that_rides_on_the_line_is_averaged_away():

@@ -1,5 +1,7 @@
 """The period is that of theory: maps, rotations, transients, noise; where there is none, the answer is None."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -86,6 +88,13 @@ def test_the_multiplier_and_the_trend_are_those_of_the_decay(multiplier, period)
     # The largest of the last N steps begins somewhere in the last but one round.
     rest = 0.1 * abs(multiplier) ** (120 - 2 * period)
     assert estimate.projected[period - 1] == pytest.approx(rest, rel=1e-6)
+
+
+def test_a_decay_is_a_period_after_as_many_more_periods_as_are_announced():
+    decay = 0.9 ** np.arange(300)
+    announced = int(re.search(r"(\d+) more forcing periods", detect_period(decay[:60], scale=1.0).reason)[1])
+    for more, period in ((announced - 2, None), (announced + 1, 1)):
+        assert detect_period(decay[more : more + 60], scale=1.0).period == period
 
 
 def test_a_creep_by_the_last_digit_is_rounding_and_no_drift():

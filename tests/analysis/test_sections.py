@@ -105,6 +105,8 @@ def test_two_orbits_of_one_map_are_as_far_apart_as_the_halves_of_one():
     starts = np.random.default_rng(0).uniform(0.0, 0.1, (40, 2, 2))
     pairs = [section_distance(*(henon(200, start=tuple(start)) for start in pair)) for pair in starts]
     assert np.mean([result.across > 1.5 * result.within for result in pairs]) <= 0.1
+    after_transient = np.concatenate([np.full((60, 2), 9.0), henon(200)])
+    assert section_distance(after_transient, henon(200)).across < 0.2, "the longer one is cut at its start"
 
 
 def test_orbits_of_two_maps_are_farther_apart_than_their_halves_in_any_units():

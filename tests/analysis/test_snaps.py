@@ -138,7 +138,7 @@ def test_thresholds_are_options():
     assert len(detect_snaps(tension_N + 0.2 * STATIC_N, STEP_S, STATIC_N, slack_share=0.3)) == 2
 
 
-def test_a_transient_leaves_out_what_became_taut_before_it():
+def test_a_transient_leaves_out_the_snaps_that_count_before_it():
     tension_N = BY_HAND["five, all alike"][0]
     whole = detect_snaps(tension_N, STEP_S, STATIC_N)
     later = detect_snaps(tension_N, STEP_S, STATIC_N, transient_s=whole.taut_s[2] - 1.0)

@@ -13,7 +13,7 @@ from analysis import (
     rank_among,
     spectral_lines,
 )
-from analysis.surrogates import rank_until_lost
+from analysis.surrogates import null_ranks, rank_until_lost
 from tests.analysis.systems import henon, logistic, normal
 
 RECORDS = {
@@ -80,6 +80,9 @@ def test_noisy_periodic_surrogates_keep_the_lines_and_the_level_of_the_rest():
 def test_normal_scores_forget_the_instrument():
     x = normal(4, 200, 2)
     assert np.array_equal(normal_scores(x), normal_scores(np.exp(x)))
+    plain, distorted = (null_ranks(section, 19, 0) for section in (x, np.exp(x)))
+    assert plain[0].statistic == distorted[0].statistic, "the linear null allows any instrument"
+    assert plain[1].statistic != distorted[1].statistic
 
 
 def test_a_rank_needs_enough_surrogates_and_counts_ties_against():

@@ -7,9 +7,10 @@ import pytest
 from scipy.signal import lfilter
 
 from analysis import evidence_text, read_evidence, regime, section_lyapunov
-from analysis.evidence import incommensurate_evidence
+from analysis.evidence import Evidence, incommensurate_evidence
 from analysis.exponents import Exponent
 from analysis.oscillator import SnapOscillator, snap_motion, strobed_states
+from analysis.verdicts import _without_period
 from tests.analysis.systems import circle, circle_map, henon, logistic, nonchaotic_map, normal
 
 K = np.arange(300)
@@ -25,6 +26,25 @@ def test_a_line_is_incommensurate_only_beyond_the_largest_period(period):
     for turns, largest, free in ((0.0, 16, False), (0.5, 16, True), (0.0, period - 1, True)):
         line = np.cos(2.0 * np.pi * (1.0 / period + turns / 800) * np.arange(800) + 1.0)
         assert incommensurate_evidence(line[:, None], largest).passed is free
+
+
+@pytest.mark.parametrize(("share", "free"), [(0.007, False), (0.014, True)])
+def test_a_line_counts_from_one_per_cent_of_the_variance(share, free):
+    k = np.arange(400)
+    line = np.sqrt(2.0 * share) * np.cos(2.0 * np.pi * 0.1234567 * k)
+    motion = line + np.sqrt(2.0 * (1.0 - share)) * np.cos(0.5 * np.pi * k + 1.0)
+    assert incommensurate_evidence(motion[:, None], 16).passed is free
+    assert "100%" in incommensurate_evidence((-1.0) ** k[:, None], 16).sentence, (
+        "a motion from side to side is its line"
+    )
+
+
+@pytest.mark.parametrize(("bands", "word"), [(1, "quasi-periodic"), (2, "undecided")])
+def test_a_map_that_shrinks_by_more_than_a_bit_a_round_of_its_bands_is_no_torus(bands, word):
+    """The map of noise about points has no slope: perturbations shrink, here by 0.7 bits a period."""
+    section = np.resize([0.0, 5.0][:bands], 200)[:, None] + 0.1 * normal(0, 200, 1)
+    tests_of_a_torus = [Evidence("", 0.0, 1.0, passed, "") for passed in (False, True, True, False, False)]
+    assert _without_period(section, [], [Evidence("exponent", -0.7, 0.0, False, "")], *tests_of_a_torus)[0] == word
 
 
 @pytest.mark.parametrize(

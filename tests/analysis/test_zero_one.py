@@ -35,6 +35,13 @@ def test_k_has_the_sign_of_the_exponent_of_the_circle_map(coupling):
     assert result.value > 0.9 if exponent > 0.1 else result.value < 0.2
 
 
+@pytest.mark.parametrize(("samples", "judged"), [(17.9, True), (22.1, False)])
+def test_a_sine_is_judged_up_to_a_range_of_ten_mean_steps(samples, judged):
+    """Of so many samples a cycle the range is pi/2/sin(pi/samples) steps: 9.0 and 11.1."""
+    sine = np.sin(2.0 * np.pi * np.arange(1000) / samples)
+    assert np.isfinite(zero_one_test(sine).value) == judged
+
+
 def test_the_sum_by_transforms_is_the_sum_of_its_definition():
     phi = logistic(3.9, 120)
     test = zero_one_test(21.0 + 1e-3 * phi, angles=3)  # units and origin do not matter

@@ -72,8 +72,9 @@ def test_an_island_is_born_and_dies_at_extremes_of_a_closed_curve():
 def test_what_a_more_accurate_map_changes_of_a_point_is_in_its_errors(kind, z, a):
     """A map whose first parameter is wrong by 1e-4 shows each point that much too low."""
     off = 1e-4
-    exact = OrbitMap(henon, parameter_size=np.ones(2))
-    system = OrbitMap(lambda z, p: henon(z, (p[0] + off, p[1])), parameter_size=np.ones(2))
+    size = np.array([2.0, 0.5])
+    exact = OrbitMap(henon, parameter_size=size)
+    system = OrbitMap(lambda z, p: henon(z, (p[0] + off, p[1])), parameter_size=size)
     place = np.array([[z, 0.3 * z]]), np.array([a, 0.3])
     curve = follow_curve(system, kind, *place, (-3.0, -0.5), (4.0, 0.9), sharper=exact)
     factor = {"fold": -0.25, "flip": 0.75}[kind]

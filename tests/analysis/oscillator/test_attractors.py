@@ -39,6 +39,9 @@ def test_exponents_and_damping_add_up_to_zero(damping):
     assert result.block_error == pytest.approx(np.linalg.norm(over_blocks) / result.starts, rel=1e-9)
     assert abs(result.first.value + result.second.value + damping) < 1e-12
     assert np.abs(result.of_start.sum(axis=1) + damping).max() < 1e-12
+    if damping and result.first.value > 0.0:
+        dimensions = [section_dimension(*exponents) for exponents in result.of_start]
+        assert result.dimension_error == pytest.approx(np.std(dimensions, ddof=1) / np.sqrt(result.starts), rel=0.05)
 
 
 @pytest.mark.slow

@@ -55,6 +55,8 @@ def test_zoom_points_lie_in_their_boxes_and_on_the_orbit():
     wanted = section[(np.abs(section[:, 0] + 2.5) <= 2.5) & (np.abs(section[:, 1] + 2.0) <= 2.0)][:30]
     assert np.array_equal(inside, wanted)
     assert len(empty) == 0 and seen == 2000
+    _, seen = strobed_states_within(PAPER, REST, boxes[:1], 30, 2000)
+    assert np.array_equal(section[seen - 1], inside[-1])
 
 
 # F = 0.2: the water pushes up (g'' > 0 near g = 0), so that the minimum of a taut piece is a minimum.
