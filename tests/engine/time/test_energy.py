@@ -138,6 +138,14 @@ def budget(scene, duration_s):
     return {key: np.array(values) if key == "t" else np.cumsum(values, axis=0) for key, values in rows.items()}
 
 
+def test_the_energies_that_are_told_are_those_of_the_elements(dimensions):
+    scene = line(DRY, free(0.0, 300.0), {"motion.dimensions": dimensions})
+    Y = equilibrium(scene).Y.copy()
+    Y[1:, dimensions : 2 * dimensions] = np.random.default_rng(3).normal(size=(len(Y) - 1, dimensions))
+    kinetic, gravity, stretching, _ = Books(scene).energy(Y)
+    assert Stage(scene).energies(Y) == pytest.approx([kinetic, stretching, gravity], rel=1e-12)
+
+
 def pendulum(nodes, **solver):
     return line(
         DRY, free(), {f"solver.{key}": value for key, value in solver.items()}, {"output.step_s": 0.01},
