@@ -5,6 +5,7 @@ Arrays are per node: state Y (n, 6) in a plane and (n, 13) in space, conserved C
 """
 
 import numpy as np
+from numba import njit
 
 from engine import arrays
 from engine import run as engine_run
@@ -14,7 +15,7 @@ from engine.perturbations.lateral import COEFFICIENTS, WIDTH, lateral_stage
 from engine.perturbations.tangent import Base
 from engine.physics import sea_series, sea_sum
 from engine.physics.ends import upper_end, upper_end_3d
-from engine.physics.water import current_field, water
+from engine.physics.water import current_field, water, water_and_slopes
 from engine.physics.waves import wave_field
 from engine.planar import elimination as planar_elimination
 from engine.planar import node as planar_node
@@ -23,6 +24,8 @@ from engine.record import STATE
 from engine.spatial import elimination as spatial_elimination
 from engine.spatial import node as spatial_node
 from engine.spatial import state as spatial
+from engine.time.energy import WIDTH as ENERGIES
+from engine.time.energy import energies_of
 from engine.time.newton import newton
 from engine.time.status import OK
 from engine.time.steps import runge_kutta_step
@@ -34,6 +37,11 @@ def parameters_of(scene, preceding_tables=()):
     tables = [np.zeros(0), *preceding_tables]
     p = record_of(scene, tables)[0]
     return p, np.concatenate(tables)
+
+
+def of_kind(choice, p, *arguments):
+    """What the kernel returns that is chosen by the kind of a record (`engine.compiled.by_kind`)."""
+    return njit(lambda p, *others: choice(p, *others))(p, *arguments)
 
 
 class Stage:
@@ -66,6 +74,12 @@ class Stage:
         C = np.zeros_like(self.C_tilde)
         self.state.conserved(self.p, Y, C)
         return C
+
+    def energies(self, Y):
+        """Kinetic, strain and gravity energy (J) of the line in a state."""
+        row = np.zeros(ENERGIES)
+        energies_of(self.p, self.tables, self.conserved(Y), row)
+        return row[1:4]
 
     def update(self, cq, cv, in_motion, Y, C_tilde, F, viscosity=None, t=0.0):
         """Newton update D at a state, with the water F and the viscosity (n, 2) frozen."""
@@ -105,11 +119,17 @@ class SeaLine:
         """Time of the last sum over all waves."""
         return self.series[-1, 0]
 
-    def water(self, t, X, F=None, slopes=None):
-        """F (nodes, 4) at places X (nodes, 2), added to F; slopes (nodes, 8) are filled in."""
+    def water(self, t, X, F=None):
+        """F (nodes, 4) at places X (nodes, 2), added to F."""
         F = np.zeros((len(X), 4)) if F is None else F
-        sea_series.sea_in_plane(self.p, self.tables, t, X, F, slopes, self.series)
+        sea_series.sea_in_plane(self.p, self.tables, t, X, F, None, self.series)
         return F
+
+    def slopes(self, t, X):
+        """dF/dx and dF/dz (nodes, 8) of sea and current at places X (nodes, 2)."""
+        J = np.zeros((len(X), 8))
+        of_kind(water_and_slopes, self.p, self.tables, t, X, np.zeros((len(X), 4)), J, self.series)
+        return J
 
 
 def waves_at(scene, t, X, background=0.0):

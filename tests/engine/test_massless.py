@@ -22,7 +22,7 @@ CAP = {"water.depth_m": 21.0, "waves.steepness": 0.10, "buoy.submergence": "sphe
 AFLOAT = {"buoy.submergence": "spherical-cap", "water.depth_m": 19.0}
 TANH = {"tether.tension": {"law": "tanh", "p": [3000.0, 20.0, 0.0, 0.0, 2e4]}}
 TABLE = {"tether.tension": {"law": "tabulated", "strain": [0.0, 0.03, 0.08, 0.2], "tension_N": [0, 1500, 5000, 2e4]}}
-CURRENT, AGAINST = uniform(0.8), uniform(-0.8)
+CURRENT, AGAINST = uniform(0.8, w=0.5), uniform(-0.8, w=0.5)
 MIRROR = np.array([-1.0, 1.0, -1.0, 1.0])
 KICKS = np.array([[0.0, 0.0], [4.0, 0.0], [-3.0, 5.0], [1.0, -6.0]])
 

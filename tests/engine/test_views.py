@@ -221,7 +221,7 @@ def test_mistakes_get_one_line(tmp_path):
 
 
 def test_a_name_is_a_scene_and_a_run_with_shapes_moves(tmp_path):
-    changes = {"tether.nodes": 5, "waves.steepness": 0.01, "output.profiles": True}
+    changes = {"tether.nodes": 5, "tether.grid_stretching": 1.0, "waves.steepness": 0.01, "output.profiles": True}
     run = simulate(line(changes), periods=2)
     run.animate(tmp_path / "run.gif", begin_s=1.0, duration_s=2.0)
     assert (tmp_path / "run.gif").read_bytes().startswith(b"GIF")

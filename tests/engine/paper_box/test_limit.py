@@ -11,7 +11,11 @@ import numpy as np
 import pytest
 
 from engine import simulate
+from engine.paper_box.driver import MOST_GAP, Record
 from engine.paper_box.driver import run as run_boxed
+from engine.paper_box.line import B0, U, line_of
+from engine.paper_box.nodal import Level
+from engine.time.status import OK, SHAPE_LOST
 from tests.engine.lines import harmonic, held, line, linear, orders
 
 CALM = {"waves.steepness": 0.016, "water.depth_m": 22.5}
@@ -106,3 +110,14 @@ def test_turns_that_the_nodes_do_not_resolve():
     assert computed.status == "turn-unresolved"
     assert computed.statistics["max_turn_rad"] > math.pi / 2 and computed.statistics["closure_m"] > 0.2
     assert f"{computed.statistics['max_turn_rad']:.3g} rad" in computed.message
+
+
+@pytest.mark.parametrize(("share", "code"), [(0.0024, OK), (0.0026, SHAPE_LOST)])
+def test_the_shape_is_lost_where_it_is_a_four_hundredth_of_the_length_from_the_path_of_its_end(share, code):
+    """An upright line stays where it is, while its end is said to move."""
+    record, at_rest = Record(line(), line_of(line()), 1.0, MOST_GAP), np.zeros((13, 41))
+    at_rest[B0] = 1.0
+    moving = at_rest.copy()
+    moving[U, -1] = 2 * share * 20.0 / 0.01
+    assert record.keep(Level(0.0, at_rest, None, None)) == OK
+    assert record.keep(Level(0.01, moving, None, None)) == code

@@ -15,8 +15,10 @@ import pytest
 from scipy.optimize import fsolve
 
 from engine import simulate
-from engine.physics.bed import bed_load
-from tests.engine.kernels import parameters_of
+from engine.perturbations.tangent import Base
+from engine.physics.bed import bed_load, bed_powers
+from engine.planar.extras import G_V, more_across
+from tests.engine.kernels import Stage, of_kind, parameters_of
 from tests.engine.lines import DRY, Motion, equilibrium, held, line, linear, positions
 
 BED = {"stiffness_Npm3": 1e7, "damping_Nspm3": 2e4, "friction": 0.4, "friction_speed_mps": 0.01}
@@ -38,6 +40,7 @@ def test_friction_is_coulombs_above_its_speed():
     assert load[2] == pytest.approx(-normal)
     assert np.hypot(load[0], load[1]) == pytest.approx(0.4 * normal, rel=3e-4)
     assert load[0] / load[1] == pytest.approx(V[0] / V[1])
+    assert of_kind(bed_powers, p, -depth, V)[1:] == pytest.approx((0.0, 0.0, np.dot(load, V)))
     assert bed_load(p, 1.0, 1e-9, V)[0] == (0.0, 0.0, 0.0)
     assert bed_load(p, 1.0, -depth, (0.0, 0.0, 50.0))[0] == (0.0, 0.0, 0.0), "the damper does not pull"
     # slopes, in the soft beginning too
@@ -49,6 +52,15 @@ def test_friction_is_coulombs_above_its_speed():
         h = 1e-4 * p["bed_onset"]
         sides = [np.array(bed_load(p, 1.0, z + sign * h, V)[0]) for sign in (1, -1)]
         assert by_z == pytest.approx((sides[0] - sides[1]) / (2 * h), rel=1e-5)
+
+
+def test_a_line_that_slides_along_itself_resists_a_speed_across_by_friction_over_its_own_speed():
+    stage = Stage(line(DRY, held(15.0, 4.0), {"floor": BED}, nodes=5, **CHAIN))
+    Y, H = np.zeros((5, 6)), np.zeros((5, 10))
+    Y[:, 2], stage.X[:, 1] = 0.3, -3.0 * stage.p["bed_onset"]
+    base = Base(0.0, 1.0, 1.0, Y, stage.C_tilde)
+    of_kind(more_across, stage.p, base, stage.X, stage.Q, stage.F, H)
+    assert H[:, G_V] == pytest.approx(0.4 * 2.5 * WEIGHT / 0.3, rel=1e-3)
 
 
 @pytest.mark.parametrize("zeta", [0.1, 0.4])

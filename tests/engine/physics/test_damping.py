@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from engine import simulate
-from tests.engine.kernels import parameters_of
+from engine.time.damping import left_after
+from tests.engine.kernels import of_kind, parameters_of
 from tests.engine.lines import DRY, kick, line, ran
 
 EA, C, L, M = 5e4, 4e3, 20.0, 1611.0
@@ -43,6 +44,9 @@ def ringing(nodes, *changes):
 def test_a_mass_on_the_line_rings_as_it_should(dimensions):
     assert root(0.0).real == pytest.approx(0.0, abs=1e-9)
     assert root(C).real < -0.02
+    p, tables = parameters_of(line(RINGING, damping_Ns=C))
+    left = np.exp(0.1 * root(C).real)
+    assert of_kind(left_after, p, tables, 0.0, 0.1 * root(C).imag, 0.1) == pytest.approx(left, abs=1e-2 * (1.0 - left))
     assert ringing(9, {"motion.dimensions": dimensions}) < 1e-7
 
 

@@ -10,7 +10,7 @@ import pytest
 from engine import load_scene, simulate
 from engine.physics.sea import AMPLITUDE, COSINE, OMEGA, PHASE, SINE, K, elevation_m, enough_waves, envelope_m, rows_of
 from engine.physics.sea_series import LEFT_OUT, ORDER
-from tests.engine.kernels import SeaLine, waves_at
+from tests.engine.kernels import SeaLine, current_at, waves_at
 from tests.engine.lines import line
 from tests.engine.physics.caps import CAP, linear_waves
 
@@ -110,14 +110,14 @@ def test_a_series_is_left_where_it_does_not_hold():
 
 @pytest.mark.parametrize("above", ["extrapolate", "zero", "wheeler"])
 def test_the_slopes_are_those_of_the_field(above):
-    """By central differences of step 1e-4 m, within a ramp."""
-    scene = sea(1, **{"waves.above_still_water": above, "waves.ramp_s": 20.0})
+    """By central differences of step 1e-4 m, within a ramp, over a current that grows with height."""
+    current = {"law": "profile", "height_m": [0.0, 30.0], "velocity_mps": [[0.0, 0.0, 0.2], [1.5, 0.0, 0.0]]}
+    scene = sea(1, **{"waves.above_still_water": above, "waves.ramp_s": 20.0, "current": current})
     X = np.column_stack([np.linspace(-2.0, 2.0, 9), np.linspace(1.0, DEPTH + 0.6, 9)])
-    J, d = np.zeros((9, 8)), 1e-4
-    SeaLine(scene, 9).water(7.0, X, slopes=J)
-    for axis in range(2):
-        step = d * np.eye(2)[axis]
-        slope = (waves_at(scene, 7.0, X + step) - waves_at(scene, 7.0, X - step)) / (2 * d)
+    J, d = SeaLine(scene, 9).slopes(7.0, X), 1e-4
+    for axis, step in enumerate(d * np.eye(2)):
+        high, low = (waves_at(scene, 7.0, at) + current_at(scene, 7.0, at) for at in (X + step, X - step))
+        slope = (high - low) / (2 * d)
         assert J[:, 4 * axis : 4 * axis + 4] == pytest.approx(slope, abs=1e-6)
 
 

@@ -57,10 +57,11 @@ def scene(*parts, **waves):
     return line(STEEP, *parts, {f"waves.{key}": value for key, value in waves.items()})
 
 
-def sea_of(name, **changes):
+def sea_of(name, share=1.0, **changes):
+    """A sea, or one of a share of its amplitudes."""
     dimensions, waves = SEAS[name]
     keys = "period_s", "amplitude_m", "phase_rad", "direction_rad"
-    listed = [dict(zip(keys, wave, strict=True)) for wave in waves]
+    listed = [dict(zip(keys, (T, share * high, *others), strict=True)) for T, high, *others in waves]
     entries = {"components": listed} if len(listed) > 1 else listed[0]
     return scene({"motion.dimensions": dimensions}, **entries, **changes)
 
@@ -124,13 +125,16 @@ def test_acceleration_is_the_rate_of_velocity_at_a_place(name, t):
         assert rising == pytest.approx(waves_at(sea, t, [[2.0, DEPTH]])[0, 1], abs=1e-6)
 
 
+@pytest.mark.parametrize("above", ["extrapolate", "wheeler"])
 @pytest.mark.parametrize("name", SEAS)
-def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave(name):
-    ramped, full, X = sea_of(name, ramp_s=8.0), sea_of(name), LINES["leaning"]
+def test_the_ramp_starts_from_still_water_and_ends_in_the_full_wave(name, above):
+    ramped = sea_of(name, ramp_s=8.0, above_still_water=above)
+    full, low = (sea_of(name, share, above_still_water=above) for share in (1.0, 0.5))
+    X = LINES["leaning"]
     X = X if SEAS[name][0] == 2 else np.insert(X, 1, 3.0, axis=1)
     assert not waves_at(ramped, 0.0, X).any()
-    half, unramped = (waves_at(sea, 4.0, X)[:, : X.shape[1]] for sea in (ramped, full))
-    assert half == pytest.approx(0.5 * unramped, abs=1e-13)
+    half, of_half = (waves_at(sea, 4.0, X)[:, : X.shape[1]] for sea in (ramped, low))
+    assert half == pytest.approx(of_half, abs=1e-13)
     for t in (8.0, 9.7):
         assert waves_at(ramped, t, X) == pytest.approx(waves_at(full, t, X), abs=1e-13)
     assert elevation_m(ramped, 4.0, X[:, 0]) == pytest.approx(0.5 * elevation_m(full, 4.0, X[:, 0]), abs=1e-13)

@@ -27,7 +27,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.engine.box_equations import buoy_of, elements, water_on_line, wet_weight
+from tests.engine.box_equations import buoy_of, elements, lifted, water_on_line, wet_weight
 from tests.engine.kernels import Stage, Steps
 from tests.engine.lines import (
     DRY,
@@ -136,6 +136,16 @@ def budget(scene, duration_s):
         rows["impulse"].append(outside.sum(0))
         rows["passed_impulse"].append(np.linalg.norm(outside, axis=1).sum())
     return {key: np.array(values) if key == "t" else np.cumsum(values, axis=0) for key, values in rows.items()}
+
+
+def test_the_energies_that_are_told_are_those_of_the_elements(dimensions):
+    scene = line(DRY, free(0.0, 300.0), {"motion.dimensions": dimensions})
+    rng, Y = np.random.default_rng(3), np.zeros((41, 6))
+    Y[:, 0], Y[:, 4] = 0.01 * rng.normal(size=41), rng.normal(size=41)
+    Y = Y if dimensions == 2 else lifted(Y)
+    Y[:, dimensions : 2 * dimensions] = rng.normal(size=(41, dimensions))
+    kinetic, gravity, stretching, _ = Books(scene).energy(Y)
+    assert Stage(scene).energies(Y) == pytest.approx([kinetic, stretching, gravity], rel=1e-12)
 
 
 def pendulum(nodes, **solver):

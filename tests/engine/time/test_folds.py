@@ -5,9 +5,10 @@ not resolve where refinement changes that tension, by as much at most; elsewhere
 import math
 import re
 
+import numpy as np
 import pytest
 
-from engine.time.folds import FOLD
+from engine.time.folds import FOLD, words_of_folds
 from tests.engine.lines import STILL, by_table, harmonic, held, line, ran
 
 FINE = {"tether.nodes": 161, "solver.rtol": 0.005}
@@ -54,6 +55,14 @@ def test_folds_after_the_largest_tension_and_those_of_a_buoys_line_are_not_told(
     for keys in (scene, {}):
         run = ran(line(keys), duration_s=15.0)
         assert run.statistics["max_turn_rad"] > FOLD and "folds" not in run.message
+
+
+@pytest.mark.parametrize(("share", "stated"), [(1.04, False), (1.2, True)])
+def test_folds_are_told_before_a_tension_that_is_more_than_that_at_rest(share, stated):
+    places = dict.fromkeys(("x_m", "y_m", "z_m"), np.full(3, 5.0))
+    columns = {"time_s": np.arange(3.0), "tension_top_high_N": np.array([10.0, 10.0, 10.0 * share]), **places}
+    state = {"folded": 0.5, "max_turn": 1.0}
+    assert bool(words_of_folds(line(STILL | held(5.0, 5.0)), state, columns)) == stated
 
 
 def test_a_line_that_hangs_still_is_not_warned_of_its_bend():
