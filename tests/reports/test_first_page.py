@@ -80,6 +80,7 @@ def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_ot
     assert np.ptp(heights) == pytest.approx(0.1) and len(heights) == 20 * 7
     per_m = [axes.get_window_extent().height / np.ptp(axes.get_ylim()) for axes in (top, inner)]
     assert per_m[1] > 10.0 * per_m[0]
+    assert inner.get_title("left") == f"the same, {per_m[1] / per_m[0]:.0f} times as high"
     place = inner.get_window_extent().transformed(top.transData.inverted())
     inside = [column for column in columns_of() if place.x0 <= column.at <= place.x1]
     assert all(((column.points < place.y0) | (column.points > place.y1)).all() for column in inside)
