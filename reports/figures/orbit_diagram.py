@@ -337,4 +337,4 @@ def _enlarged(axes, columns: list[Strobes], ends: tuple[float, float], above: fl
     for label in inner.get_yticklabels():
         label.set_horizontalalignment("left")
     inner.spines[["top", "right"]].set_visible(True)
-    inner.set_title(f"the same, {(high - low) / (ends[1] - ends[0]):.0f} times as high", fontsize=6.5, pad=2)
+    inner.set_title(f"the same, {(high - low) / np.ptp(inner.get_ylim()):.0f} times as high", fontsize=6.5, pad=2)

@@ -13,7 +13,7 @@ from campaigns.accuracy.plan import ADAPTIVE, BY_NAME, FULL, ORDERS, phases
 from campaigns.accuracy.rows import COLUMNS, point_row, rms_mm
 from campaigns.machinery.plan import Job
 from engine import load_scene
-from reports.accuracy.report import cheapest, read_study, smooth_series, within, work_items
+from reports.accuracy.report import _settings, cheapest, read_study, smooth_series, within, work_items
 from reports.parts.content import Table
 from tables import names
 from tests.campaigns.conftest import built_twice, chosen, ran, rows_of
@@ -135,6 +135,14 @@ def test_the_cheapest_within_a_level_is_the_cheapest(out):
         best = within(timed, level)
         assert best.error <= level and all(one.wall_s >= best.wall_s for one in timed if one.error <= level)
     assert within(timed, 0.0) is None
+
+
+def test_a_setting_is_shown_by_the_medians_of_its_rounds():
+    row = {"kind": "point", "work": "a", "method": "b", "nodes": 41, "control": "rtol", "setting": 0.03}
+    row |= {"status": "ok", "message": "", "error_against_ours": math.nan}
+    rounds = [row | {"error": error, "wall_s": 0.1 * error} for error in (1.0, 9.0, 2.0)]
+    (shown,) = _settings([*rounds, row | {"status": "newton-failed", "error": math.nan, "wall_s": 77.0}])
+    assert (shown.error, shown.wall_s, shown.failed) == (2.0, pytest.approx(0.2), 1)
 
 
 def test_the_line_of_a_diagram_joins_what_nothing_cheaper_beats():

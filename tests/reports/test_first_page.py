@@ -23,9 +23,11 @@ from reports.parts.folder import Folder
 from reports.parts.html import render_html
 from reports.parts.provenance import report_page
 from reports.parts.style import REGIME_COLOURS, WIDTH_IN
+from reports.parts.unchanged import _SOURCES
 from tables import printed, read_table
 from tests.campaigns.conftest import rows_of
 from tests.reports.conftest import Page, of_kind, panel_of, points_of, write
+from tests.test_layers import BELOW
 
 LABELS = "kA", "r (m)"
 VALUES = np.linspace(0.02, 0.16, 29)
@@ -78,6 +80,7 @@ def test_small_motions_are_drawn_again_larger_and_nothing_of_them_lies_on_the_ot
     assert np.ptp(heights) == pytest.approx(0.1) and len(heights) == 20 * 7
     per_m = [axes.get_window_extent().height / np.ptp(axes.get_ylim()) for axes in (top, inner)]
     assert per_m[1] > 10.0 * per_m[0]
+    assert inner.get_title("left") == f"the same, {per_m[1] / per_m[0]:.0f} times as high"
     place = inner.get_window_extent().transformed(top.transData.inverted())
     inside = [column for column in columns_of() if place.x0 <= column.at <= place.x1]
     assert all(((column.points < place.y0) | (column.points > place.y1)).all() for column in inside)
@@ -93,6 +96,13 @@ def test_both_forms_hold_the_same(drawn):
     wide, narrow = (points_of(figure.axes[0]) for figure in drawn)
     assert wide.keys() == narrow.keys() and all(np.array_equal(wide[key], narrow[key]) for key in wide)
     assert [sheet.get_figwidth() for sheet in drawn] == [WIDTH_IN, NARROW_IN]
+
+
+def test_a_run_without_points_is_a_cross_within_the_axis_at_its_ends_too(drawn):
+    OrbitDiagram(columns_of(), LABELS, [], missing=[0.0, 0.2]).drawn()
+    axes = drawn[0].axes[0]
+    (crosses,) = (line for line in axes.lines if line.get_marker() == "x")
+    assert [*crosses.get_xdata()] == [0.0, 0.2] and axes.get_xlim()[0] < 0.0 and axes.get_xlim()[1] > 0.2
 
 
 @pytest.fixture
@@ -217,6 +227,11 @@ def test_an_unchanged_folder_is_not_drawn_again(sweep, monkeypatch):
         spoil()
         assert [drawn(), drawn()] == [True, False]
     assert build(sweep, again=True) and len(times) == 9
+
+
+def test_the_sources_that_a_drawing_depends_on_are_all_packages_below_the_reports():
+    compiling = {"machine_code"}  # of kernels, which changes nothing that is drawn
+    assert {"reports"} | BELOW["reports"] <= {*_SOURCES} | compiling
 
 
 @pytest.mark.parametrize(

@@ -50,6 +50,7 @@ def several(folder, tmp_path):
     rows += [{**large, "steepness": kA, "share": share, "found_by": "kick"} for kA, share in LARGE.items()]
     for peak_N, row in zip(range(1000, 9000, 10), sorted(rows, key=lambda row: row["motion"]), strict=False):
         row["tension_top_max_N"] = peak_N + (5000 if row["motion"] == "B" else 0)
+        row["tension_top_max_error_N"] = 12.0
     write(place, rows, (*COLUMNS, *MORE))
     end = {"motion": "B", "end": "lower", "leads_to": "A", "status": "ok"}
     write(place / "ends", [{**end, "steepness_with": 0.021, "steepness_without": 0.019}], ENDS)
@@ -119,6 +120,9 @@ def test_every_row_has_its_sheet_and_leads_along_its_motion_and_across(several):
     ]
     (explorer,) = of_kind(items, Explorer)
     assert {column.colour for column in explorer.columns} == set(read_sweep(several).colours.values())
+    label, peaks_kN, errors_kN = explorer.lower[0]
+    assert label == "peak tension (kN)" and set(errors_kN) == {0.012}
+    assert peaks_kN == pytest.approx([1e-3 * run["tension_top_max_N"] for run in read_sweep(several).runs])
     length = Column("steepness", "m", "l_0")  # its label is drawn by the page, which knows no mathematics
     assert explorer_of(read_sweep(several, length)).x_label == "l0 (m)"
     motions, *_ = tables = of_kind(items, Table)

@@ -11,7 +11,7 @@ import pytest
 
 from campaigns.explore.rows import COLUMNS
 from reports import content_of
-from reports.orbits.branches import read_branches
+from reports.orbits.branches import _nearest, read_branches
 from reports.orbits.report import report
 from reports.parts.content import Figure, Notice, Table
 from reports.parts.folder import FolderError, read_folder
@@ -82,6 +82,13 @@ def test_the_answer_is_a_picture_and_caveats_stand_beside_their_numbers(orbits, 
     multipliers = next(table for table in of_kind(items, Table) if table.columns[2].title == "μ1")
     known = [float(row["multiplier_1_real"]) for row in rows_of(orbits / "orbits")]
     assert [row[2] for row in multipliers.rows] == [f"{mu:.3f} (0.01)".replace("-", "−") for mu in known]
+
+
+def test_an_event_lies_between_the_same_orbits_in_every_unit():
+    """On a straight line the nearest point is that of equal shares of both ranges, from N to MN."""
+    points, event = np.array([[0.0, 0.0], [1.0, 1000.0], [2.0, 2000.0]]), np.array([0.4, 1300.0])
+    for unit in (1.0, 1e-3, 1e-6):
+        assert _nearest(points * [1.0, unit], event * [1.0, unit]) == (0, pytest.approx(0.5 * (0.4 + 1.3)))
 
 
 def test_orbits_without_runs_or_events_are_drawn_too(orbits):

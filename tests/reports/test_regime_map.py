@@ -118,7 +118,7 @@ def test_shares_are_areas_of_the_cells_on_top(folder_of):
     )
 
 
-def test_nothing_screened_counts_as_computed(folder_of):
+def test_nothing_screened_counts_as_computed(folder_of, drawn):
     place = folder_of()
     atlas = atlas_of(place)
     texts = [text for _, text in legend(atlas)]
@@ -127,7 +127,12 @@ def test_nothing_screened_counts_as_computed(folder_of):
     assert sum(shares[kind] for kind in kinds) == pytest.approx(100.0, abs=1.5), "each rounded to two digits"
     assert "irregular, screened" in texts
     (page,) = atlas.pages
-    assert page.rows[regimes(page).star]["source"] == COMPUTED
+    shown = regimes(page)
+    worst = page.rows[shown.star]
+    assert worst["source"] == COMPUTED
+    regime_maps([shown], atlas.labels, (), ((), ()), 1)
+    (star,) = (line for line in drawn[0].axes[0].lines if line.get_marker() == "*")
+    assert star.get_xydata() == pytest.approx(np.array([[worst[X], worst[Y]]]))
     assert "irregular" not in {row[0] for row in _regimes(atlas).rows}
     notice = _warnings(read_folder(place), atlas)
     assert "only screened" in notice.lines[0] and "no <convergence> (1)" in notice.lines[1]
@@ -188,7 +193,11 @@ def test_every_cell_on_top_has_its_sheet_with_its_motions_and_their_series(folde
 
 def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_map(folder_of):
     atlas = atlas_of(folder_of(("full", "spherical-cap")))
-    columns = {"number of motions": "motions", "largest tension over static": "tension_over_static"}
+    columns = {
+        "number of motions": "motions",
+        "largest tension over static": "tension_over_static",
+        "largest exponent (–)": _EXPONENT,
+    }
     for title, column in columns.items():
         seen = set()
         for page, maps in zip(atlas.pages, numbers(atlas), strict=True):
@@ -196,6 +205,8 @@ def test_pages_share_their_scales_and_a_quantity_that_no_cell_has_is_given_no_ma
             seen.update(zip(page.column(column), shown.colours, strict=True))
         known = {(value, colour) for value, colour in seen if np.isfinite(value)}
         assert len(known) == len(dict(known)) > 1
+        _, norm, _ = shown.scale
+        assert norm.vmin <= min(known)[0] and max(known)[0] <= norm.vmax
     first = atlas.pages[0]
     bare = atlas._replace(pages=[replace(first, rows=[row | {_EXPONENT: None} for row in first.rows])])
     titles, rest = ([shown.title for shown in numbers(pages)[0]] for pages in (atlas, bare))

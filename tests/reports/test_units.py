@@ -8,22 +8,34 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray
+from matplotlib.figure import Figure
 
 from engine import load_scene
 from engine.natural_frequencies import natural_frequencies
 from reports.basins.report import _map
+from reports.breaking_line.figures import energy_figure
+from reports.breaking_line.runs import SERIES, Line, series_table
 from reports.buoy_sweep import runs
 from reports.buoy_sweep.report import warnings
 from reports.buoy_sweep.runs import Run, Sweep
 from reports.buoy_sweep.snaps import _motion_of
 from reports.figures.curves import Curve, Panel, curves
-from reports.oscillator.report import attracting_orbit
+from reports.figures.maps import Map, maps
+from reports.figures.offplane_history import History, lateral_histories
+from reports.figures.quantities import over_key
+from reports.oscillator.report import _errors, attracting_orbit
+from reports.out_of_plane.report import _agreement
+from reports.paper.dependence import _gaps
 from reports.paper.figures.buoy import spectrum_panels
 from reports.paper.figures.chaos import running_exponents
 from reports.parts.content import Listing
 from reports.parts.folder import Folder
 from reports.parts.provenance import provenance_items
+from reports.sea.figures import _waves_panel
+from reports.sweep.report import _warnings as sweep_warnings
+from reports.time_series.report import _return_map
 from reports.validation.report import Study, figure, overview
+from tables import Column
 from tests.campaigns.fake_engine import sines
 
 SCENE = load_scene("tethered_buoy")
@@ -95,6 +107,17 @@ def test_a_caveat_is_told_from_its_threshold_on(below, above, phrase):
         assert any(phrase in line and line.endswith("kA = 0.1.") for line in warnings(sweep).lines) is wanted
 
 
+def test_the_top_of_the_buoy_at_rest_is_told_with_the_stretch_of_its_tether(tmp_path):
+    for depth_m, words in ((SINKING_M - 0.25, "0.25 m above"), (SINKING_M + 0.25, "0.25 m below")):
+        depth, *_ = _gaps(tmp_path, load_scene("tethered_buoy", {"water.depth_m": depth_m})).rows
+        assert words in depth[2]
+
+
+def patches_of(legend):
+    """{name: patch} of a legend."""
+    return {text.get_text(): patch for text, patch in zip(legend.texts, legend.legend_handles, strict=True)}
+
+
 def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(drawn):
     rows = [
         {"kick_x_mps": v, "phase_rad": 0.5 * math.pi * k, "motion": "AB"[v > 0.0], "status": "ok"}
@@ -110,7 +133,7 @@ def test_starts_stand_at_their_share_of_a_period_in_the_colour_of_their_motion(d
     cells = axes.collections[0]
     colours = cells.to_rgba(cells.get_array())
     (legend,) = drawn[0].legends
-    patches = {text.get_text(): patch for text, patch in zip(legend.texts, legend.legend_handles, strict=True)}
+    patches = patches_of(legend)
     for name, column in (("A: chaotic, 9 kN", 0), ("B: chaotic, 7 kN", 2)):
         assert np.allclose(colours[0, column], patches[name].get_facecolor())
     (cross,) = (line for line in axes.lines if line.get_marker() == "x")
@@ -129,12 +152,12 @@ def test_points_of_a_validation_that_agree_lie_on_the_line(drawn):
         Study(
             None,
             {"a": [{"quantity": "b", "error": "1", "bar": "2", "verdict": "passes"}]},
-            {"a": {"b": [[0.0, 3.0, 3.0], [1.0, 5.0, 5.0]]}},
+            {"a": {"b": [[0.0, 3.0, 3.0], [1.0, -5.0, -5.0]], "c": [[0.0, -2.0, -2.0]]}},
         )
     )
     line, points, *_ = drawn[0].axes[0].lines
-    assert points.get_xydata() == pytest.approx(np.array([[0.6, 0.6], [1.0, 1.0]]))
-    assert line.get_xydata() == pytest.approx(np.array([[0.0, 0.0], [1.0, 1.0]]))
+    assert points.get_xydata() == pytest.approx(np.array([[0.6, 0.6], [-1.0, -1.0], [-1.0, -1.0]]))
+    assert line.get_xydata() == pytest.approx(np.array([[-1.0, -1.0], [1.0, 1.0]]))
 
 
 def test_histories_of_a_snapping_motion_are_in_kN():
@@ -164,6 +187,91 @@ def test_exponents_of_the_paper_stand_with_their_errors_at_the_curve_of_their_wa
     assert "kA = 0.016: −0.500 ± 0.1 (Wolf)" in shown.caption
     lines = {line.get_label(): line.get_ydata()[0] for line in drawn[0].axes[0].lines}
     assert (lines["kA = 0.13, Wolf"], lines["kA = 0.016, tangent"]) == (0.25, -0.5)
+
+
+KEY, DEPTH, PULL = Column("kA", digits=2), Column("H", digits=1), Column("T", "N", digits=0)
+
+
+def test_bars_over_a_key_are_one_standard_error_and_none_is_drawn_for_a_run_that_failed(drawn):
+    rows = [{"kA": k, "T": 9.0, "T_error": 0.5 + k, "status": ("ok", "ok", "failed")[k]} for k in range(3)]
+    over_key(rows, KEY, [((PULL, Column("T_error")),)], {})
+    (bars,) = drawn[0].axes[0].containers
+    assert [np.ptp(bar[:, 1]) for bar in bars.lines[2][0].get_segments()] == [1.0, 3.0]
+
+
+def test_a_cell_of_a_map_of_words_has_the_colour_of_the_legend(drawn):
+    words = ["chaotic", "period-1", "undecided", "period-2"]
+    maps([KEY, DEPTH], [{"kA": k, "H": 1.0} for k in range(4)], [Map("", "regime", words)])
+    (axes,) = drawn[0].axes
+    (image,), patches = axes.images, patches_of(axes.get_legend())
+    for word, colour in zip(words, image.to_rgba(image.get_array())[0], strict=True):
+        assert np.allclose(colour, patches[word].get_facecolor())
+
+
+def test_a_return_map_is_each_point_over_the_one_before_it(drawn):
+    _return_map(np.array([1.0, 2.0, 4.0]))
+    assert drawn[0].axes[0].lines[0].get_xydata().tolist() == [[1.0, 2.0], [2.0, 4.0]]
+
+
+def test_the_motion_in_the_plane_is_within_the_axis_of_a_much_smaller_one_across(drawn):
+    periods = np.arange(1.0, 9.0)
+    size = 1e-6 * periods
+    lateral_histories([("y", [History("kA", periods, size, periods, size, 2.0)])])
+    low, high = drawn[0].axes[0].get_ylim()
+    assert low < 1e-6 and high > 2.0
+
+
+def test_bars_of_the_scatter_of_independent_starts_are_two_standard_errors(drawn):
+    """The standard deviation s of n normal numbers has the standard error s/sqrt(2 (n - 1))."""
+    starts = np.random.default_rng(0).normal(size=64)
+    _errors(np.array([[1.0, 0.5, 0.1], [2.0, 0.4, 0.05]]), starts)
+    left, right = drawn[0].axes
+    band = left.collections[0].get_paths()[0].vertices
+    assert (band[:, 1].min(), band[:, 1].max()) == pytest.approx((0.3, 0.7)), "two errors too"
+    (bars,) = right.containers
+    first = bars.lines[2][0].get_segments()[0][:, 1]
+    assert first == pytest.approx(np.std(starts, ddof=1) * (1.0 + np.array([-2.0, 2.0]) / np.sqrt(2.0 * 63)))
+
+
+def test_pairs_that_differ_in_several_respects_are_one_pair_that_does_not_agree():
+    pairs = [{"same_range": "0", "same_regime": "0"}, {"same_range": "1", "same_regime": ""}, {"same_range": "1"}]
+    assert " in 2 of 3 pairs" in _agreement(pairs)
+
+
+def test_runs_whose_tensions_hold_less_are_warned_of_beside_those_that_failed():
+    failed = {"kA": 0.1, "status": "newton-failed", "message": "no end"}
+    less = {"kA": 0.2, "status": "ok", "message": "the largest tension holds to 8 %"}
+    lines = sweep_warnings([KEY], [failed, less, less | {"message": ""}]).lines
+    assert [line.partition(":")[0] for line in lines] == ["kA = 0.1", "kA = 0.2"]
+
+
+def test_a_series_has_the_order_of_its_errors_whatever_the_ratio_of_its_grids():
+    rows = []
+    for elements in (10, 30, 40):
+        row = dict.fromkeys(SERIES, elements**-1.5) | {"case": "4", "nodes": elements + 1.0}
+        rows.append(Line(row | {"kind": "series", "status": "ok"}))
+    columns = {name: Column(name, digits=None if name == "case" else 2) for name in SERIES}
+    assert [cells[2] for cells in series_table(rows, columns).rows] == ["–", "1.50", "1.50"]
+
+
+def test_the_shares_of_an_energy_that_is_all_accounted_for_fill_the_panel(drawn):
+    joules = {"strain_J": 40.0, "kinetic_J": 20.0, "end_work_J": -10.0, "viscous_J": 8.0}
+    joules |= {"scheme_space_J": 7.0, "scheme_time_J": 5.0, "bending_J": 10.0}
+    arrays = {name: np.full(2, energy) for name, energy in joules.items()}
+    energy = SimpleNamespace(time_s=np.array([0.0, 0.1]), stored_J=100.0, **arrays)
+    row = {"kind": "case", "case": "4", "status": "ok"}
+    energy_figure([Line(row, SimpleNamespace(profiles=True, energy=energy))])
+    tops = [area.get_paths()[0].vertices[:, 1].max() for area in drawn[0].axes[0].collections]
+    assert tops == pytest.approx([40.0, 60.0, 70.0, 90.0, 100.0])
+
+
+def test_the_large_motion_begins_at_the_higher_of_two_folds():
+    axes = Figure().subplots()
+    scene = load_scene("tethered_buoy", {"waves": {"period_s": 5.0, "jonswap": {"significant_height_m": 1.0}}})
+    _waves_panel(axes, np.linspace(0.0, 2.0, 9), scene, 5.0, {"fold_up_m": 0.9, "fold_down_m": 0.5})
+    heights = {line.get_label(): line.get_ydata()[0] for line in axes.lines}
+    assert [height for name, height in heights.items() if "begins" in name] == [0.9]
+    assert [height for name, height in heights.items() if "ends" in name] == [0.5]
 
 
 def test_all_of_the_provenance_is_printed_zeros_too():

@@ -16,7 +16,7 @@ from campaigns.paper.measured import read_results
 from campaigns.paper.measures import buckling_waves, scales, snaps
 from engine import load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
-from reports.paper.figures import figures_of, left_out, pictures
+from reports.paper.figures import draw, figures_of, left_out, pictures
 from reports.paper.figures.drawing import sources_of
 from reports.parts.folder import read_arrays
 from tests.campaigns.conftest import rows_of
@@ -131,6 +131,8 @@ def test_the_spectrum_of_a_sine_is_half_its_amplitude_over_the_static_radius(roo
     assert data["radial_amplitude"][at_wave] == pytest.approx(
         0.5 * amplitude_m / float(data["static_radius_m"]), rel=1e-3
     )
+    caption = draw(12, files_of(root, 12)[0].read_bytes(), "svg").caption
+    assert "bins of 0.063 rad/s" in caption, "2π over 20 wave periods of 5 s"
 
 
 PEAK, STATIC_N = 4.0, 2000.0  # of the static tension
