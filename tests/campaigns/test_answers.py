@@ -11,6 +11,7 @@ from campaigns.basins.answer import sentences as of_basins
 from campaigns.orbits.answer import sentences as of_orbits
 from campaigns.regime_map.answer import _use as largest_usable
 from campaigns.sea.answer import sentences as of_sea
+from campaigns.sweep.seas import sentences as of_sweep_in_a_sea
 from engine import load_scene
 from tables import PEAK, Column
 
@@ -83,3 +84,13 @@ def test_a_map_names_the_largest_tension_and_the_largest_that_may_be_used():
     ]
     (sentence,) = largest_usable(motions, keys, lambda row: None)
     assert sentence.startswith("Not for design: 1 loop released") and "4 kN, at kA = 0.04" in sentence
+
+
+def test_a_sweep_in_a_sea_names_where_the_tension_varies_least_and_most():
+    rows = []
+    for kA, mean_N, deviation_N in ((0.1, 5e3, 800.0), (0.2, 6e3, 300.0), (0.3, 5500.0, 500.0)):
+        row = {"kA": kA, "status": "ok", PEAK: 9e3, "transient_periods": 10.0, "significant_elevation_m": 1.0}
+        rows.append(row | {"tension_mean_N": mean_N, "tension_std_N": deviation_N})
+    scene = load_scene("tethered_buoy", {"waves.jonswap.significant_height_m": 1.0})
+    (tension,) = (line for line in of_sweep_in_a_sea(rows, {"kA": "kA"}, scene) if line.startswith("TENSION"))
+    assert tension.endswith("mean 5 kN to 6 kN; standard deviation 0.3 kN at kA = 0.2 to 0.8 kN at kA = 0.1.")

@@ -15,11 +15,12 @@ from PIL import Image
 from campaigns.explore import batches
 from campaigns.explore.batches import FRAMES, PERIODS, of_largest_tension
 from campaigns.explore.space import SEED_MPS
-from campaigns.judge import record_regime
+from campaigns.judge import record_regime, tangent_of
 from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Job, Plan, Summary
 from campaigns.machinery.runner import groups_of
 from engine import Trajectory, load_scene
+from engine.trajectory import TangentGrowth
 from reports.parts.style import VERMILION
 from tests.campaigns.conftest import finished, forget, judged_row, rows_of
 from tests.campaigns.fake_engine import FakeEngine, shapes, sines
@@ -201,6 +202,10 @@ def test_what_a_record_was_before_its_transient_ended_changes_no_exponent():
     other = replace(run, columns=run.columns | {"radius_m": noisy})
     wolf, of_other = (record_regime(record, 50)[1] for record in (run, other))
     assert (of_other.value, of_other.error) == (wolf.value, wolf.error)
+    growth_nats = np.full((200, 1), np.log(2.0))
+    growth_nats[:50] = 3.0
+    grown = replace(run, tangent=TangentGrowth(5.0, growth_nats, np.zeros(200)))
+    assert tangent_of(grown, 50).value == pytest.approx(1.0)
 
 
 def test_a_run_from_a_state_shares_no_worker_with_runs_from_rest(nine):

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from analysis.orbits import NoImage, OrbitMap
+from campaigns.explore.grid import varied
 from campaigns.orbits import main
-from campaigns.orbits.curves import curve, write_curves
+from campaigns.orbits.curves import Plane, curve, write_curves
 from engine import load_scene, simulate
 from reports.orbits.curves import curve_items
 from reports.parts.content import Figure, Table
@@ -114,3 +115,9 @@ def test_folds_of_the_cable_at_a_tenth_of_the_tolerance_lie_on_their_curve_withi
     assert np.interp(25.0, depths, steepness) == pytest.approx(on_one_key, abs=2e-4)
     sharp = fold("sharp", f"water.depth_m={depths[-1]}", "solver.rtol=1e-4")
     assert abs(steepness[-1] - sharp) <= errors[-1]
+
+
+def test_a_curve_is_kept_for_its_range_of_the_second_key():
+    ranges = ("water.depth_m", "22", "25"), ("water.depth_m", "22", "26"), ("waves.period_s", "22", "25")
+    digests = {Plane(HenonLine(), varied(words, [], count=2), 23.0).digest() for words in ranges}
+    assert len(digests) == 3

@@ -6,8 +6,10 @@ from campaigns import regime_map
 from campaigns.machinery import finished
 from campaigns.machinery.plan import Summary
 from tests.campaigns.conftest import order_of
+from tests.pages import ROOT
 
 VERSIONS = {"numpy": "2.0"}
+DATA = ".toml", ".csv"
 
 
 def folder_of(out, statuses=("ok", "newton-failed")):
@@ -83,3 +85,12 @@ def test_a_finished_map_is_printed_again_without_the_scenes_of_its_cells(tmp_pat
     again = [*words, "--starts", "5"]
     monkeypatch.undo()
     assert len(order_of(regime_map, *again).cases) == 4
+
+
+def test_the_key_tells_the_data_of_campaigns_and_scenes_apart(monkeypatch):
+    read = []
+    monkeypatch.setattr(finished, "made_by", lambda *sources: read.extend(sources))
+    finished.order_key("campaigns.validation", {}, VERSIONS)
+    for folder in ("campaigns", "engine/scenes"):
+        data = {path.relative_to(ROOT).as_posix() for path in (ROOT / folder).rglob("*.*") if path.suffix in DATA}
+        assert data and data <= {*read}

@@ -2,12 +2,14 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from campaigns import out_of_plane
 from campaigns.explore.space import DIRECTIONS, SEED_MPS, in_space, velocity
+from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import trajectory_path
 from campaigns.out_of_plane.pairs import agreement
 from campaigns.out_of_plane.rows import COLUMNS, bows, offplane_row
@@ -232,3 +234,10 @@ def test_the_size_in_the_plane_is_half_of_the_larger_swing_after_the_transient()
     for name, swing_m in (("x_m", 3.0), ("z_m", 4.0)):
         run.columns[name][:] = np.where(early, 50.0, swing_m * np.sin(np.arange(len(early)) * np.pi / 50.0))
     assert offplane_row(run, 6)["inplane_m"] == pytest.approx(4.0, rel=1e-3)
+
+
+def test_buoy_and_rope_leave_the_plane_farthest_in_runs_of_their_own(tmp_path):
+    rows = [{"steepness": 0.13, "status": "ok", "buoy_lateral_max_m": buoy_m, "rope_lateral_max_m": rope_m}
+            for buoy_m, rope_m in ((0.1, 0.2), (0.05, 0.4))]  # fmt: skip
+    (line,) = out_of_plane.answer(SimpleNamespace(how=Running(tmp_path)), rows)
+    assert "at most 0.1 m, the rope by 0.4 m" in line

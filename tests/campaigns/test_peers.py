@@ -48,6 +48,15 @@ def test_a_code_that_is_not_installed_is_a_row(tmp_path, monkeypatch):
         assert row["status"] == "not-installed" and "pip install" in row["message"] and "error" not in row
 
 
+def test_every_version_and_setting_of_another_code_is_a_run_of_its_own(monkeypatch):
+    keys = set()
+    for version in ("1.0", "1.1"):
+        monkeypatch.setattr(jobs, "version", lambda peer, version=version: version)
+        for setting in ((10, 200.0), (10, 400.0), (20, 200.0)):
+            keys |= {jobs.peer_job(PEERS[-1], "regular", kind, setting, {}).key for kind in (jobs.TIMED, jobs.CHECK)}
+    assert len(keys) == 12
+
+
 def test_what_another_code_raises_is_its_record(monkeypatch):
     monkeypatch.setattr(jobs, "version", lambda peer: "1.0")
     run = jobs.other_code(load_scene("tethered_buoy"), duration_s=1.0, peer=PEERS[-1], settings=(0, 0.0))

@@ -200,6 +200,7 @@ def test_curves_of_orbits_are_drawn_and_cells_without_a_border_are_told(tmp_path
     [
         (("waves.steepness", "waves.period_s"), {}, "has curves over waves.steepness and waves.period_s"),
         (("waves.steepness", "water.depth_m"), {"buoy.mass_kg": 1700.0}, "another buoy"),
+        (("waves.steepness", "water.depth_m"), {"gravity_mps2": 9.7}, "another gravity_mps2"),
         (None, {}, "a folder of campaigns.orbits --curves"),
     ],
 )

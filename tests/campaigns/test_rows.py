@@ -158,3 +158,11 @@ def test_snaps_a_wave_are_those_of_whole_periods_of_the_motion(scene, harmonic, 
     assert row["snap_peak_median_N"] == pytest.approx(2810.0, rel=1e-3)  # the steps of the fake see 10 N more
     assert row["snap_peak_max_N"] == pytest.approx(row["tension_top_max_N"], rel=1e-3)
     assert (row["tension_line_max_N"], row["tension_line_max_s_m"]) == (row["tension_top_max_N"], 20.0)
+
+
+def test_the_largest_tension_along_the_line_has_its_place(scene):
+    run = sines(scene, PERIODS)
+    for sample, tension_N, place_m in ((200, 9e3, 3.0), (5000, 8e3, 7.0)):  # the first one within the transient
+        run.columns["tension_max_N"][sample], run.columns["tension_max_s_m"][sample] = tension_N, place_m
+    row = judged_row(run, TRANSIENT)
+    assert (row["tension_line_max_N"], row["tension_line_max_s_m"]) == (8e3, 7.0)

@@ -1,5 +1,7 @@
 """A campaign of seas: what is run, what is refused, the folds between motions, and that nothing is done twice."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.plan import Plan
 from campaigns.machinery.runner import groups_of
 from campaigns.sea import rows as sea_rows
+from campaigns.sea.cells import _scatter
 from campaigns.sea.regular import design_loads, folds_of
 from reports import build
 from tables import Column
@@ -219,6 +222,9 @@ def test_a_design_wave_between_two_waves_of_the_sweep_bears_what_lies_between():
     assert design_loads(FOLDED, 0.7) == [("A", pytest.approx(1700.0)), ("B", pytest.approx(6800.0))]
     assert design_loads(FOLDED, 0.52) == [("A", pytest.approx(1520.0)), ("B", 6400.0)]
     assert design_loads(FOLDED, 0.48) == [("A", pytest.approx(1480.0))]
+    # lengths have no scale of their own
+    small = [row | {"waves.amplitude_m": 0.1 * row["waves.amplitude_m"]} for row in FOLDED]
+    assert design_loads(small, 0.052) == [("A", pytest.approx(1520.0)), ("B", 6400.0)]
     assert design_loads(FOLDED, 1.5) == design_loads((), 0.5) == []
 
 
@@ -230,3 +236,10 @@ def test_a_map_over_steepness_and_width_draws_every_state_anew_by_its_seed_and_a
         drawn.append((waves.significant_steepness, waves.relative_width, case.labels["sea"], waves.seed))
     states = [(0.0, 1, 0), (0.05, 1, 1), (0.05, 2, 2)]
     assert drawn == [(steepness, *state) for steepness in (0.05, 0.1) for state in states]
+
+
+def test_runs_in_the_same_waves_scatter_over_the_length_of_the_shortest():
+    """Largest tensions of 3 and 2 up to there; a sea of one run does not count."""
+    tensions_N = (1, [1.0, 3.0, 2.0, 9.0]), (1, [1.0, 2.0]), (2, [7.0, 8.0])
+    runs = [SimpleNamespace(row={"sea": sea}, high_N=np.array(values_N)) for sea, values_N in tensions_N]
+    assert _scatter(runs) == pytest.approx(1.0 / 2.5)

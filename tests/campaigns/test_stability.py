@@ -1,6 +1,7 @@
 """The stability campaign: verdicts mean what they say, a whole small campaign works, and is not done twice;
 statements of its report follow the tables, and a broken folder is refused."""
 
+import math
 import os
 import time
 import tomllib
@@ -121,6 +122,20 @@ def finished(status="ok", message="", samples=11, spoil=None):
 )
 def test_the_judge_tells_a_fault_from_an_answer(run, outcome):
     assert limits.outcome_of(run, 1.0) == outcome
+
+
+def test_a_run_is_off_by_shares_of_the_swing_of_the_finer_one(monkeypatch):
+    """Of sines of ten and of one: rms 9/sqrt(2), over a swing of 2."""
+    wave, line = np.sin(np.arange(1000) * 0.02 * np.pi), SimpleNamespace(tether=SimpleNamespace(length_m=20.0))
+
+    def swings(by_m):
+        columns = {"radius_m": 20.0 + by_m * wave, "tension_top_high_N": 1e3 + 0.0 * wave}
+        return SimpleNamespace(status="ok", columns=columns, scene=line)
+
+    monkeypatch.setattr(checks, "load_scene", lambda *_: None)
+    monkeypatch.setattr(checks, "simulate", lambda *_, **length: swings(1.0))
+    off = checks.compared(swings(10.0), Case("x", "y", {}), {}, "refinement").measured
+    assert off == pytest.approx(9.0 / math.sqrt(8.0))
 
 
 @numba.njit

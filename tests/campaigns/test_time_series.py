@@ -74,6 +74,9 @@ def test_each_motion_gets_its_word(tmp_path, capsys, name):
     assert result["regime"] == word
     assert ["VERDICT", f"{word}:"] in [line.split()[:2] for line in capsys.readouterr().out.splitlines()]
     bits_per_nat = result["section"]["cycle"] / np.log(2.0)
+    for exponent in result["exponents"].values():
+        for bits, nats in (("bits_per_cycle", "nats_per_time"), ("bits_per_cycle_error", "error")):
+            assert exponent[bits] == (exponent[nats] and pytest.approx(exponent[nats] * bits_per_nat))
     for (_, nats, *_), (measure, bits, *_) in pairwise(result["measures"]):
         if measure == "the same" and bits != "none":  # values and errors, both rounded to two digits of the errors
             wanted = [float(number) * bits_per_nat for number in nats.split(" +- ")]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from campaigns import validation
+from campaigns.machinery.cli import Running
 from campaigns.validation import families
 from campaigns.validation.cases import CASES, HOLDS, JUDGED, MISSES, NOT_RUN, QUICK, TOLD, Case
 from campaigns.validation.exact import Catenary, catenary, frequencies
@@ -17,6 +18,7 @@ from engine import load_scene
 from reports import build
 from reports.parts.folder import FolderError
 from reports.validation.report import read_study
+from tables import write_table
 from tests.campaigns.conftest import ran, rows_of
 
 TAUT = Catenary(H=400.0, V=0.0, w=1e-7, EA=1e4, m=0.5, length=10.0)
@@ -145,3 +147,12 @@ def test_amplitudes_of_a_sum_of_oscillations_are_found():
     t, omega = np.arange(0.0, 300.0, 0.1), np.array([0.7, 1.1, 1.2, 0.0])
     record = 0.3 * np.cos(0.7 * t + 1.0) + 0.02 * np.sin(1.1 * t) + 1.5 * np.cos(1.2 * t) - 4.0
     assert families.amplitudes(t, record, omega) == pytest.approx([0.3, 0.02, 1.5, 4.0])
+
+
+def test_the_case_nearest_to_its_bar_is_so_by_its_share_of_the_bar(tmp_path):
+    """Bars have unlike units."""
+    judged = {"quantity": "rms", "unit": "N", "verdict": HOLDS}
+    rows = [judged | {"case": name, "error": error, "bar": bar} for name, error, bar in (("a", 9, 90), ("b", 2, 3))]
+    write_table(tmp_path / "cases.csv", JUDGED, rows)
+    _, nearest = validation.answer(SimpleNamespace(how=Running(tmp_path)), ())
+    assert nearest.endswith("b, rms: 2 N, bar 3.")

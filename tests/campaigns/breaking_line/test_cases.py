@@ -18,6 +18,7 @@ import pytest
 from campaigns import breaking_line
 from campaigns.breaking_line import LENGTHS_S
 from campaigns.breaking_line import motion_measures as measures
+from campaigns.breaking_line.lines import from_motion
 from campaigns.breaking_line.theory import theory_of
 from engine import simulate
 from tests.campaigns.conftest import order_of
@@ -144,3 +145,14 @@ def test_the_fracture_time_changes_the_kinetic_energy_and_not_the_speed():
         assert slow.stored_J == pytest.approx(fast.stored_J, rel=1e-9)
         assert slow.end_work_J[-1] == pytest.approx(10 * fast.end_work_J[-1], rel=0.02)  # proportional to t_br
         assert slow.kinetic_J.max() < 0.92 * fast.kinetic_J.max()
+
+
+def test_the_front_of_a_slow_break_leaves_slack_behind_it_from_when_the_force_is_gone():
+    """After 40 ms, at 500 m/s: 10 ms later the last 5 m are slack."""
+    s, times = np.linspace(0.0, LENGTH, 61), np.array([0.0, 0.05])
+    tension = np.where(s > 55.0, 1.0, 100.0)
+    speed = np.where(s > 55.0, 10.0, 0.0)
+    profiles = SimpleNamespace(time_s=times, s_m=s, tension_N=np.array([tension] * 2), speed_mps=np.array([speed] * 2))
+    line = {"arrival_theory_s": 0.1, "breaking_time_s": 0.04, "slack_front_speed_theory_mps": 500.0}
+    shown = from_motion(line | {"end_speed_mps": 10.0, "force_N": 100.0}, profiles)
+    assert (shown["tension_behind"], shown["fronts_apart"], shown["reached_s"]) == (0.01, 0.0, 0.0)

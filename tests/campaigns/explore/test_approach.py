@@ -1,11 +1,17 @@
 """Slowly damped motions of the cable and of the massless tether are told by the orbit that they come nearer to."""
 
+import cmath
+import math
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from campaigns.explore.multipliers import orbit_ahead
+from analysis import Settled
+from campaigns.explore import proposals
+from campaigns.explore.multipliers import OrbitUnder, orbit_ahead
 from campaigns.explore.proposals import SCREENED, _motions
-from campaigns.explore.starts import settled_of
+from campaigns.explore.starts import Request, Start, settled_of, start_job
 from campaigns.machinery.store import Store
 from engine import Trajectory, load_scene, simulate
 from tests.campaigns.conftest import judged_row
@@ -84,3 +90,40 @@ def test_a_run_on_an_orbit_that_attracts_is_judged_after_60_periods_by_extremes_
     assert row["multiplier_modulus"] + row["multiplier_error"] < 1.0
     assert row["tension_top_max_N"] == largest_N(run, 60 - row["transient_periods"])
     assert judged_row(simulate(at(0.1), periods=45))["regime"] == "undecided", "too short for an orbit"
+
+
+@pytest.mark.parametrize(
+    ("modulus", "error", "caveat"),
+    [(0.9, 0.01, ""), (1.005, 0.01, "not known to be stable"), (1.02, 0.01, "NOT stable")],
+)
+def test_a_leading_multiplier_outside_the_unit_circle_has_its_caveat(modulus, error, caveat):
+    for angle_rad in (0.0, 0.5, math.pi):
+        multipliers = np.array([cmath.rect(modulus, angle_rad)])
+        words = OrbitUnder(1, multipliers, np.array([error]), None).words()
+        assert caveat in words and ("stable" in words) == bool(caveat)
+
+
+def test_a_start_is_kept_with_all_that_its_end_depends_on():
+    def known(x):
+        return [Settled(1, np.array([[x]]), np.array([[x, x, x]]), np.ones(1), "")]
+
+    usual = Request({}, at(0.1), Start("kick"))
+    state = SimpleNamespace(digest=lambda: "of a state")
+    others = [{"known": known(0.0)}, {"known": known(1.0)}, {"settles": False}, {"most": 60}, {"scene": at(0.2)}]
+    starts = Start("kick", (1.0, 0.0)), Start("kick", phase=1.0), Start("", state=state)
+    others += [{"start": start} for start in starts]
+    keys = {start_job(request).key for request in (usual, *(usual._replace(**other) for other in others))}
+    assert len(keys) == 1 + len(others)
+
+
+def test_proposals_are_kept_for_their_speed_and_seed(tmp_path, monkeypatch):
+    keys, plan = set(), SimpleNamespace(out=tmp_path, how=None)
+
+    def results(how, store, title, tasks, size):
+        keys.update(task.key for task in tasks)
+        return SimpleNamespace(results=[])
+
+    monkeypatch.setattr(proposals, "results", results)
+    for speed_mps, seed in ((6.0, 1), (5.0, 1), (6.0, 2)):
+        proposals.screened(plan, [at(0.1), at(0.2)], speed_mps, seed)
+    assert len(keys) == 6

@@ -5,21 +5,24 @@ is measured of a snapping run and of a slack rope, and what the scene alone says
 import json
 import math
 import shutil
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from campaigns.paper.figures import FIGURES, files_of, place_of, write_figure_data
+from campaigns.paper.figures import FIGURES, chaos, files_of, place_of, write_figure_data
 from campaigns.paper.figures.motions import history_arrays
 from campaigns.paper.measured import read_results
 from campaigns.paper.measures import buckling_waves, scales, snaps
 from engine import load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
+from engine.trajectory import TangentGrowth
 from reports.paper.figures import draw, figures_of, left_out, pictures
 from reports.paper.figures.drawing import sources_of
 from reports.parts.folder import read_arrays
 from tests.campaigns.conftest import rows_of
+from tests.campaigns.fake_engine import sines
 from tests.reports.conftest import campaign
 
 OF_BUOY = {9, 10, 11, 12, 13, 15, 16, 17, 18}
@@ -190,3 +193,17 @@ def test_the_normalised_lift_is_the_static_stretch_over_the_diameter(gravity_mps
     assert numbers["small_amplitude_m"] == pytest.approx(0.016 * deep)
     assert numbers["diameter_over_wave"] == pytest.approx(scene.buoy.diameter_m / (2.0 * math.pi * deep))
     assert numbers["force"] < 1e-3  # waves do not reach down there
+
+
+def test_growth_of_a_bit_a_wave_is_drawn_as_one_bit(monkeypatch):
+    scene, growth_nats = load_scene("tethered_buoy"), np.full((80, 1), math.log(2.0))
+    run = replace(sines(scene, 80), tangent=TangentGrowth(5.0, growth_nats, np.zeros(80)))
+    period_s = scene.waves.period_s
+    course = SimpleNamespace(time_s=period_s * np.arange(1.0, 9.0), convergence=np.full(8, math.log(2.0) / period_s))
+    wolf = SimpleNamespace(found=True, value=1.0, error=0.1, details={"run": course})
+    wolf.in_bits_per_period = lambda period_s: wolf
+    monkeypatch.setattr("analysis.wolf_lyapunov", lambda *_: wolf)
+    arrays = chaos._exponents({"large": (run, None)}, 10)
+    for method in ("wolf", "tangent"):
+        assert arrays[f"large_{method}_bits"][1] == pytest.approx(1.0)
+        assert arrays[f"large_{method}_value"][1] == pytest.approx(1.0)
