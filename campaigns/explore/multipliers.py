@@ -85,10 +85,10 @@ class OrbitUnder:
         size, doubt = f"{first.real:.4f}", ""
         if first.imag:
             size = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees"
-        if modulus >= 1.0:
+        if abs(modulus - 1.0) <= error:
+            doubt = ", not known to be stable"
+        elif modulus > 1.0:
             doubt = ": NOT stable, the run lies beside it"
-            if modulus - error < 1.0:
-                doubt = ", not known to be stable"
         return f"leading multiplier {size}, ± {error:.2g}{doubt}"
 
     def _leading(self) -> tuple[float, float, float]:

@@ -164,13 +164,15 @@ def _doubts(cell: Row, options) -> Iterator[str]:
 def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
     """cells: those with runs that ended; of_all: how many there are."""
     signs = Counter(cell["sign"] for cell in cells)
-    undecided = of_all - signs["−"] - signs["+"]
     words = (
         f"Of {of_all} sea states {signs['−']} make the buoy forget how it began, {signs['+']} never do, and "
-        f"{undecided} are not decided"
+        f"{signs['open']} are not decided"
     )
-    if undecided:
-        words += f"; --most-hours above {options.most_hours:g} draws more seas of these"
+    unknown = of_all - signs["−"] - signs["+"] - signs["open"]
+    if unknown:
+        words += f"; of {unknown} there is no exponent, because no run carries a perturbation to its end"
+    if signs["open"]:
+        words += f"; --most-hours above {options.most_hours:g} draws more seas of those that are not decided"
     yield f"{words}."
     for name, quantity, in_print in (
         ("large_share", "share of the large motion", _percent),

@@ -67,6 +67,13 @@ def test_no_load_of_a_sphere_that_comes_out_of_the_water_is_for_design():
     assert any("No load of 1 state is for design" in words for words in of_sea([dry, wet], OPTIONS))
 
 
+def test_more_hours_are_advised_for_seas_that_are_open_not_for_runs_that_failed():
+    cells = [SEA | {"sign": sign, "storm_maximum_N": 1e4} for sign in ("−", "+", "open", None)]
+    words = next(of_sea([*cells, {"status": "newton-failed"}], OPTIONS))
+    assert "1 make the buoy forget" in words and "1 are not decided" in words and "of 2 there is no exponent" in words
+    assert "--most-hours" not in next(of_sea([*cells[:2], cells[-1]], OPTIONS))
+
+
 def test_a_sea_is_told_with_intervals_and_what_a_finer_run_and_the_steps_leave_open():
     answer = "\n".join(of_sea([SEA], OPTIONS))
     assert answer.startswith("LOAD     most probable three-hour maximum 12 kN (90 % interval 11 to 14)")
