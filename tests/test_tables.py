@@ -1,18 +1,10 @@
-"""Laws: a table holds what a run said and its numbers to the last bit; a number in print is not taken for nothing."""
+"""Laws: a row tells what a run said and what it went on from; a small number in print is not zero."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from tables import Column, counted, read_table, write_table
-
-
-def test_a_table_is_read_as_it_was_written(tmp_path):
-    rows = [{"a": 1.0 / 3.0, "b": 7}, {"a": -2.5e-17, "b": None}]
-    write_table(tmp_path / "table.csv", (Column("a", digits=2), Column("b", digits=0)), rows)
-    first, second = read_table(tmp_path / "table.csv")
-    assert (first, second["a"]) == (rows[0], rows[1]["a"])
-    assert second["b"] != second["b"], "unknown, and not 0"
+from tables import Column, counted
 
 
 def test_a_row_tells_what_a_run_said_and_what_it_went_on_from():
