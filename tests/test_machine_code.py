@@ -78,6 +78,7 @@ class C:
         ("(a, b=0)", "(a, /, b=0)", False),
         ("def f", "async def f", False),
         ("    return [", '    ("a",)\n    return [', False),
+        ('class C:\n    """Class."""', '    class C:\n        """Class."""', False),  # the same words, but within f
     ],
 )
 def test_only_code_counts(old, new, same):

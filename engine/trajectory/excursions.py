@@ -98,4 +98,5 @@ def height_above_wave(scene: Scene, columns: Columns) -> np.ndarray:
     from ..physics.sea import elevation_m
 
     with np.errstate(all="ignore"):  # places of a run that blew up
-        return lowest_m - elevation_m(scene, columns["time_s"], columns["x_m"], columns["y_m"])
+        x_m, y_m = (scene.anchor.position_m[axis] + columns[name] for axis, name in enumerate(("x_m", "y_m")))
+        return lowest_m - elevation_m(scene, columns["time_s"], x_m, y_m)

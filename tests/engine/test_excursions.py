@@ -69,9 +69,10 @@ SEAS = [
 @pytest.mark.parametrize("waves", SEAS, ids=["along", "against", "ramp", "sea", "space"])
 @pytest.mark.parametrize("anchor_m", [0.0, 1.5])
 def test_a_sphere_is_in_the_air_where_its_lowest_point_is_above_the_wave(waves, anchor_m):
-    scene = line({**waves, "water.depth_m": 23.0, "anchor.position_m": [0.0, 0.0, anchor_m]})
+    x, y = 4.0 * anchor_m, anchor_m if "motion.dimensions" in waves else 0.0  # of the anchor: the sea is told from 0
+    scene = line({**waves, "water.depth_m": 23.0, "anchor.position_m": [x, y, anchor_m]})
     columns = places(scene, np.linspace(-5.0, 5.0, 401), np.zeros(401))
-    touching = scene.water.depth_m + elevation_m(scene, *(columns[name] for name in ("time_s", "x_m", "y_m")))
+    touching = scene.water.depth_m + elevation_m(scene, columns["time_s"], x + columns["x_m"], y + columns["y_m"])
     for dry, words in ((0.05, ""), (0.06, "up to 6 % of its diameter"), (1.0, "up to 100 % of its diameter")):
         columns["z_m"] = touching + (dry - 0.5) * 1.5 - anchor_m - 1e-6
         assert emergence(scene, columns) == pytest.approx(dry, abs=1e-6)

@@ -1,12 +1,14 @@
 """The map of the cable over one wave period, and its derivative."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from analysis.orbits import OrbitMap, find_orbit
 from engine import simulate
+from engine.record import SAMPLE_WIDTH, TOP_HIGH, TOP_LOW
 from engine.run.period_map import PeriodMap
 from tests.engine.lines import line
 
@@ -88,6 +90,31 @@ def test_a_period_that_changes_keeps_the_steps_as_shares_of_it(settled):
     (image,) = cable.frozen([cable.first], period_s)
     near = image(cable.first, period_s * (1 + 1e-6))[0]
     assert 0.0 < np.abs(near - image(cable.first, period_s)[0]).max() < 1e-4
+
+
+def test_extremes_before_a_strobe_are_those_of_the_first_sample_after_it():
+    """An orbit of two periods; before the strobe at the end of each the tension reaches 1 and 2 N."""
+
+    class ByHand:
+        """An image whose samples are given."""
+
+        def __init__(self, most_N):
+            self.samples = np.zeros((2, SAMPLE_WIDTH))
+            self.samples[1, [TOP_LOW, TOP_HIGH]] = -most_N, most_N
+
+        def __call__(self, z, value):
+            return z, None
+
+    cable = SimpleNamespace(
+        frozen=lambda points, value: [ByHand(1.0), ByHand(2.0)],
+        _run=lambda value: SimpleNamespace(scene=scene_at(value)),
+        samples_of=lambda scene: 1,
+    )
+    columns = PeriodMap.history(cable, [None, None], AT)
+    assert columns["tension_top_high_N"].tolist() == [2.0, 1.0] and columns["tension_top_low_N"].tolist() == [
+        -2.0,
+        -1.0,
+    ]
 
 
 @pytest.mark.parametrize(

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from engine import simulate
+from engine.parameters import numbers_of
 from engine.parameters.scales import jumps_of
-from engine.run import Run, companions, trust
+from engine.run import Idle, Run, companions, trust
 from engine.run.trust import blows, errors_of_ringing, unresolved
 from engine.trajectory.columns import columns_of
 from tests.engine.lines import DRY, STILL, by_table, harmonic, held, kick, line, linear, ran
@@ -81,6 +82,8 @@ def test_a_table_jumps_where_its_samples_begin_or_end_in_motion():
     assert jumps_of(line(moved(cosine)).end) == []
     assert [t for t, *_ in jumps_of(line(moved(cosine[: len(cut)], cut)).end)] == [cut[-1]]
     assert jumps_of(line(moved([0.0, 0.1, 0.1, 0.0], [0.0, 1.0, 2.0, 3.0])).end) == []
+    shaken = held(0.0, 20.1, motion=harmonic([0.0, 0.0, amplitude], 1.0, phase_rad=np.pi / 3.0))
+    assert jumps_of(line(shaken, DRY).end) == [(0.0, pytest.approx(omega * amplitude * 0.5), 0.0)]
 
 
 @pytest.mark.parametrize("largest_s, least_N, statement", [
@@ -363,6 +366,14 @@ def test_the_tension_of_another_run_is_also_that_at_the_time_of_the_largest(monk
     monkeypatch.setattr(companions, "static_tension_N", lambda *_: np.nan)
     differences = companions._differences(run, {**made, "tension_top_high_N": base}, 0.5, companions.COARSE)
     assert (differences.tension, differences.at_peak) == pytest.approx((0.01, 0.4))
+
+
+@pytest.mark.parametrize("grid", [companions.COARSE, companions.FINE])
+def test_a_line_has_the_same_damping_on_other_grids(grid):
+    """Its share of the critical damping of an element is then another, because elements are."""
+    run = Idle(line(DRY, SLACK, damping_critical=0.1, nodes=21), 0.5)
+    other = companions._on_grid(run, grid)[0]
+    assert numbers_of(other)[0]["damping"] == pytest.approx(run.record["damping"])
 
 
 @pytest.mark.parametrize(("step_s", "told"), [(0.05, True), (0.02, False), (0.01, False)])

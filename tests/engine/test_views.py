@@ -295,3 +295,10 @@ def test_the_static_tension_of_a_run_that_goes_on_is_that_of_rest_and_not_its_fi
     assert static_tension_N(scene, first.columns) == first.columns["tension_top_N"][0]
     assert abs(later.columns["tension_top_N"][0] / first.columns["tension_top_N"][0] - 1.0) > 0.01
     assert static_tension_N(scene, later.columns) == pytest.approx(first.columns["tension_top_N"][0], rel=1e-12)
+
+
+def test_the_static_tension_of_a_buoy_that_is_let_go_is_its_lift_and_not_what_it_was_held_with():
+    scene = line({"tether.nodes": 9, "start.buoy_displacement_m": [0.0, 0.0, 0.5]})
+    lift_N = (scene.water.density_kgpm3 * np.pi * 1.5**3 / 6.0 - scene.buoy.mass_kg) * scene.gravity_mps2
+    begun = {"radius_rate_mps": np.zeros(1), "angle_rate_radps": np.zeros(1), "tension_top_N": np.full(1, 3e3)}
+    assert static_tension_N(scene, begun) == pytest.approx(lift_N, rel=1e-6)

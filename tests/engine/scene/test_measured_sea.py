@@ -45,6 +45,8 @@ BROKEN = {
     "uneven": (TIME_S + 0.05 * np.sin(TIME_S), ELEVATION, "uneven step"),
     "still": (TIME_S, 0.0 * ELEVATION, "not constant"),
     "slow": (TIME_S, np.sin(0.06 * TIME_S), "of its energy lies outside"),
+    # 0.4^2/(1 + 0.4^2) of the energy has ten times the period
+    "swell": (TIME_S, np.sin(0.4 * np.pi * TIME_S) + 0.4 * np.sin(0.04 * np.pi * TIME_S), "14 % of its energy"),
 }
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from engine import Scene, SceneError, list_scenes, load_scene
 from engine.scene import parse_assignment, scene_from_toml
+from engine.scene.finer import finer
 from tests.engine.scene.test_scene_faults import TABLES, changes_of
 
 VARIANTS = [changes_of("", changes) for changes in TABLES["accepted"]]
@@ -37,6 +38,14 @@ def test_every_part_of_a_scene_counts_in_its_key():
     scene = load_scene("tethered_buoy", {"floor": floor, "current": current})
     for name in Scene.model_fields:
         assert scene.model_copy(update={name: None}).key() != scene.key(), name
+
+
+@pytest.mark.parametrize("changes", [{}, {"solver.integrator": "midpoint", "solver.step_s": 0.02}])
+def test_a_finer_scene_has_shorter_elements_and_a_quarter_of_the_step_or_of_the_tolerance(changes):
+    scene = load_scene("tethered_buoy", {"tether.nodes": 9, **changes})
+    fine = finer(scene, elements=2, steps=4)
+    assert fine.tether.nodes == 17  # 16 elements in place of 8
+    assert (fine.solver.step_s == 0.005) if changes else (fine.solver.rtol == pytest.approx(scene.solver.rtol / 4))
 
 
 def test_the_shipped_scene_is_table_1():

@@ -11,6 +11,7 @@ import pytest
 
 from engine import goes_in_lanes, simulate, simulate_batch, simulate_each
 from engine.run import Run
+from engine.run.batch import kind_of
 from engine.time.status import WORDS
 from tests.engine.lines import DRY, SEA, STILL, assert_same, free, held, kick, line, ran, uniform
 from tests.engine.physics.caps import CAP
@@ -173,6 +174,7 @@ def test_runs_come_as_they_end():
         {"motion.dimensions": 3},
         {"output.profiles": True},
         {"solver.integrator": "midpoint"},
+        {"solver.shock_viscosity": {}},
         {"solver.scheme": "paper-box", "solver.step_s": 0.01},
         {"tether.tension": TABLE},
         held(3.0, 19.0),
@@ -180,6 +182,11 @@ def test_runs_come_as_they_end():
 )
 def test_what_the_lanes_do_not_cover_stays_out(change):
     assert not goes_in_lanes(steep(change))
+
+
+def test_runs_that_carry_unlike_perturbations_share_no_batch():
+    carried = {**CARRIED}, {**CARRIED, "output.tangent_vectors": 1}, {**CARRIED, "output.lateral_growth": False}
+    assert len({kind_of(steep(changes)) for changes in carried}) == 3
 
 
 @pytest.mark.parametrize("chunk", [1, 7, 10**6])

@@ -83,6 +83,13 @@ def test_with_its_clock_at_zero_loops_are_counted_anew(first):
     assert begun.state()["releases"] == 1 and not begun.samples[:, RELEASES].any()
 
 
+def test_with_its_clock_at_zero_every_time_of_a_state_is_as_much_earlier(first):
+    state = first.final_state.with_numbers(window_end=21.0, corner=22.0)
+    begun = state.at_zero().state()
+    earlier_s = [state.state()[name] - begun[name] for name in ("t", "window_end", "corner")]
+    assert earlier_s == pytest.approx([20.0, 20.0, 20.0])
+
+
 def test_the_grid_may_change_in_slack():
     """The end stays in its place and the line without a blow; on a nested grid and back the state is nearly the old."""
     fine = line({**SLACK, "tether.nodes": 41})

@@ -1,0 +1,17 @@
+"""Laws: a row tells what a run said and what it went on from; a small number in print is not zero."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from tables import Column, counted
+
+
+def test_a_row_tells_what_a_run_said_and_what_it_went_on_from():
+    run = SimpleNamespace(status="ok", message="a doubt", began="went on at t = 20 s", statistics={})
+    assert all(words in counted(run)["message"] for words in (run.message, run.began))
+
+
+@pytest.mark.parametrize(("value", "printed"), [(0.004, "0.004"), (0.006, "0.01"), (-0.0012, "−0.0012"), (0.0, "0.00")])
+def test_a_small_number_in_print_is_not_zero(value, printed):
+    assert Column("a", digits=2).cell({"a": value}) == printed
