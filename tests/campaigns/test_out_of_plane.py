@@ -237,7 +237,9 @@ def test_the_size_in_the_plane_is_half_of_the_larger_swing_after_the_transient()
 
 
 def test_buoy_and_rope_leave_the_plane_farthest_in_runs_of_their_own(tmp_path):
-    rows = [{"steepness": 0.13, "status": "ok", "buoy_lateral_max_m": buoy_m, "rope_lateral_max_m": rope_m}
-            for buoy_m, rope_m in ((0.1, 0.2), (0.05, 0.4))]  # fmt: skip
+    rows, place = [], {"steepness": 0.13, "status": "ok", "bending_stiffness_Nm2": 0.4, "nodes": 41}
+    for depth_m, buoy_m, rope_m in ((21.0, 0.1, 0.2), (22.0, 0.05, 0.4)):
+        rows.append({**place, "depth_m": depth_m, "buoy_lateral_max_m": buoy_m, "rope_lateral_max_m": rope_m})
     (line,) = out_of_plane.answer(SimpleNamespace(how=Running(tmp_path)), rows)
-    assert "at most 0.1 m, the rope by 0.4 m" in line
+    buoy, rope = line.split("the rope by")
+    assert "0.1 m (H = 21 m" in buoy and "0.4 m (H = 22 m" in rope
