@@ -14,7 +14,7 @@ import numpy as np
 
 from campaigns.answers import greatest
 from campaigns.explore.judgement import Judgement
-from campaigns.explore.load import leaves_water
+from campaigns.explore.load import is_overbuoyant
 from campaigns.explore.motions import MOTION, from_rest
 from campaigns.explore.rows import EXTREMES, HEIGHT, REGIME, SLACK, STEEPNESS, STROBED, TRANSIENT, buoy_row
 from campaigns.explore.starts import run_within
@@ -129,7 +129,7 @@ def jobs_of_companions(plan: Plan, rows: Rows, key: str, periods: int) -> list[J
     scene = peak and run_of(plan.out, peak).scene
     if scene is not None:
         for row in rows:
-            if not leaves_water(row, scene):
+            if not is_overbuoyant(row, scene):
                 continue
             labels = {"role": CAPPED, "steepness": row["steepness"], "motion": row.get("motion")}
             capped = unfollowed(scene, {key: row["steepness"], "buoy.submergence": "spherical-cap"})

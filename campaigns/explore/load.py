@@ -27,7 +27,7 @@ from tables import (
     typed,
 )
 
-FLIES = "the buoy comes out of the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
+OVERBUOYANT = "the buoy comes out of the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
 def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> str:
@@ -113,7 +113,7 @@ def use_of(row: Row, scene, searched: bool) -> str:
     return f"Checked: {listed(passed)}; not checked: {listed(missing)}."
 
 
-def leaves_water(row: Row, scene) -> bool:
+def is_overbuoyant(row: Row, scene) -> bool:
     """Whether a sphere that keeps its whole buoyancy comes out of the water."""
     if scene.buoy is None or scene.buoy.submergence != "full":
         return False
@@ -123,8 +123,8 @@ def leaves_water(row: Row, scene) -> bool:
 
 def reasons(row: Row, scene) -> Iterator[str]:
     """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
-    if scene is not None and row.get("role") != CAPPED and leaves_water(row, scene):
-        yield FLIES
+    if scene is not None and row.get("role") != CAPPED and is_overbuoyant(row, scene):
+        yield OVERBUOYANT
     loops = number_of(row, "loop_releases")
     if loops > 0 and number_of(row, "dimensions") != 3:
         yield f"{count(int(loops), 'loop')} released in a plane (motion.dimensions)"

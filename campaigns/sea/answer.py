@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from campaigns.answers import greatest, kilonewton, line
-from campaigns.explore.load import FLIES
+from campaigns.explore.load import OVERBUOYANT
 from campaigns.sea.cells import WELL_ABOVE
 from engine.trajectory.excursions import EMERGES
 from tables import EMERGED, TANGENT_ERROR, TANGENT_EXPONENT, Row, Rows, count, number_of, typed
@@ -109,7 +109,7 @@ def _snaps(cell: Row) -> str:
 def _load(cell: Row) -> str:
     """The three-hour maximum, and what speaks against it."""
     if number_of(cell, EMERGED) > EMERGES:
-        return f"{_storm(cell)} Not for design: {FLIES}."
+        return f"{_storm(cell)} Not for design: {OVERBUOYANT}."
     return _storm(cell)
 
 
@@ -184,7 +184,7 @@ def _of_map(cells: Rows, of_all: int, options) -> Iterator[str]:
             yield f"The {quantity} is largest at {place}: {in_print(worst[name])}."
     dry = sum(number_of(cell, EMERGED) > EMERGES for cell in cells)
     if dry:
-        yield f"No load of {count(dry, 'state')} is for design: {FLIES}."
+        yield f"No load of {count(dry, 'state')} is for design: {OVERBUOYANT}."
     refused = sum(not math.isfinite(cell["storm_maximum_N"]) for cell in cells)
     if refused:
         yield f"{refused} states have no three-hour maximum; the column storm_reason says why."
