@@ -282,14 +282,13 @@ class Study:
         plan = self.plan(order)
         write_scene(order.how.out, self.name, order.cases)
         further_steps = list(self.beside(order))
-        steps = 1 + len(further_steps)
+        steps, began = 1 + len(further_steps), time.perf_counter()
         with stage(f"step 1 of {steps}"):
             summary = self.runs(order, plan, order.cases)
-        began = time.perf_counter()
         for number, step in enumerate(further_steps, 2):
             with stage(f"step {number} of {steps}"):
                 summary.times["analysis_s"] += step(plan, summary)
-        summary.times["run_s"] += time.perf_counter() - began
+        summary.times["run_s"] = time.perf_counter() - began - summary.times["compile_s"]
         return summary
 
     def plan(self, order: Order) -> Plan:

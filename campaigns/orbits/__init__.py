@@ -15,7 +15,6 @@ or ends, its branch ends. Nothing is random.
 """
 
 import re
-import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -205,7 +204,6 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
             without_kicks = Search(order, 0, motions.SPEED_MPS, 1)
             times = motions.every_motion(plan.within(folder), jobs, without_kicks).times
         starts = [*_under_motions(order, folder)]
-    began = time.perf_counter()
     low, high = key.values[0], key.values[-1]
     _, value, _, state = [*starts, ("", low, 0, None)][0]
     line = Line(Scenes(jobs[0].scene, key), low, high, high - low, state, value)
@@ -221,7 +219,6 @@ def runs(order: Order, plan: Plan, jobs: list[Job]) -> Summary:
 
         points = plan.how.seen(plan.how.out / FOLDER / "points")
         write_curves(tree, Plane(line, options.second, options.second.of(line.scenes.base), points))
-    times["run_s"] += time.perf_counter() - began
     return Summary(rows, tree.there, tree.computed, times)
 
 

@@ -60,9 +60,8 @@ class Map(Motions):
 
     def run_screen(self, coarse: Jobs) -> None:
         """Let a massless tether do the coarse grid, of which these are the runs from rest. Raises OSError."""
-        options, start_s = self.order.options, time.perf_counter()
+        options = self.order.options
         self.screen = screened(self.plan, [job.scene for job in coarse], options.kick_speed, options.seed)
-        self.times["run_s"] += time.perf_counter() - start_s
         tables.write_screen(self.plan, self.grid, coarse, self.screen)
         self._show()
 

@@ -5,8 +5,11 @@ campaign of one's own, as docs/developing.md#a-campaign has them (tests/test_pag
 import json
 import re
 import sys
+import time
 import types
+from collections import Counter
 from copy import deepcopy
+from dataclasses import replace
 from functools import reduce
 from itertools import product
 from operator import getitem
@@ -16,6 +19,7 @@ import pytest
 
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
+from campaigns.machinery import Summary
 from engine import Trajectory, load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
 from reports import build
@@ -265,3 +269,19 @@ def test_a_tension_is_over_the_static_one_of_its_own_scene():
     static_N = natural_frequencies(order.cases[0].scene).static_tension_N
     rows = [{"status": "ok", "gravity_mps2": g, "tension_top_max_N": 3.0 * g / 2.0 * static_N} for g in (2.0, 8.0)]
     assert "3.0 times static, gravity_mps2 = 8" in sweep_command.STUDY.answer(order, rows)[0]
+
+
+def test_the_time_of_a_study_is_that_of_all_its_work(tmp_path):
+    """Compilation of 0.1 s, a step of 0.2 s that counts no time of its own, and another after it."""
+    order = order_of(sweep_command, "--vary", "buoy.drag", "0.2", "0.4", "2", "--out", tmp_path)
+
+    def runs(order, plan, jobs):
+        time.sleep(0.3)
+        return Summary([], 0, 0, Counter(compile_s=0.1))
+
+    def later(plan, summary):
+        time.sleep(0.2)
+        return 0.0
+
+    summary = replace(sweep_command.STUDY, runs=runs, beside=lambda order: [later]).work(order)
+    assert 0.4 <= summary.times["run_s"] < 2.0
