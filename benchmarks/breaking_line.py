@@ -11,7 +11,7 @@ import tempfile
 
 import numpy as np
 
-from benchmarks.shared import DOCS, shrink
+from benchmarks.shared import DOCS, command_line, shrink
 from campaigns import breaking_line
 from campaigns.breaking_line import motion_measures as measures
 from campaigns.breaking_line.theory import theory_of
@@ -72,5 +72,6 @@ def eight():
 
 
 if __name__ == "__main__":
+    command_line(__doc__).parse_args()
     eight()
     table()

@@ -17,7 +17,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from benchmarks.shared import DOCS, shrink
+from benchmarks.shared import DOCS, command_line, shrink
 from engine import load_scene, simulate
 from reports.figures.curves import Curve, Panel, curves
 from reports.parts.content import Picture
@@ -144,6 +144,7 @@ def falling_chain():
 
 
 if __name__ == "__main__":
+    command_line(__doc__).parse_args()
     twisted_rope()
     swinging_line()
     falling_chain()

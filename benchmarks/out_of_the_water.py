@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.shared import DOCS
+from benchmarks.shared import DOCS, command_line
 from campaigns.buoy_sweep import main as sweep
 from reports.buoy_sweep.runs import read_sweep
 from reports.figures.curves import Curve, Panel, curves
@@ -42,9 +42,10 @@ def panel(folder, depth_m, kind):
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit("usage: python -m benchmarks.out_of_the_water FOLDER")
-    rows = [[panel(Path(sys.argv[1]), depth_m, kind) for kind in KINDS] for depth_m in DEPTHS_M]
+    parser = command_line(__doc__)
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the four sweeps")
+    folder = parser.parse_args().folder
+    rows = [[panel(folder, depth_m, kind) for kind in KINDS] for depth_m in DEPTHS_M]
     (DOCS / "out_of_the_water.png").write_bytes(curves(rows, 5.0, share="xy", kind="png").data)
 
 

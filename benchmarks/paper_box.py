@@ -13,7 +13,7 @@ import time
 import numpy as np
 import pandas as pd
 
-from benchmarks.shared import DOCS, shrink
+from benchmarks.shared import DOCS, command_line, shrink
 from engine import load_scene, simulate
 from engine.paper_box.driver import run
 from engine.paper_box.ends import force_and_velocity
@@ -140,6 +140,7 @@ def large_waves(depth_m):
 
 
 def main():
+    command_line(__doc__).parse_args()
     grids, by_nodes, steps, by_steps = small_waves()
     lines = []
     for name, mark, values, errors in (
