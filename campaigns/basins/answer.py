@@ -38,7 +38,7 @@ def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows
     used = use_of(worst, scene, searched=True)
     yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
     if parts["shock"]:
-        yield _shock(parts["shock"], across)
+        yield _shock(parts["shock"], across, math.cos(scene.waves.direction_rad))
     if PHASE in across and parts["shock"]:
         yield _when(rows, across, str(parts["shock"][0]["motion"]))
     if parts["edge"]:
@@ -76,10 +76,10 @@ def _shares(rows: Rows, motions: Rows) -> str:
     return f"{sentence}."
 
 
-def _way(shock: Row, across: Sequence[str]) -> str:
-    """The direction of a smallest start in words: "23 degrees below the direction of the waves"."""
+def _way(shock: Row, across: Sequence[str], along: float) -> str:
+    """The direction of a smallest start in words: "along the waves, 23 degrees downwards"; along: x with the waves."""
     first = number_of(shock, COLUMNS[across[0]])
-    ahead = ("along the waves", "against the waves")[first < 0.0]
+    ahead = ("along the waves", "against the waves")[first * along < 0.0]
     if PHASE in across:
         if across[0] == "vz":
             ahead = ("upwards", "downwards")[first < 0.0]
@@ -94,7 +94,7 @@ def _way(shock: Row, across: Sequence[str]) -> str:
     return f"{ahead}, {angle:.0f} degrees {upright}"
 
 
-def _shock(rows: Rows, across: Sequence[str]) -> str:
+def _shock(rows: Rows, across: Sequence[str], along: float) -> str:
     unit = ("m/s", "m")["x" in across]
     good = [row for row in rows if row["status"] == "ok"]
     if not good:
@@ -102,9 +102,11 @@ def _shock(rows: Rows, across: Sequence[str]) -> str:
     first, *finer = good
     if first["size"] == 0.0:
         return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
-    words = f"The smallest start that leads to {first['motion']} is {first['size']:.2g} {unit} {_way(first, across)}"
+    words = (
+        f"The smallest start that leads to {first['motion']} is {first['size']:.2g} {unit} {_way(first, across, along)}"
+    )
     for row in finer:
-        words += f"; on {row['nodes']:.0f} nodes {row['size']:.2g} {unit} {_way(row, across)}"
+        words += f"; on {row['nodes']:.0f} nodes {row['size']:.2g} {unit} {_way(row, across, along)}"
     if not finer:
         words += f"; on a finer grid of the line {rows[-1]['message']}"
     return f"{words}."

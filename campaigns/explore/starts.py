@@ -63,11 +63,9 @@ KICK, DISPLACEMENT, PHASE = "start.buoy_velocity_mps", "start.buoy_displacement_
 SOURCES = "analysis", "engine", "campaigns/explore"
 FOUND_BY = of_words("found_by", "rest, massless (model), kick, or carried from a neighbour", "found by")
 KICKS = (
-    Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along the waves at the start", 2),
+    Column("kick_x_mps", "m/s", "kick x", "velocity of the buoy along x at the start", 2),
     Column("kick_z_mps", "m/s", "kick z", "upward velocity of the buoy at the start", 2),
-    Column(
-        "displacement_x_m", "m", "moved x", "place of the buoy at the start, from that of its rest, along the waves", 2
-    ),
+    Column("displacement_x_m", "m", "moved x", "place of the buoy at the start, from that of its rest, along x", 2),
     Column("displacement_z_m", "m", "moved z", "place of the buoy at the start, from that of its rest, upwards", 2),
     Column("phase_rad", "rad", "phase", "phase of the wave at the start", 3),
 )

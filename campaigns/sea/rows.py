@@ -55,7 +55,7 @@ _, SNAP_PEAK, *_, SNAP_SPEED = SNAPS_OF_RUNS
 _MEASURED = (
     SEA,
     START,
-    Column("kick_x_mps", "m/s", "u", "velocity of the buoy along the waves at the start", 2, SHEET),
+    Column("kick_x_mps", "m/s", "u", "velocity of the buoy along x at the start", 2, SHEET),
     Column("kick_z_mps", "m/s", "w", "velocity of the buoy upwards at the start", 2, SHEET),
     SOLVER,
     STATUS,

@@ -38,9 +38,9 @@ from ..parts import (
 from ..parts.style import BLUE, INK, SHADES, WIDTH_IN, picture_of, sheet
 
 _AXES = {
-    "vx": ("kick_x_mps", "velocity along the waves (m/s)"),
+    "vx": ("kick_x_mps", "velocity along x (m/s)"),
     "vz": ("kick_z_mps", "velocity upwards (m/s)"),
-    "x": ("displacement_x_m", "place along the waves, from rest (m)"),
+    "x": ("displacement_x_m", "place along x, from rest (m)"),
     "z": ("displacement_z_m", "place upwards, from rest (m)"),
     "phase": ("phase_rad", "time from the start to a crest, share of T"),
 }

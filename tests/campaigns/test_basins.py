@@ -72,8 +72,10 @@ def test_the_smallest_start_is_the_nearest_point_of_a_disc(centre):
 def test_the_smallest_start_is_told_with_its_way(across, shock, way):
     row = shock | {"status": "ok", "size": 2.0, "motion": "B", "nodes": 81}
     unit = "m" if "x" in across.split() else "m/s"
-    sentence = _shock([row, row | {"size": 2.1}], across.split())
-    assert sentence == f"The smallest start that leads to B is 2 {unit} {way}; on 81 nodes 2.1 {unit} {way}."
+    turned = {name: -value if "_x_" in name else value for name, value in row.items()}
+    for shock_in_waves, along in ((row, 1.0), (turned, -1.0)):
+        sentence = _shock([shock_in_waves, shock_in_waves | {"size": 2.1}], across.split(), along)
+        assert sentence == f"The smallest start that leads to B is 2 {unit} {way}; on 81 nodes 2.1 {unit} {way}."
 
 
 def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(tmp_path, monkeypatch):
