@@ -14,7 +14,8 @@ periods (`next_look`), each time without its first third, the transient:
                       forcing
     transient         at the end of the record: spread, mean or the steps towards a period still march, or perturbations
                       shrink and no period is met
-    undecided         otherwise
+    undecided         otherwise; so where perturbations shrink by 52 bits and no period is met: of the start nothing is
+                      left then, and the errors of steps and grid move the state (`BLURRED`)
 
 The verdict on a record is that of its last look, which is at its end. A word counts when this look and the one before
 find it, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic
@@ -57,6 +58,8 @@ SEEN = 0.1  # bits per period: growth, a doubling in ten periods, that a period'
 CLOSELY = 0.2  # tolerances by which a period is missed at most where no perturbations tell
 NO_GROWTH, CLOSE = "no growth", "close"  # the tests of a period
 SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a record to its end
+FORGOTTEN = 52.0  # bits: the precision of a number
+BLURRED = "errors of steps and grid blur it"
 CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
@@ -243,7 +246,10 @@ def _part(x, growth, start, end, scale, tolerance, max_period) -> _Look:
     if drift.passed:
         return look("transient", drift.sentence)
     if exponent + LATER * full.error < 0.0:
-        return look("transient", f"perturbations shrink ({rate}), but no period is met yet")
+        shrinking = f"perturbations shrink ({rate})"
+        if bits < -FORGOTTEN:
+            return look("undecided", f"{shrinking} until the start is forgotten, but no period is met: {BLURRED}")
+        return look("transient", f"{shrinking}, but no period is met yet")
     if about_zero and neighbours.passed:
         evidence.append(incommensurate_evidence(section, max_period))
         if evidence[-1].passed:

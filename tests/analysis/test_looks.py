@@ -5,7 +5,7 @@ import pytest
 
 from analysis import motion_regime, tangent_lyapunov
 from analysis.exponents import Exponent
-from analysis.looks import CLOSE
+from analysis.looks import BLURRED, CLOSE
 from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth, normal
 
 M = np.arange(1001)
@@ -65,6 +65,12 @@ def test_a_decay_is_a_period_once_it_is_over(multiplier, word):
     section = np.array([21.0, 0.0]) + circle(M / (2 * np.pi)) * multiplier ** M[:, None]
     verdict = motion_regime(section, np.full(1000, np.log(multiplier)), scale=2.0, tolerance=1e-3)
     assert verdict.regime == word
+
+
+def test_a_state_that_moves_though_its_start_is_forgotten_is_no_transient():
+    section = 21.0 + np.random.default_rng(1).normal(scale=0.01, size=(1001, 2))
+    verdict = motion_regime(section, np.full(1000, np.log(0.8)), scale=2.0, tolerance=1e-3)
+    assert verdict.regime == "undecided" and BLURRED in verdict.reason
 
 
 @pytest.mark.parametrize("offset", [1e-5, 2e-5])
