@@ -170,7 +170,7 @@ def incommensurate_evidence(section: np.ndarray, max_period: int) -> Evidence:
     variance = np.var(section, axis=0)
     moving = variance > 0.0
     power = 0.5 * spectrum.amplitude[:, moving] ** 2 / variance[moving]
-    power[spectrum.frequency == 0.5] *= 2.0  # from side to side: there is nothing between
+    power[spectrum.frequency == 0.5] *= 2.0  # a line of amplitude a is +a or -a there: a^2, not a^2/2
     share = power.max(axis=1, initial=0.0)
     subharmonics = np.arange(1, max_period + 1)
     places = spectrum.frequency[:, None]

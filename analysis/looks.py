@@ -14,8 +14,8 @@ periods (`next_look`), each time without its first third, the transient:
                       forcing
     transient         at the end of the record: spread, mean or the steps towards a period still march, or perturbations
                       shrink and no period is met
-    undecided         otherwise; so where perturbations shrink by 52 bits and no period is met: of the start nothing is
-                      left then, and the errors of steps and grid move the state (`BLURRED`)
+    undecided         otherwise. Where perturbations shrink by 52 bits and no period is met, nothing is left of the
+                      start, and the errors of steps and grid move the state (`BLURRED`)
 
 The verdict on a record is that of its last look, which is at its end. A word counts when this look and the one before
 find it, because a motion on its way passes by others: near an unstable period-2 for 60 periods, or through a chaotic

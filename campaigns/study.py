@@ -282,7 +282,8 @@ class Study:
         plan = self.plan(order)
         write_scene(order.how.out, self.name, order.cases)
         further_steps = list(self.beside(order))
-        steps, began = 1 + len(further_steps), time.perf_counter()
+        steps = 1 + len(further_steps)
+        began = time.perf_counter()
         with stage(f"step 1 of {steps}"):
             summary = self.runs(order, plan, order.cases)
         for number, step in enumerate(further_steps, 2):

@@ -77,7 +77,10 @@ def _shares(rows: Rows, motions: Rows) -> str:
 
 
 def _way(shock: Row, across: Sequence[str], along: float) -> str:
-    """The direction of a smallest start in words: "along the waves, 23 degrees downwards"; along: x with the waves."""
+    """The direction of a smallest start in words: "along the waves, 23 degrees downwards".
+
+    along: cosine of the direction of the waves; if it is negative, they run along -x.
+    """
     first = number_of(shock, COLUMNS[across[0]])
     ahead = ("along the waves", "against the waves")[first * along < 0.0]
     if PHASE in across:

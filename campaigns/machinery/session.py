@@ -4,7 +4,7 @@
 the same campaign that computes nothing leaves it alone, and a report made from the folder does not change.
 
 Times are wall seconds of this session: compile_s (until the machine code is on disk for every worker), run_s (all
-runs), analysis_s (inside run_s, summed over workers), report_s.
+other work but the report), analysis_s (inside run_s, summed over workers), report_s.
 """
 
 import collections

@@ -144,11 +144,11 @@ def _notes(study: Study) -> list[str]:
 
 
 def _notes_on_noise(study: Study) -> Iterator[str]:
-    """What noise hides of a period, a torus or the answer."""
+    """What the noise of a record may hide, and the option that shows more."""
     share = study.seen.noise / np.ptp(study.record.values)
     noise, tolerance = f"the noise is {share:.1g} of the range", OF_NOISE * share
     if study.tolerance == noise_tolerance(study.record.values, study.seen):
-        yield f"{noise}: a torus thinner than {tolerance:.1g} of it looks like a period"
+        yield f"{noise}: a torus thinner than {tolerance:.1g} of the range looks like a period"
     elif study.verdict.regime == "undecided" and study.seen.kind != SAMPLES and MOST_TOLERANCE < tolerance < 0.4:
         yield f"{noise}: --tolerance {tolerance:.1g} asks whether the motion repeats, but a torus as thin looks so too"
 

@@ -166,6 +166,7 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
 
 
 def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
+    """The Verdict at one tolerance."""
     outliers = outlier_evidence(x)
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)

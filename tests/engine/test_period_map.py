@@ -111,10 +111,8 @@ def test_extremes_before_a_strobe_are_those_of_the_first_sample_after_it():
         samples_of=lambda scene: 1,
     )
     columns = PeriodMap.history(cable, [None, None], AT)
-    assert columns["tension_top_high_N"].tolist() == [2.0, 1.0] and columns["tension_top_low_N"].tolist() == [
-        -2.0,
-        -1.0,
-    ]
+    assert columns["tension_top_high_N"].tolist() == [2.0, 1.0]
+    assert columns["tension_top_low_N"].tolist() == [-2.0, -1.0]
 
 
 @pytest.mark.parametrize(
