@@ -1,5 +1,6 @@
 """Starts that the massless model proposes: one on each of its motions, found by many kicks in a moment."""
 
+import math
 from collections.abc import Sequence
 from functools import cache, partial
 
@@ -11,6 +12,7 @@ from analysis.orbits import NoImage, OrbitMap, find_orbit
 from campaigns.explore.starts import Start
 from campaigns.machinery import Plan, Store, Task, key_of, made_by, results
 from engine.physics.strains import tension_at
+from engine.physics.waves import wave_number
 
 SCREENED, PERIODS = 64, 80  # kicks of a value, and wave periods of each
 SCENES = 2  # that a worker is given at once
@@ -29,7 +31,7 @@ def kicks(count: int, speed_mps: float, seed: int, place: int) -> list[tuple]:
 
 
 def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[list]:
-    """For each scene the motions of its massless tether; none where that model does not cover a scene.
+    """For each scene the motions of its massless tether (`simplified`); none where that model does not cover a scene.
 
     A motion has velocity (m/s) and displacement from rest (m) of a start on it, its period in wave periods, its largest
     tension (N) and that at rest, the share of the kicks that end in it, and whether the start from rest does. All
@@ -41,7 +43,7 @@ def screened(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list[
     spread = speed_mps * (2.0 * qmc.Halton(2, seed=seed).random(SCREENED) - 1.0)
     kicked = np.vstack([spread, np.zeros(2)])
     tasks = []
-    for scene in scenes:
+    for scene in map(simplified, scenes):
         key = key_of(scene.key(), speed_mps, seed, engine.source_hash(), _maker())
         tasks.append(Task(key, partial(_motions, kicked, scene)))
     store = Store(plan.out / "proposals")
@@ -55,6 +57,41 @@ def proposals(plan: Plan, scenes: Sequence, speed_mps: float, seed: int) -> list
         begun = [motion for motion in motions if motion["kick"] and motion["share"]]
         starts.append([Start("massless", tuple(motion["kick"]), tuple(motion["moved"])) for motion in begun])
     return starts
+
+
+def has_proposals(scene) -> bool:
+    """Does the massless model cover a scene, once it is `simplified`?"""
+    return engine.massless_covers(simplified(scene))
+
+
+def simplified(scene):
+    """The scene without the laws that the massless model lacks, because a start need only be near a motion.
+
+    The floor, the damping of the line, its dry part and the push of the water along it go. A raised or shifted anchor
+    goes to the origin, with the depth and the phase of the waves that it had. A current that changes with the height
+    has everywhere the velocity that it has one length of the line above the bed; about a wetted cap there is none.
+    """
+    from engine.scene.sections import UniformCurrent
+
+    waves, current, anchor = scene.waves, scene.current, scene.anchor.position_m
+    if waves is None:
+        return scene
+    plain = {"damping_Ns": None, "damping_critical": None, "froude_krylov": "normal", "submergence": "full"}
+    scene = scene.model_copy(update={"floor": None}).with_values("tether", **plain)
+    if any(anchor):
+        depth_m = scene.water.depth_m
+        k = wave_number(waves.period_s, depth_m, scene.gravity_mps2)
+        along_m = anchor[0] * math.cos(waves.direction_rad) + anchor[1] * math.sin(waves.direction_rad)
+        scene = scene.with_values("waves", phase_rad=waves.phase_rad + k * along_m)
+        scene = scene.with_values("water", depth_m=depth_m - anchor[2])
+        scene = scene.with_values("anchor", position_m=(0.0, 0.0, 0.0))
+    if scene.buoy is not None and scene.buoy.submergence != "full":
+        return scene.model_copy(update={"current": None})
+    if current is not None and current.law == "profile":
+        velocities = zip(*current.velocity_mps, strict=True)
+        velocity = [np.interp(scene.tether.length_m, current.height_m, component) for component in velocities]
+        scene = scene.model_copy(update={"current": UniformCurrent(law="uniform", velocity_mps=velocity)})
+    return scene
 
 
 @cache

@@ -19,7 +19,7 @@ from string import ascii_uppercase
 import engine
 from analysis import distance, grouped, matched
 from campaigns.explore.motions import FROM_REST, KICKED, Motion, Motions, Search, settled_in
-from campaigns.explore.proposals import kicks, proposals
+from campaigns.explore.proposals import has_proposals, kicks, proposals
 from campaigns.explore.starts import DISPLACED, Request, Start, reached, start_job
 from campaigns.judge import judged_job
 from campaigns.machinery import Job, Jobs, in_parts
@@ -54,7 +54,7 @@ def run_from_rest(motions: Motions, jobs: Jobs) -> range:
     """Add the places of these runs from rest, with the motions to which they lead; returns their numbers."""
     places, scene = motions.add(jobs), jobs[0].scene
     ahead = []
-    if motions.plan.simulate is engine.simulate and engine.massless_covers(scene):
+    if motions.plan.simulate is engine.simulate and has_proposals(scene):
         ahead.append(start_job(Request({}, scene, DISPLACED)))  # what its starts need is compiled at once
     motions.judged_runs("runs from rest", jobs, ahead)
     let_chaos_last(motions)

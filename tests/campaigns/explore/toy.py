@@ -99,7 +99,7 @@ class ToyMotions(Motions):
 
 def explored(monkeypatch, motions: ToyMotions, jobs: list[Job], kicks: int) -> ToyMotions:
     """The motions of these places, found, named, and not judged again."""
-    monkeypatch.setattr(engine, "massless_covers", lambda scene: False)
+    monkeypatch.setattr(stages, "has_proposals", lambda scene: False)
     monkeypatch.setattr(stages, "outlasting", lambda *arguments: [])
     monkeypatch.setattr(stages, "reached", lambda run, orbits: run.settled)
     monkeypatch.setattr(stages, "proposals", lambda plan, scenes, *arguments: [[] for _ in scenes])
