@@ -71,6 +71,11 @@ def next_look(periods: int = 0) -> int:
     return max(FIRST_LOOK, 5 * math.ceil((0.3 if periods < LONG else 0.25) * periods))
 
 
+def longer_decides(regime: str, reason: str) -> bool:
+    """Whether a longer run may find another word: the regime is open, and steps do not blur the motion."""
+    return regime in OPEN and BLURRED not in reason
+
+
 def motion_regime(
     strobed: ArrayLike,
     growth_nats: ArrayLike | None = None,

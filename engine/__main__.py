@@ -188,7 +188,7 @@ def _until_verdict(scene, start):
         look = min(views.look_after(periods), MOST_PERIODS)
         later = engine.simulate(scene, look - periods, start=run or start)
         run, periods = later if run is None else run.followed_by(later), look
-        if run.status != "ok" or run.verdict().regime not in ("transient", "undecided"):
+        if run.status != "ok" or not views.longer_decides(run):
             break
     return run
 

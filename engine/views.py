@@ -245,6 +245,14 @@ def look_after(periods: int) -> int:
     return next_look(periods)
 
 
+def longer_decides(run: "Trajectory") -> bool:
+    """Whether a longer run may find another verdict (`analysis.looks.longer_decides`)."""
+    from analysis.looks import longer_decides
+
+    result = verdict(run)
+    return longer_decides(result.regime, result.reason)
+
+
 def facts(run: "Trajectory") -> dict[str, str]:
     """What a run did, in words: the name of a fact -> its text; extremes of all of it, and after its beginning."""
     time_s, waves = run.columns["time_s"], run.scene.waves

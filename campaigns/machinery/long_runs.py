@@ -19,7 +19,7 @@ from typing import NamedTuple
 import engine.scene
 from engine.scene.finer import finer
 from engine.views import carried, carries_tangents
-from tables import OPEN, UNSETTLED
+from tables import UNSETTLED
 
 LEAST_CHECK, SURE = 90, 2.5  # wave periods at the tighter tolerance; errors by which chaos is then expected to show
 TANGENTS = "output.tangent_vectors"
@@ -107,11 +107,13 @@ def until_judged(
     `budget` periods. After 60 only an orbit can decide on which the run lies (`campaigns.explore.multipliers`). If a
     later look finds no period, and no period that the motion approaches, the run carries perturbations from then on. A
     run that looks chaotic goes on at a tenth of the tolerance until chaos shows there too, but not for longer than the
-    run was judged; the first part of this check is as long as chaos needs to show by SURE errors.
+    run was judged; the first part of this check is as long as chaos needs to show by SURE errors. A run ends early too
+    if the errors of its steps blur the motion (`analysis.looks.BLURRED`), because a longer run would show the same.
     start: the state of another run in which this run begins; None: the start of the scene. most: wave periods after
     which the run has no further look, though `budget` allows it. least: wave periods that chaos has to last, because
     transients of this length are known (`campaigns.explore.stages`).
     """
+    from analysis.looks import longer_decides
     from analysis.looks import looks as looks_until
 
     ends = []
@@ -132,7 +134,7 @@ def until_judged(
     check = _check(scene, trajectory, row, checks.get(round(periods)))
     if check is not None:
         return check
-    if row["regime"] not in OPEN or not may_go_on:
+    if not longer_decides(row["regime"], str(row.get("regime_reason"))) or not may_go_on:
         return None
     wanted = _unclear(row) or (trajectory is not None and carried(trajectory))
     if wanted and carries_tangents(scene):

@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from analysis.looks import BLURRED
 from campaigns.explore.stages import TIMES, let_chaos_last, outlasting
 from campaigns.machinery.cli import Running
 from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
@@ -44,7 +45,8 @@ def test_a_run_begins_with_its_first_look_or_its_whole_length(looks, periods):
 
 @pytest.mark.parametrize(
     "row", [{"regime": "period-2"}, {"status": "newton-failed"}, {"regime": None}, {"regime_tighter": "chaotic"},
-            {"regime": "undecided", "periods": 1440.0}],
+            {"regime": "undecided", "periods": 1440.0},
+            {"regime": "undecided", "regime_reason": f"no period: {BLURRED}"}],
 )  # fmt: skip
 def test_what_is_told_or_has_failed_or_used_its_budget_ends(row):
     assert next_part(**row) is None

@@ -1,4 +1,4 @@
-"""Starts that the massless model proposes: of a scene with laws that this model lacks, those of the scene without them."""
+"""A scene with laws that the massless model lacks has the proposals of the scene without these laws."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,9 @@ WAVE_NUMBER = wave_number(5.0, DEPTH_M)
         pytest.param({"tether.damping_critical": 0.05}, id="damping"),
         pytest.param({"tether.submergence": "free-surface", "tether.froude_krylov": "whole"}, id="line"),
         pytest.param({"anchor.position_m": [0.0, 0.0, 2.0], "water.depth_m": DEPTH_M + 2.0}, id="raised anchor"),
-        pytest.param({"anchor.position_m": [1000.0, 0.0, 0.0], "waves.phase_rad": -1000.0 * WAVE_NUMBER}, id="shifted anchor"),
+        pytest.param(
+            {"anchor.position_m": [1000.0, 0.0, 0.0], "waves.phase_rad": -1000.0 * WAVE_NUMBER}, id="shifted anchor"
+        ),
         pytest.param(
             {"current": {"law": "profile", "height_m": [0, 20, 30], "velocity_mps": [[1, 0, 0], [0, 0, 0], [1, 0, 0]]}},
             id="sheared current",
