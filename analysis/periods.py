@@ -12,7 +12,9 @@ return of its rotation number) has small steps that add up. So the steps are als
 which estimates the Floquet multiplier of the slowest decay: 0.9 creeps, -1/2 is noise about a fixed point (differences
 of independent errors), 1 drifts without end. With the last step a and the multiplier m a geometric decay travels
 a + a m + ... = a/(1 - m), and that, too, must fit in the tolerance. From few rounds m is rough: from 4 to 8 of them,
-noise within the tolerance is taken for a drift about once in a hundred records, and the answer is None.
+noise within the tolerance is taken for a drift about once in a hundred records, and the answer is None. Where fast
+modes still ring, m is theirs, and a slow drift hides below them. So the last round of the record has to lie within
+three tolerances of the mean orbit of the last part.
 
 Noise just above the tolerance misses it at N and, by luck, meets it at 2 N or 13 N; and a slow mode of six forcing
 periods, still dying out, repeats itself every six. So N counts only if every proper divisor misses clearly more than
@@ -72,7 +74,8 @@ def detect_period(
 
     N qualifies when, over the last part of the record (its last half, at least 3 N points),
         |x_{k+N} - x_k| <= tolerance * scale in every coordinate,
-    the drift yet to come stays within the same bound, and no divisor of N does nearly as well (head of this file).
+    the drift yet to come stays within the same bound, the record ends on the mean orbit, and no divisor of N does
+    nearly as well (head of this file).
     Only N with 4 N points or more are tested, and none with fewer than 16 points in all.
 
     strobed (m,) or (m, d)   states once per forcing period, transient left out as far as known; an angle that turns
@@ -100,7 +103,11 @@ def detect_period(
     for candidate in range(1, testable + 1):
         measures[:, candidate - 1] = _measure(x / scale, candidate, rounding / scale)
     residual, projected, _, trend = measures
-    repeats = [n for n in range(1, testable + 1) if max(residual[n - 1], projected[n - 1]) <= tolerance]
+    repeats = []
+    for n in range(1, testable + 1):
+        small = max(residual[n - 1], projected[n - 1]) <= tolerance
+        if small and _end_off_orbit(x / scale, n) <= CLEARLY_MORE * tolerance:
+            repeats.append(n)
     rivals = {n: _rivals(n, x / scale, residual, tolerance) for n in repeats}
     period = next((n for n in repeats if not rivals[n]), None)
     reason = _reason(period, rivals, points, testable, max_period, tolerance, residual, trend)
@@ -170,6 +177,12 @@ def _orbit(x, n):
     tail = x[-_tail(len(x), n) :]
     tail = tail[len(tail) % n :]
     return tail.reshape(-1, n, x.shape[1]).mean(axis=0)
+
+
+def _end_off_orbit(x, n):
+    """Largest distance of the last round and the point before it from the mean orbit of the last part; x: scaled."""
+    orbit = _orbit(x, n)
+    return np.max(np.abs(x[-n - 1 :] - np.vstack([orbit[-1:], orbit])))
 
 
 def _reason(period, rivals, points, testable, max_period, tolerance, residual, trend):

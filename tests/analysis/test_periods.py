@@ -76,6 +76,15 @@ def test_steps_within_the_tolerance_that_add_up_to_more_are_no_period(motion, pr
     assert estimate.period is None and "drift" in estimate.reason
 
 
+@pytest.mark.parametrize(("drift", "period"), [(1.0, None), (0.01, 1)])
+def test_a_slow_drift_below_fast_noise_is_no_period(drift, period):
+    """A step of the drift is a third of the tolerance; the noise makes the multiplier -1/2, as about a fixed point."""
+    rng, k = np.random.default_rng(1), np.arange(400)
+    motion = 300.0 * TOLERANCE * drift * 0.999**k + rng.uniform(-0.3, 0.3, 400) * TOLERANCE
+    estimate = detect_period(motion, scale=1.0, tolerance=TOLERANCE)
+    assert max(estimate.residual[0], estimate.projected[0]) < TOLERANCE and estimate.period == period
+
+
 @pytest.mark.parametrize("multiplier", [0.8, 0.95, 0.99, -0.8, -0.95])
 @pytest.mark.parametrize("period", [1, 2, 3, 5])
 def test_the_multiplier_and_the_trend_are_those_of_the_decay(multiplier, period):
