@@ -60,6 +60,7 @@ NO_GROWTH, CLOSE = "no growth", "close"  # the tests of a period
 SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a record to its end
 FORGOTTEN = 52.0  # bits: the precision of a number
 BLURRED = "errors of steps and grid blur it"
+OF_STEPS = "chaotic at this tolerance only"
 CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
@@ -125,6 +126,8 @@ def motion_regime(
             evidence.append(check)
             if not check.passed:
                 word, reason = "undecided", f"chaotic at this tolerance, but {check.sentence}"
+                if check.value < -check.threshold:
+                    reason = f"{OF_STEPS}: {check.sentence}"
     reason += f", over periods {last.start} to {last.end}"
     start = last.start
     if not word.startswith("period"):
@@ -313,6 +316,8 @@ def _tighter(exponent):
         return Evidence("tighter tolerance", np.nan, 0.0, False, sentence)
     passed = exponent.value > LATER * exponent.error
     grows = "grow too" if passed else "do not grow for certain"
+    if exponent.value < -LATER * exponent.error:
+        grows = "shrink"
     sentence = (
         f"at a tighter tolerance perturbations {grows}: {exponent.value:.3f} ± {exponent.error:.3f} bits per period"
     )

@@ -20,7 +20,7 @@ from itertools import groupby, pairwise
 from operator import itemgetter
 from statistics import median
 
-from analysis.looks import BLURRED
+from analysis.looks import BLURRED, OF_STEPS
 from campaigns.answers import NOTHING_LASTS, greatest, kilonewton, known_rows, lasting, lines, numbers_of
 from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
@@ -57,7 +57,10 @@ OPEN_REASONS = {
     UNDECIDED: f"the tests of the regime disagree ({LONGER})",
     TRANSIENT: f"the motion still changes when the run ends ({LONGER})",
 }
-OF_STEPS = f"the start is forgotten, but no period is met: {BLURRED} (a tenth of solver.rtol or more nodes decide)"
+OF_TOLERANCE = {  # words of the reason of a regime -> what is said of its row
+    BLURRED: f"the start is forgotten, but no period is met: {BLURRED} (a tenth of solver.rtol or more nodes decide)",
+    OF_STEPS: "chaos is gone at a tenth of the tolerance (a tenth of solver.rtol decides, or a longer run (--budget))",
+}
 BESIDE_A_PERIOD = f"chaos stands beside a period and may be a long transient ({LONGER})"
 ON_A_FINER_GRID = {  # words of a message -> what is said of its row
     OTHER_MOTION: "smaller elements and steps give another motion (more tether.nodes decide)",
@@ -384,8 +387,9 @@ def undecided(rows: Rows, key: str, symbol: str, scene) -> str:
         parts.append(_unjudged(good, scene))
     doubts = {}
     for word, reason in OPEN_REASONS.items():
-        doubts[reason] = [row for row in good if row.get("regime") == word and not _is_blurred(row)]
-    doubts[OF_STEPS] = [row for row in good if _is_blurred(row)]
+        doubts[reason] = [row for row in good if row.get("regime") == word and not _tolerance_decides(row)]
+    for words, reason in OF_TOLERANCE.items():
+        doubts[reason] = [row for row in good if words in str(row.get("regime_reason"))]
     doubts[BESIDE_A_PERIOD] = _chaos_beside_period(good)
     for words, reason in ON_A_FINER_GRID.items():
         doubts[reason] = [row for row in good if words in str(row.get("message"))]
@@ -395,8 +399,8 @@ def undecided(rows: Rows, key: str, symbol: str, scene) -> str:
     return f"{'; '.join(filter(None, parts)) or 'nothing: every run has a verdict'}."
 
 
-def _is_blurred(row: Row) -> bool:
-    return BLURRED in str(row.get("regime_reason"))
+def _tolerance_decides(row: Row) -> bool:
+    return any(words in str(row.get("regime_reason")) for words in OF_TOLERANCE)
 
 
 def _chaos_beside_period(rows: Rows) -> list[Row]:

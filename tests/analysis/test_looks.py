@@ -5,7 +5,7 @@ import pytest
 
 from analysis import motion_regime, tangent_lyapunov
 from analysis.exponents import Exponent
-from analysis.looks import BLURRED, CLOSE
+from analysis.looks import BLURRED, CLOSE, OF_STEPS
 from tests.analysis.systems import circle, circle_map, henon, henon_growth, logistic, logistic_growth, normal
 
 M = np.arange(1001)
@@ -99,6 +99,13 @@ def test_chaos_has_to_survive_a_tighter_tolerance_after_the_look_that_finds_it()
     assert motion_regime(orbit, growth, scale=1.0, tighter={}).points == 465 - 465 // 3 + 1  # to be gone on from
     refused = {135: going_on(0.01), 205: going_on(0.01), 310: going_on(0.01)}
     assert motion_regime(orbit, growth, scale=1.0, tighter={**refused, 465: going_on(0.6)}).regime == "chaotic"
+
+
+@pytest.mark.parametrize(("value", "of_steps"), [(-0.05, True), (-0.03, False), (0.03, False)])
+def test_chaos_that_shrinks_at_a_tighter_tolerance_is_one_of_steps(value, of_steps):
+    orbit = henon(466)
+    verdict = motion_regime(orbit, henon_growth(orbit), scale=1.0, tighter={465: going_on(value)})
+    assert verdict.regime == "undecided" and (OF_STEPS in verdict.reason) == of_steps
 
 
 def test_a_shrinking_flip_is_no_period_2():

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from analysis.looks import BLURRED
+from analysis.looks import BLURRED, OF_STEPS
 from campaigns.explore.answer import sentences
 from campaigns.explore.load import load, use_of
 from engine import load_scene
@@ -69,6 +69,12 @@ def test_loops_speak_against_a_tension_in_a_plane_alone(dimensions, doubted):
 def test_a_motion_that_becomes_another_one_is_not_for_design():
     words_of_use = use_of(PULLS | {"message": f"with more nodes it {OTHER_MOTION}"}, load_scene("tethered_buoy"), True)
     assert words_of_use == f"Not for design: with smaller elements and steps it {OTHER_MOTION}."
+
+
+def test_chaos_of_one_tolerance_waits_for_a_tighter_one():
+    chaos = PULLS | {"regime": "undecided", "regime_reason": f"{OF_STEPS}: perturbations shrink"}
+    *_, line = sentences([chaos], "steepness", "kA", load_scene("tethered_buoy"))
+    assert line.startswith("OPEN") and "solver.rtol" in line and "tests of the regime" not in line
 
 
 def test_what_steps_blur_waits_for_a_tighter_tolerance_and_not_for_a_longer_run():
