@@ -157,6 +157,12 @@ def test_a_buoy_that_does_not_carry_its_line_is_told(density_kgpm3, warned):
     assert (run.columns["tension_top_N"][0] < 0.0) == warned == ("does not carry the line" in run.message)
 
 
+def test_a_line_that_floats_and_presses_its_buoy_falls_nowhere():
+    rope = {"tether.density_kgpm3": 910.0, "tether.length_m": 22.0, "buoy.submergence": "spherical-cap", "waves": None}
+    run = ran(line(rope, nodes=11), duration_s=1.0)
+    assert run.columns["tension_top_N"][0] < 0.0 and "does not carry" not in run.message
+
+
 LOWERED = by_table([0.0, 3.0], [[0.0, 0.0, 0.0], [-4.0, 0.0, -5.0]])
 
 
