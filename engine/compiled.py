@@ -95,7 +95,7 @@ class _ChoiceType(types.Callable, types.Dummy):
 
     def _chosen(self, p):
         in_lanes = isinstance(p, LaneRecord)
-        kind = Kind(plain=p.plain) if in_lanes else _KINDS[p]
+        kind = Kind(plain=p.plain, extras=p.extras) if in_lanes else _KINDS[p]
         return self.kernels[self.place(kind, in_lanes)]
 
     def place(self, kind, in_lanes=False):

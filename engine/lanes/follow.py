@@ -19,6 +19,7 @@ from ..perturbations.tangent import Base, Water, linearise, orthonormalise, peri
 from ..physics import sea_series
 from ..physics.water import water as flow
 from ..planar import columns as planar_col
+from ..planar.extras import node_width
 from ..simd.elementary import keep
 from ..simd.select import some, where
 from ..simd.vector import COUNT, as_lanes, expect, lane_record, lane_zeros, transposed
@@ -168,9 +169,10 @@ def follow(records, tables, trail, trails, periods, nats, lateral_nats, sideways
         end_turn(trail.T, step, stage, numbers, periods, count, sideways, nats, lateral_nats)
 
 
-def lane_work(n, width):
-    """Work arrays of a Newton solve in all lanes; width: of E."""
-    arrays = (lane_zeros(n, columns) for columns in (2, 4, planar_col.NODE_WIDTH, width, 6, 4))
+def lane_work(record, width):
+    """Work arrays of a Newton solve in all lanes, for runs of this record; width: of E."""
+    n = int(record["nodes"])
+    arrays = (lane_zeros(n, columns) for columns in (2, 4, node_width(record), width, 6, 4))
     return Work(*arrays, lane_zeros(n + 1, sea_series.WIDTH))
 
 
@@ -192,7 +194,7 @@ class Followers:
         work = lane_zeros(n, COEFFICIENTS), lane_zeros(n, LATERAL_WIDTH)
         self.across = Across(weights, C, K, lane_zeros(s, n, 2), C_new, C_tilde, K_new, *work)
         water = Water(*(lane_zeros(n, width) for width in (8, 4)))
-        self.room = lane_work(n, planar_col.WITH_INVERSE), water
+        self.room = lane_work(run.record, planar_col.WITH_INVERSE), water
 
     def load(self, b, run):
         """Put the perturbations of a run into a lane."""

@@ -19,6 +19,7 @@ from .. import record as col
 from ..arrays import Stage
 from ..compiled import kernel
 from ..dimensions import shape
+from ..physics.bed import with_landings
 from ..physics.sea_series import forget
 from ..physics.tension.kernels import tension
 from ..planar.columns import EPS, VX, VZ
@@ -309,7 +310,8 @@ def advance(ticks, records, own_tables, states, lanes, spent, samples, trail, co
         rows[TOP_LOW] = where(rows[SOLVED] != 0.0, low, rows[TOP_LOW])
         rows[TOP_HIGH] = where(rows[SOLVED] != 0.0, high, rows[TOP_HIGH])
         if some(rows[FINISHED] != 0.0):
-            rows[ERROR] = steps.embedded_error(p, tables, rows[STEP], Ks, vectors.Q, a, vectors.D[0])
+            error = steps.embedded_error(p, tables, rows[STEP], Ks, vectors.Q, a, vectors.D[0])
+            rows[ERROR] = with_landings(p, tables, rows[STEP], Y, Ks, vectors.X, error)
             step_ends = (C, Ks[0]), (C_new, K_new)
             rows[STRAIN_JUMP], rows[SPEED_JUMP] = jumps_of_rates(p, rows[STEP], *step_ends)
             rows[LEAST], rows[TOP], rows[TURN] = steps.least_strain(Y), top, largest_turn(p, Y)[0]

@@ -15,7 +15,7 @@ from ..parameters.cover import has_rare_laws
 from ..physics.strains import strain_at, tension_at
 from ..physics.tension import LAWS, NAMES
 from ..scene.models import Scene
-from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
+from ..simd.vector import COUNT, REAL, WHOLE, fields_of, lane_zeros
 
 # in a wave period, or in one of the radial motion where that is shorter
 STEPS_PER_PERIOD = {"full": 40, "spherical-cap": 80}
@@ -128,10 +128,10 @@ def _march(scene, record, tables, starts, periods, settings):
     shapes = (len(REAL),), (blocks, 4), (blocks, periods + 1, 4), (blocks, periods, 3), (1, 2), (1, 4)
     arrays = tuple(lane_zeros(*shape) for shape in shapes)
     values, side_by_side, strobed, measures = arrays[:4]
-    values[:] = np.array([record[name] for name in REAL])[:, None]
+    values[:] = np.array(fields_of(record, REAL))[:, None]
     side_by_side[:] = np.resize(starts, (blocks, COUNT, 4)).transpose(0, 2, 1)
     strobed[:] = measures[:] = np.nan
-    counts = np.array([record[name] for name in WHOLE])
+    counts = np.array(fields_of(record, WHOLE))
     march_lanes(np.zeros(1, record.dtype), counts, arrays, tables, *settings)
     lanes = strobed, measures
     return tuple(np.moveaxis(array, -1, 1).reshape(-1, *array.shape[1:-1])[:k] for array in lanes)

@@ -7,8 +7,8 @@ from ..scene.models import Scene
 def goes_in_lanes(scene: Scene) -> bool:
     """May this scene share a batch: planar, by a Runge-Kutta method, a buoy at the end, nothing looked up in a table?
 
-    Held and free ends, tabulated laws, currents with a profile and profiles of the line are left out because no sweep
-    needs them. Each would want its branches written as choices (`engine.simd.select`).
+    Held and free ends, tabulated laws, currents with a profile, damping and profiles of the line are left out because
+    few sweeps need them. Each would want its branches written as choices (`engine.simd.select`).
     """
     return (
         scene.solver.scheme != "paper-box"
@@ -18,17 +18,21 @@ def goes_in_lanes(scene: Scene) -> bool:
         and _without_tables(scene)
         and scene.output.profiles is False
         and not scene.output.energy
-        and not has_rare_laws(scene)
+        and not _is_damped(scene)
     )
 
 
 def has_rare_laws(scene: Scene) -> bool:
-    """Has the line a law that few scenes have (`engine.physics.extras`)? Such runs go alone: no lanes have it."""
+    """Has the line a law that few scenes have (`engine.physics.extras`)?"""
     tether = scene.tether
-    damped = tether.damping_Ns or tether.damping_critical
     raised = any(scene.anchor.position_m)
     whole_push = tether.froude_krylov == "whole"
-    return bool(damped or raised or whole_push or tether.submergence != "full" or scene.floor is not None)
+    in_part = tether.submergence != "full"
+    return bool(_is_damped(scene) or raised or whole_push or in_part or scene.floor is not None)
+
+
+def _is_damped(scene):
+    return bool(scene.tether.damping_Ns or scene.tether.damping_critical)
 
 
 def is_plain(scene: Scene) -> bool:

@@ -37,7 +37,7 @@ from ..physics.water import water as flow
 from ..physics.water import water_and_slopes
 from ..planar import columns as col
 from ..planar.elimination import inertia_of_box
-from ..planar.extras import beside_drag, known_end, known_force, node_width, push_by_place
+from ..planar.extras import beside_drag, known_end, known_force, known_places, node_width, push_by_place
 from ..record import BUOY
 from ..simd.select import where
 from ..spatial.vectors import affine, dot, put, quaternion, rows_of, times, vector
@@ -71,6 +71,7 @@ def linearise(p, tables, base, work, water):
         for m in range(2):
             C_tilde[k, m] = Q[k, col.QX + m] - over * K[k, m]
             C_tilde[k, col.VX + m] = Y[k, col.VX + m] - over * K[k, col.VX + m]
+    known_places(p, tables, over, Y, work)
     stage = Stage(base.t, 1.0, rate, rate)
     node_quantities(p, tables, stage, Y, work)
     _add_water(p, tables, base, work, water)

@@ -13,6 +13,7 @@ Vectors have three components; a plane has y = 0. Numbers: of an EXTRA record (`
 import math
 
 from ..compiled import by_kind, kernel, of_extras
+from ..simd.select import larger, smaller, some, where
 from ..spatial.vectors import affine, dot, minus, mixed, multiple
 
 ZERO = (0.0, 0.0, 0.0)
@@ -23,8 +24,8 @@ ROUNDING = 1e-14  # m, of places
 @kernel
 def _spring(p, depth):
     """y (m), y' and the integral of y (m2) at a depth (m)."""
-    onset, gate = p.bed_onset, min(max(depth, 0.0) / p.bed_onset, 1.0)
-    beyond = max(depth - onset, 0.0)
+    onset, gate = p.bed_onset, smaller(larger(depth, 0.0) / p.bed_onset, 1.0)
+    beyond = larger(depth - onset, 0.0)
     soft = 0.5 * onset * gate * gate
     return soft + beyond, gate, onset * soft * gate / 3.0 + beyond * (0.5 * onset + 0.5 * beyond)
 
@@ -37,9 +38,13 @@ def bed_load(p, in_motion, z, V):
     y, gate, _ = _spring(p, depth)
     sinking = -in_motion * V[2]
     N = p.bed_stiffness * y + p.bed_damping * gate * sinking
-    if depth <= 0.0 or N <= 0.0:
-        return ZERO, (ZERO, ZERO, ZERO), ZERO
-    by_depth = p.bed_stiffness * gate + (p.bed_damping * sinking / p.bed_onset if depth < p.bed_onset else 0.0)
+    bears = (depth > 0.0) & (N > 0.0)
+    N, gate = where(bears, N, 0.0), where(bears, gate, 0.0)
+    if not some(bears):
+        nothing = N, N, N
+        return nothing, (nothing, nothing, nothing), nothing
+    softens = where(bears & (depth < p.bed_onset), p.bed_damping * sinking / p.bed_onset, 0.0)
+    by_depth = p.bed_stiffness * gate + softens
     by_sinking = in_motion * p.bed_damping * gate
     u = (in_motion * V[0], in_motion * V[1], 0.0)
     inverse = 1.0 / math.sqrt(u[0] * u[0] + u[1] * u[1] + p.bed_speed * p.bed_speed)
@@ -97,15 +102,16 @@ def _on_the_bed(p, tables, stage, Y, work, factor, size):
         V, dV = _velocity(axes, Y[k]), _velocity(axes, work.D[k])
         V_before = mixed(1.0, V, -factor, dV)
         low, high = height + over * V_before[2], height + over * V[2]
-        if min(low, high) <= -p.bed_onset and max(low, high) >= 0.0:
-            Y[k, 2 * axes - 1] = -(height + WITHIN * p.bed_onset) * stage.cq
-            size = max(size, 1.0)
+        lands = (smaller(low, high) <= -p.bed_onset) & (larger(low, high) >= 0.0)
+        Y[k, 2 * axes - 1] = where(lands, -(height + WITHIN * p.bed_onset) * stage.cq, Y[k, 2 * axes - 1])
+        size = larger(size, where(lands, 1.0, 0.0))
         load, rows, by_z = bed_load(p, stage.in_motion, low, V_before)
         foreseen = mixed(1.0, affine(rows, multiple(factor, dV), load), high - low, by_z)
         missed = minus(bed_load(p, stage.in_motion, high, V)[0], foreseen)
-        largest = max(largest, dot(missed, missed))
+        largest = larger(largest, dot(missed, missed))
     known = p.bed_stiffness * ROUNDING
-    return max(size, (largest / (weight * weight)) ** 0.25) if largest > known * known else size
+    missed_weights = math.sqrt(largest) / weight
+    return where(largest > known * known, larger(size, math.sqrt(missed_weights)), size)
 
 
 @kernel
@@ -117,21 +123,23 @@ on_the_bed = by_kind(_last_of, _last_of, extra=_on_the_bed)
 
 
 @kernel
-def _of_landing(p, tables, dt, Ys, Ks, X, error):
+def _of_landing(p, tables, dt, Y, Ks, X, error):
     """The greater of the error of a Runge-Kutta step and, where it is too long for the bed's own motion, the speed that
     the bed takes from a node in one stage, over the tolerance.
 
     Later stages use that stage's force with weights of their own, and so a node may leave faster than it came; the
-    embedded estimate, in which the weights of the stage nearly cancel, does not see it. Ys, Ks: as in Trial; X: places.
+    embedded estimate, in which the weights of the stage nearly cancel, does not see it. Y: the last stage; Ks: as in
+    Trial; X: places.
     """
     s, at = Ks.shape[0], Ks.shape[2] - 1
-    rate = math.sqrt(p.bed_stiffness / p.m) + p.bed_damping / p.m
-    if p.floored and dt * rate > 1.0:
-        share = tables[p.method_at + s * s - 1] * dt * p.per_speed / p.rtol
+    too_long = dt * (math.sqrt(p.bed_stiffness / p.m) + p.bed_damping / p.m) > 1.0
+    if p.floored and some(too_long):
+        share = where(too_long, tables[p.method_at + s * s - 1] * dt * p.per_speed / p.rtol, 0.0)
         for k in range(1, Ks.shape[1]):
-            if X[k, X.shape[1] - 1] < dt * abs(Ys[s - 1, k, at]):
+            share_there = where(X[k, X.shape[1] - 1] < dt * abs(Y[k, at]), share, 0.0)
+            if some(share_there > 0.0):
                 for i in range(1, s):
-                    error = max(error, share * abs(Ks[i, k, at] - Ks[i - 1, k, at]))
+                    error = larger(error, share_there * abs(Ks[i, k, at] - Ks[i - 1, k, at]))
     return error
 
 

@@ -19,6 +19,7 @@ Vectors have three components; a plane has y = 0.
 """
 
 from ..compiled import kernel
+from ..simd.select import larger, smaller, where
 from ..spatial.vectors import dot, mixed, plus_diagonal, sum_of
 from .submergence import surface
 
@@ -41,8 +42,8 @@ def wetting(p, t, in_motion, heading, x, V):
     `heading`, the direction of the waves."""
     eta, slope, curve, rate, rate_slope = surface(p, t, in_motion, dot(heading, x))
     inverse = 1.0 / p.diameter
-    y = min(max((p.depth + eta - x[2]) * inverse + 0.5, 0.0), 1.0)
-    bend = 6.0 * inverse * inverse * (1.0 - 2.0 * y) if 0.0 < y < 1.0 else 0.0
+    y = smaller(larger((p.depth + eta - x[2]) * inverse + 0.5, 0.0), 1.0)
+    bend = where((y > 0.0) & (y < 1.0), 6.0 * inverse * inverse * (1.0 - 2.0 * y), 0.0)
     n = (-heading[0] * slope, -heading[1] * slope, 1.0)
     faster = in_motion * (rate_slope + curve * dot(heading, V))
     share = y * y * (3.0 - 2.0 * y)

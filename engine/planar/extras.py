@@ -5,12 +5,20 @@ from ..physics.bed import bed_load
 from ..physics.ends import released
 from ..physics.extras import ZERO, surface_load, surface_turn, wetting
 from ..record import HELD
-from ..spatial.vectors import mixed, pair, plus, quaternion, sum_of, third_column
+from ..simd.select import some, where
+from ..spatial.vectors import mixed, pair, plus, put_quaternion, quaternion, scaled_rows, sum_of, third_column
 from . import columns as col
 
 # Columns of H of lateral perturbations: coefficients of a node: sine and cosine of half the turn of the box below it,
 # then derivatives by tau and rho of q_y, N_y (without -dS_b) and G_y, dG_y/dV_y, and (1 + eps)^3
 SIN_HALF, COS_HALF, Q_TAU, Q_RHO, N_TAU, N_RHO, G_TAU, G_RHO, G_V, CUBE = range(10)
+
+
+@kernel
+def in_plane(rows):
+    """xx, xz, zx, zz of a matrix of three rows."""
+    x, _, z = rows
+    return x[0], x[2], z[0], z[2]
 
 
 @of_extras()
@@ -21,7 +29,7 @@ def more_loads(p, tables, stage, Y, work):
     for k in range(Y.shape[0]):
         row, F, C_tilde = work.Q[k], work.F[k], work.C_tilde[k]
         c, s = pair(row, col.COS)
-        if p.damping > 0.0:
+        if some(p.damping > 0.0):
             damping = in_motion * p.damping
             rate = c * row[col.QX_T] + s * row[col.QZ_T]
             row[col.NX] += damping * rate * c
@@ -60,11 +68,29 @@ def more_loads(p, tables, stage, Y, work):
             place = sum_of(place, third_column(by_z))
         row[col.GX] += load[0]
         row[col.GZ] += load[2]
-        for i in range(2):
-            for j in range(2):
-                at = 2 * i + j
-                row[col.OWN + at], row[col.BY_PLACE + at] = by_velocity[2 * i][2 * j], over * place[2 * i][2 * j]
-                row[col.GXX + at] += row[col.OWN + at] + row[col.BY_PLACE + at]
+        put_quaternion(row, col.OWN, in_plane(by_velocity))
+        put_quaternion(row, col.BY_PLACE, in_plane(scaled_rows(over, place)))
+        for at in range(4):
+            row[col.GXX + at] += row[col.OWN + at] + row[col.BY_PLACE + at]
+
+
+@of_extras()
+def known_places(p, tables, over, Y, work):
+    """Into C~ of a stage such q~ that X~ + V/c is the place of every node; over: 1/c.
+
+    The box rule of compatibility ties sums of the rates of q to V; lanes keep no others. Where the line is damped, C~
+    has the rates themselves already.
+    """
+    if some(p.damping > 0.0):
+        return
+    rate_x = rate_z = 0.0
+    for k in range(Y.shape[0]):
+        if k > 0:
+            half = 0.5 * tables[p.grid_at + k - 1]
+            rate_x = (Y[k, col.VX] - Y[k - 1, col.VX]) / half - rate_x
+            rate_z = (Y[k, col.VZ] - Y[k - 1, col.VZ]) / half - rate_z
+        work.C_tilde[k, col.CX] = work.Q[k, col.QX] - over * rate_x
+        work.C_tilde[k, col.CZ] = work.Q[k, col.QZ] - over * rate_z
 
 
 @kernel
@@ -107,7 +133,10 @@ def known_force(p, rate, row, dC_tilde):
 @of_extras((0.0, 0.0))
 def known_end(p, t, x, z):
     """Of `known_force` at the upper end, what the condition there has."""
-    return (0.0, 0.0) if p.end == HELD and not released(p, t) else (x, z)
+    if p.end == HELD:
+        share = where(released(p, t), 1.0, 0.0)
+        return share * x, share * z
+    return x, z
 
 
 @of_extras()

@@ -28,7 +28,7 @@ from ..perturbations.exponents import STEPS
 from ..planar import columns as col
 from ..planar.state import conserved
 from ..record import SAMPLE_WIDTH, STATE
-from ..simd.vector import COUNT, REAL, WHOLE, lane_zeros
+from ..simd.vector import COUNT, REAL, WHOLE, fields_of, lane_zeros
 from . import Run
 
 LEAST = COUNT // 4 + 1  # runs of a kind for which a batch pays, because it costs the same however few are in it
@@ -46,7 +46,8 @@ def kind_of(scene):
     tables = []
     record = record_of(scene, tables)[0]
     carried = scene.output.tangent_vectors, scene.output.lateral_growth
-    return (*(int(record[name]) for name in WHOLE if name not in OWN), *(table.size for table in tables), *carried)
+    common = fields_of(record, (name for name in WHOLE if name not in OWN))
+    return (record.dtype.names[0], *map(int, common), *(table.size for table in tables), *carried)
 
 
 class Machine:
@@ -59,14 +60,14 @@ class Machine:
         self.lanes, self.spent = np.zeros(COUNT, LANE), np.zeros(COUNT, np.int64)
         self.tables = np.zeros((COUNT, run.tables.size))
         self.samples = np.zeros((COUNT, len(run.output.samples), SAMPLE_WIDTH))
-        self.counts = np.array([run.record[name] for name in WHOLE])
+        self.counts = np.array(fields_of(run.record, WHOLE))
         self.arrays = Arrays(
             values=lane_zeros(len(REAL)), tables=lane_zeros(run.tables.size), numbers=lane_zeros(ROWS),
             a=lane_zeros(s), w=lane_zeros(3), Y=lane_zeros(n, 6), now=lane_zeros(n, 6), before=lane_zeros(n, 6),
             C=lane_zeros(n, 4), Ks=lane_zeros(s, n, 4), history=lane_zeros(3, n, 6),
             C_new=lane_zeros(n, 4), K_new=lane_zeros(n, 4),
         )  # fmt: skip
-        self.work = lane_work(n, col.BOX_WIDTH)
+        self.work = lane_work(run.record, col.BOX_WIDTH)
         room = STEPS if run.trail.followed else 0
         self.followers = Followers(run) if run.trail.followed else None
         rows = lane_zeros(COUNT * room * (s - 1), n * PARTS)
@@ -79,7 +80,7 @@ class Machine:
         lane, motion = self.arrays, run.motion
         self.records[b], self.states[b] = run.record, run.state
         self.tables[b] = lane.tables[:, b] = run.tables
-        lane.values[:, b] = [run.record[name] for name in REAL]
+        lane.values[:, b] = fields_of(run.record, REAL)
         lane.Y[..., b], lane.now[..., b], lane.before[..., b] = motion.Y, motion.Y, motion.Y_before
         lane.C[..., b] = motion.C
         lane.Ks[..., b] = 0.0

@@ -28,7 +28,7 @@ from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, inf
 from numba.extending import intrinsic, lower_builtin, lower_cast, lower_getattr_generic, models, register_model
 from numba.np import arrayobj
 
-from ..record import RECORD
+from ..record import EXTRA
 
 COUNT = 8 if get_host_cpu_features().get("avx512f") else 4  # lanes of a batch
 DOUBLE, BIT = ir.DoubleType(), ir.IntType(1)
@@ -233,20 +233,25 @@ def transposed(context, rows):
     return rows(rows), generate
 
 
-WHOLE = tuple(name for name in RECORD.names if RECORD[name] == np.int64)
-REAL = tuple(name for name in RECORD.names if RECORD[name] == np.float64)
+WHOLE = tuple(name for name in EXTRA.names[1:] if EXTRA[name] == np.int64)  # the first only names the type
+REAL = tuple(name for name in EXTRA.names if EXTRA[name] == np.float64)
+
+
+def fields_of(record, names):
+    """The numbers of a planar record by these names; 0 for a field that only an EXTRA has."""
+    return [record[name] if name in record.dtype.names else 0 for name in names]
 
 
 class LaneRecord(types.Type):
-    """Parameters of `count` planar runs (`engine.record.RECORD`); plain: of PLAIN ones."""
+    """Parameters of `count` planar runs (`engine.record.RECORD`); plain, extras: of PLAIN, of EXTRA ones."""
 
     fields: ClassVar[dict] = {
         name: (whole, row) for whole, group in ((True, WHOLE), (False, REAL)) for row, name in enumerate(group)
     }
 
-    def __init__(self, count, plain):
-        self.count, self.plain = count, plain
-        super().__init__(f"lane_record({count}, {plain})")
+    def __init__(self, count, plain, extras):
+        self.count, self.plain, self.extras = count, plain, extras
+        super().__init__(f"lane_record({count}, {plain}, {extras})")
 
 
 @register_model(LaneRecord)
@@ -278,7 +283,8 @@ def _get_field(context, builder, record, value, name):
 def lane_record(context, records, counts, values):
     """Record of the parameters `counts` (whole numbers in the order of WHOLE), `values` (as_lanes, order of REAL) of
     these `records`."""
-    kind = LaneRecord(values.dtype.count, "plain" in records.dtype.fields)
+    fields = records.dtype.fields
+    kind = LaneRecord(values.dtype.count, "plain" in fields, "extra" in fields)
 
     def generate(context, builder, sig, arguments):
         pointers = cgutils.create_struct_proxy(kind)(context, builder)

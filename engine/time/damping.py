@@ -73,6 +73,8 @@ def _by_strains(p, tables, Ys, Ks):
 
 @kernel
 def _by_stages(p, tables, Ys, Ks):
+    if p.damping == 0.0:
+        return _by_strains(p, tables, Ys, Ks)
     last, C = Ys.shape[1] - 1, np.empty((1, Ks.shape[2]))
     low, high = math.inf, -math.inf
     for i in range(1, Ys.shape[0]):

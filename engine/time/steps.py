@@ -137,7 +137,7 @@ def runge_kutta_step(p, tables, step, motion, trial, work):
     if small or p.adaptive == 0:
         return OK, iterations, 0.0
     error = embedded_error(p, tables, dt, Ks, work.Q, a, C_tilde[0])  # the last two: work
-    return OK, iterations, with_landings(p, tables, dt, Ys, Ks, work.X, error)
+    return OK, iterations, with_landings(p, tables, dt, Ys[s - 1], Ks, work.X, error)
 
 
 @kernel

@@ -22,6 +22,8 @@ TABLE = {"law": "tabulated", "strain": [-0.2, 0.0, 0.1], "tension_N": [-5e3, 0.0
 TANH = {"law": "tanh", "p": [2.0e4, 5.0, 0.0, 0.0, 1.0e4]}
 PROFILE = {"law": "profile", "height_m": [0.0, 30.0], "velocity_mps": [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]}
 GRID = {"tether.nodes": 61, "tether.grid_stretching": 1.5}
+SLACK = {**CAP, "tether.length_m": 30.0, "tether.density_kgpm3": 1400.0}
+BED = {"floor.stiffness_Npm3": 1e4, "floor.damping_Nspm3": 600.0, "floor.friction": 0.3}
 UNBENT = {"tether.bending_stiffness_Nm2": 0.0}
 MIXED = [  # scenes that share a batch, though not all of them lanes
     {},
@@ -57,6 +59,11 @@ KINDS = {  # what every lane has in common
     "the same, wheeler": {"tether.nodes": 11, **CAP, "water.depth_m": 21.0, "waves.above_still_water": "wheeler"},
     "a sea": {"tether.nodes": 11, **SEA},
     "a sea, in and out of the water": {"tether.nodes": 11, **SEA, **CAP, "output.tangent_vectors": 1},
+    "on the bed": {"tether.nodes": 11, **SLACK, **BED, "output.tangent_vectors": 1},
+    "on the bed, at the surface, a raised anchor, the whole push": {
+        "tether.nodes": 11, **SLACK, **BED, **CARRIED, "tether.submergence": "free-surface",
+        "tether.froude_krylov": "whole", "anchor.position_m": [2.0, 0.0, 0.5],
+    },
     "a tangent vector": {"tether.nodes": 11, "output.tangent_vectors": 1},
     "lateral growth": {"tether.nodes": 11, "output.lateral_growth": True},
 }  # fmt: skip
@@ -175,6 +182,7 @@ def test_runs_come_as_they_end():
         {"output.profiles": True},
         {"solver.integrator": "midpoint"},
         {"solver.shock_viscosity": {}},
+        {"tether.damping_critical": 0.1},
         {"solver.scheme": "paper-box", "solver.step_s": 0.01},
         {"tether.tension": TABLE},
         held(3.0, 19.0),
