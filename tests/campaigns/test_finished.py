@@ -5,6 +5,8 @@ import pytest
 from campaigns import regime_map
 from campaigns.machinery import finished
 from campaigns.machinery.plan import Summary
+from campaigns.study import Lengths, Measures, Study
+from tables import STATUS
 from tests.campaigns.conftest import order_of
 from tests.pages import ROOT
 
@@ -94,3 +96,28 @@ def test_the_key_tells_the_data_of_campaigns_and_scenes_apart(monkeypatch):
     for folder in ("campaigns", "engine/scenes"):
         data = {path.relative_to(ROOT).as_posix() for path in (ROOT / folder).rglob("*.*") if path.suffix in DATA}
         assert data and data <= {*read}
+
+
+def study_of(calls, module=""):
+    """A campaign without an answer whose runs are a row; calls: grows with every time that they are done."""
+
+    def runs(order, plan, jobs):
+        calls.append(len(jobs))
+        return Summary([{"status": "ok"}], 0, 1)
+
+    return Study(
+        name="mine",
+        module=module,
+        protocol="",
+        scene="tethered_buoy",
+        lengths=Lengths(2, 1),
+        cases=lambda order: [order.case({}, {})],
+        measures=lambda order: Measures((STATUS,), None),
+        runs=runs,
+    )
+
+
+def test_a_finished_campaign_without_an_answer_is_not_done_again(tmp_path):
+    words, calls = ["--out", str(tmp_path / "out"), "--no-report"], []
+    assert [study_of(calls).main(words) for _ in range(2)] == [0, 0]
+    assert len(calls) == 1
