@@ -93,7 +93,7 @@ class Order:
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
     simulate: Callable | None = None  # in place of engine.simulate
-    key: str = ""  # of everything that the results depend on; "" without cases
+    key: str = ""  # of everything that the results depend on; "" without cases, or of code that is not known
 
     @property
     def scenes(self) -> list:
@@ -242,6 +242,8 @@ class Study:
 
     def _key(self, values: Namespace, **further: object) -> str:
         """`Order.key` of the values of options, but for those that say where it is done, and of `further` ones."""
+        if self.module:
+            return ""  # the code of a campaign outside of the project, and what it imports, is not known
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
 

@@ -121,3 +121,10 @@ def test_a_finished_campaign_without_an_answer_is_not_done_again(tmp_path):
     words, calls = ["--out", str(tmp_path / "out"), "--no-report"], []
     assert [study_of(calls).main(words) for _ in range(2)] == [0, 0]
     assert len(calls) == 1
+
+
+def test_a_campaign_of_ones_own_is_always_looked_at_because_its_code_is_not_known(tmp_path):
+    words, calls = ["--out", str(tmp_path / "out"), "--no-report"], []
+    for _ in range(2):
+        assert study_of(calls, module="mine").main(words) == 0
+    assert len(calls) == 2
