@@ -1,8 +1,10 @@
 """A finished campaign is only read again where nothing of it has changed: order, code, libraries, files."""
 
+import math
+
 import pytest
 
-from campaigns import regime_map
+from campaigns import regime_map, sweep
 from campaigns.machinery import finished
 from campaigns.machinery.plan import Summary
 from campaigns.study import Lengths, Measures, Study
@@ -128,3 +130,13 @@ def test_a_campaign_of_ones_own_is_always_looked_at_because_its_code_is_not_know
     for _ in range(2):
         assert study_of(calls, module="mine").main(words) == 0
     assert len(calls) == 2
+
+
+def test_the_key_tells_the_contents_of_a_measured_sea_apart(tmp_path):
+    path, keys = tmp_path / "gauge.csv", set()
+    words = ["--vary", *"water.depth_m 22 23 2".split(), "--periods", "2", "--out", str(tmp_path / "out")]
+    for height_m in (0.5, 0.6):
+        lines = [f"{0.1 * step:.1f},{height_m * math.sin(0.4 * math.pi * 0.1 * step)}" for step in range(1500)]
+        path.write_text("\n".join(["time_s,elevation_m", *lines]))
+        keys.add(order_of(sweep, *words, "--set", f"waves.record={path}").key)
+    assert len(keys) == 2
