@@ -140,3 +140,12 @@ def test_the_key_tells_the_contents_of_a_measured_sea_apart(tmp_path):
         path.write_text("\n".join(["time_s,elevation_m", *lines]))
         keys.add(order_of(sweep, *words, "--set", f"waves.record={path}").key)
     assert len(keys) == 2
+
+
+def test_the_key_tells_the_contents_of_curves_apart(tmp_path):
+    path, keys = tmp_path / "orbits" / "curves" / "table.csv", set()
+    path.parent.mkdir(parents=True)
+    for content in ("curve\n1\n", "curve\n2\n"):
+        path.write_text(content)
+        keys.add(finished.order_key("campaigns.regime_map", {"curves": str(tmp_path / "orbits")}, VERSIONS))
+    assert len(keys) == 2
