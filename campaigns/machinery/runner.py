@@ -255,11 +255,15 @@ def _computed(plan: Plan, jobs: Jobs, reused: int) -> Iterator[tuple]:
         return ended
 
     lengths_s = [job.duration_s or job.periods * job.scene.waves.period_s for job in jobs if job.going is None]
-    of_all = f" of {sum(lengths_s):,.0f}" if len(lengths_s) == len(jobs) else ""
+    of_all, most_s = "", math.inf
+    if len(lengths_s) == len(jobs):
+        most_s = sum(lengths_s)
+        of_all = f" of {most_s:,.0f}"
 
     def simulated():
         seconds = [length_s for _, length_s in reports(Path(place)).values()]
-        return f"{sum(seconds):,.0f}{of_all} s simulated"
+        so_far_s = min(sum(seconds), most_s)  # a run that is repeated has two reports
+        return f"{so_far_s:,.0f}{of_all} s simulated"
 
     # workers say there how far they are; a campaign drops what a kill leaves of it
     folder = tempfile.TemporaryDirectory(prefix=PROGRESS, dir=out)

@@ -1,6 +1,7 @@
 """A command shows its stage, how much of it is done and the time since the start; in a file it does so rarely."""
 
 import io
+import shutil
 import sys
 import time
 from types import SimpleNamespace
@@ -9,6 +10,7 @@ import pytest
 
 from campaigns.machinery import progress, runner
 from campaigns.machinery.cli import Running
+from campaigns.machinery.long_runs import Part
 from campaigns.machinery.plan import Job, Outcome, Plan, name_of
 from campaigns.machinery.progress import reporter, reports, stage
 from campaigns.machinery.worker import run_jobs
@@ -100,6 +102,41 @@ def test_the_seconds_that_a_run_has_simulated_are_seen_while_it_goes(tmp_path):
 
     run_jobs(Plan(Running(tmp_path), half_way, lambda run: {}, (), reports=tmp_path), [job])
     assert seen == {name_of([job]): [0.0, 10.0]}  # of four waves of 5 s
+
+
+def parts_of_two_periods(scene, trajectory, row, checks):
+    """What a run does that lasts three parts."""
+    if row is None or row["periods"] < 6:
+        return Part(scene, 2, trajectory)
+    return None
+
+
+@pytest.mark.parametrize("going", [None, parts_of_two_periods])
+def test_a_run_has_simulated_all_its_seconds_in_the_end_and_never_fewer_than_before(tmp_path, going, monkeypatch):
+    (tmp_path / "trajectories").mkdir()
+    job, seen_s = Job({}, load_scene("tethered_buoy"), 6, going=going), [0.0]
+
+    def at_once(scene, periods=None, duration_s=None, progress=None, start=None):
+        for share in (0.0, 1.0):
+            progress(share)
+            for _, length_s in reports(tmp_path).values():
+                seen_s.append(length_s)
+        run = sines(scene, periods)
+        if start is not None:
+            run.columns["time_s"] += start.columns["time_s"][-1]
+        return run
+
+    def row(run):
+        return {"status": "ok", "periods": run.columns["time_s"][-1] / 5.0}
+
+    for report_s in (0.0, 100.0):  # between two reports
+        monkeypatch.setattr(progress, "REPORT_S", report_s)
+        shutil.rmtree(tmp_path / "trajectories")
+        (tmp_path / "trajectories").mkdir()
+        run_jobs(Plan(Running(tmp_path), at_once, row, (), reports=tmp_path), [job])
+        assert reports(tmp_path) == {name_of([job]): [1.0, 30.0]}
+        assert seen_s == sorted(seen_s)
+        seen_s.clear()
 
 
 def test_the_count_of_runs_never_falls_while_the_results_of_a_group_come_in(tmp_path, monkeypatch):
