@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tables import Column, counted
+from tables import Column, counted, read_rows, write_table
 
 
 def test_a_row_tells_what_a_run_said_and_what_it_went_on_from():
@@ -15,3 +15,9 @@ def test_a_row_tells_what_a_run_said_and_what_it_went_on_from():
 @pytest.mark.parametrize(("value", "printed"), [(0.004, "0.004"), (0.006, "0.01"), (-0.0012, "−0.0012"), (0.0, "0.00")])
 def test_a_small_number_in_print_is_not_zero(value, printed):
     assert Column("a", digits=2).cell({"a": value}) == printed
+
+
+def test_a_row_whose_message_names_a_file_that_is_no_text_is_written_with_the_others(tmp_path):
+    rows = [{"a": 1}, {"a": "no file by\udcffte"}]
+    write_table(tmp_path / "table.csv", (Column("a"),), rows)
+    assert [row["a"] for row in read_rows(tmp_path / "table.csv")] == ["1", r"no file by\udcffte"]
