@@ -16,7 +16,7 @@ import pytest
 from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.folder import PROGRESS, CampaignStopped, claimed
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign, spare_groups
 from engine import load_scene
@@ -144,6 +144,13 @@ def test_a_disk_that_fills_up(small_disk, campaign):
     assert campaign.sound_part() and not list(campaign.out.rglob(".*.tmp"))
     subprocess.run(["mount", "-o", "remount,size=8m", str(small_disk)], check=True)
     campaign.complete()
+
+
+def test_a_folder_that_is_let_go_holds_nothing_half_written(tmp_path):
+    with claimed(tmp_path):
+        (tmp_path / "trajectories" / ".a.nc.7-77.tmp").write_bytes(b"CDF")
+        (tmp_path / f"{PROGRESS}a").mkdir()
+    assert not [*tmp_path.rglob(".*.tmp"), *tmp_path.glob(f"{PROGRESS}*")]
 
 
 def test_no_space_within_a_run_stops_the_campaign(sweep, capfd):

@@ -1,6 +1,7 @@
 """A finished campaign is only read again where nothing of it has changed: order, code, libraries, files."""
 
 import math
+import os
 
 import pytest
 
@@ -149,3 +150,12 @@ def test_the_key_tells_the_contents_of_curves_apart(tmp_path):
         path.write_text(content)
         keys.add(finished.order_key("campaigns.regime_map", {"curves": str(tmp_path / "orbits")}, VERSIONS))
     assert len(keys) == 2
+
+
+def test_a_file_that_is_rewritten_at_the_same_size_has_the_folder_looked_at(tmp_path):
+    folder_of(tmp_path)
+    path = tmp_path / "table.csv"
+    written_ns = path.stat().st_mtime_ns
+    path.write_text("steepness\n0.2\n")
+    os.utime(path, ns=(written_ns + 1, written_ns + 1))
+    assert finished.finished(tmp_path, "key") is None

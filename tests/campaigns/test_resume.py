@@ -9,6 +9,7 @@ import platform
 import socket
 import subprocess
 
+import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
@@ -18,6 +19,7 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped, keep_json, kept_json, made_by
 from campaigns.machinery.plan import Job, Outcome, Plan
 from campaigns.machinery.pools import dask_client
+from campaigns.machinery.store import key_of
 from campaigns.machinery.worker import keep_row, kept_row
 from engine import Trajectory, load_scene, source_hash
 from tables import names
@@ -135,6 +137,13 @@ def test_the_content_key_follows_everything_that_changes_a_result(monkeypatch):
     keys.append(Job({}, scenes[0], 6).key)
     assert len(set(keys)) == len(keys)
     assert Job({"steepness": 1}, scenes[0], 6).key == keys[-1]  # a label changes nothing
+
+
+def test_the_key_of_a_result_tells_values_shapes_and_bounds_of_its_parts_apart():
+    values = np.arange(6.0)
+    parts = [(values,), (values.reshape(2, 3),), (values.reshape(3, 2),), (values + 1.0,), ("ab", "c"), ("a", "bc")]
+    assert len({key_of(*of_a_result) for of_a_result in parts}) == len(parts)
+    assert key_of(values.copy()) == key_of(values)
 
 
 def contents(out, files="trajectories/*.nc"):
