@@ -17,6 +17,7 @@ from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import PROGRESS, CampaignStopped, claimed
+from campaigns.machinery.long_runs import until_judged
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign, spare_groups
 from engine import load_scene
@@ -285,6 +286,14 @@ def test_groups_are_even_and_hold_every_job_once(tmp_path):
     # the engine runs one by one what keeps profiles, and threads share no worker
     assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **side_by_side) == []
     assert groups(tmp_path, jobs_of(EIGHT), "threading", **side_by_side) == groups(tmp_path, jobs_of(EIGHT)) == []
+
+
+def test_jobs_that_last_as_long_as_they_need_share_no_group_with_those_of_one_length(tmp_path):
+    jobs = jobs_of([0.01 + 0.01 * i for i in range(12)])
+    lasting = [replace(job, going=until_judged) for job in jobs[::2]]
+    grouped = groups(tmp_path, [*lasting, *jobs[1::2]], simulate_each=FakeEngine().each)
+    assert sum(map(len, grouped)) == len(jobs)
+    assert all(len({job.going for job in group}) == 1 for group in grouped)
 
 
 def test_few_jobs_of_another_length_share_one_worker_while_others_work(tmp_path):

@@ -159,3 +159,11 @@ def test_a_file_that_is_rewritten_at_the_same_size_has_the_folder_looked_at(tmp_
     path.write_text("steepness\n0.2\n")
     os.utime(path, ns=(written_ns + 1, written_ns + 1))
     assert finished.finished(tmp_path, "key") is None
+
+
+def test_where_runs_are_done_is_not_in_the_key(tmp_path):
+    words = ["--vary", *"water.depth_m 22 23 2".split(), "--periods", "2"]
+    keys = set()
+    for name, jobs, backend in (("a", "1", "loky"), ("b", "2", "threading")):
+        keys.add(order_of(sweep, *words, "--jobs", jobs, "--backend", backend, "--out", str(tmp_path / name)).key)
+    assert len(keys) == 1
