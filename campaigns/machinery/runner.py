@@ -158,8 +158,9 @@ def _compile(plan: Plan, missing: Jobs) -> None:
     for job in missing:
         if job.simulate is None:
             wanted.append((job.scene, job.key in together, job.carrying))
-            if job.carrying:
-                wanted.append((job.scene, False, True))  # its last part may go alone
+            if job.key in together or job.carrying:
+                # its companion on half the elements goes alone, and so may its last part
+                wanted.append((job.scene, False, job.carrying))
     tasks = []
     for part in engine.shares_of(wanted):
         task = {key: scene for key, scene in part.items() if key not in _ready}

@@ -4,14 +4,16 @@ import io
 import shutil
 import sys
 import time
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
 
+import engine
 from campaigns.machinery import progress, runner
 from campaigns.machinery.cli import Running
 from campaigns.machinery.long_runs import Part
-from campaigns.machinery.plan import Job, Outcome, Plan, name_of
+from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.progress import reporter, reports, stage
 from campaigns.machinery.worker import run_jobs
 from engine import load_scene
@@ -160,3 +162,24 @@ def test_the_count_of_runs_never_falls_while_the_results_of_a_group_come_in(tmp_
     monkeypatch.setattr(runner, "groups_of", lambda plan, jobs: [group])
     list(runner._computed(Plan(Running(tmp_path), None, None, ()), jobs, 0))
     assert counts == [6] * 6
+
+
+@pytest.mark.parametrize(("tangent_vectors", "carrying"), [(0, False), (1, False), (0, True)])
+def test_what_runs_side_by_side_need_is_compiled_before_they_begin(tangent_vectors, carrying, tmp_path, monkeypatch):
+    """Beside the lanes: what their companions need, which go alone, and those that leave the lanes in the end."""
+    compiled = []
+
+    def at_once(call, tasks):
+        return [(task, call(task)) for task in tasks]
+
+    monkeypatch.setattr(engine, "compile_piece", lambda key, scene: compiled.append(key[1]))
+    monkeypatch.setattr(runner, "_ready", set())
+    monkeypatch.setattr(runner, "run_campaign", lambda plan, jobs: Summary([], 0, 0))
+    monkeypatch.setattr(runner, "opened", lambda *pool: nullcontext(at_once))
+    jobs = []
+    for number in range(1, 9):
+        changes = {"waves.steepness": 0.01 * number, "output.tangent_vectors": tangent_vectors}
+        jobs.append(Job({}, load_scene("tethered_buoy", changes), 4, carrying=carrying))
+    runner.run(Plan(Running(tmp_path), engine.simulate, None, (), simulate_each=engine.simulate_each), jobs)
+    assert {"rest", "advance", "march"} <= {*compiled}
+    assert ({"follow", "carry"} <= {*compiled}) == bool(tangent_vectors or carrying)
