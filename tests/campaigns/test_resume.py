@@ -8,6 +8,7 @@ import json
 import platform
 import socket
 import subprocess
+from contextlib import nullcontext
 from functools import partial
 
 import numpy as np
@@ -154,6 +155,17 @@ def test_results_come_in_the_order_of_their_tasks_whatever_was_finished_before(t
     tasks = [Task(key, partial(dict, value=number)) for number, key in enumerate("abc", 1)]
     found = results(Running(tmp_path, 2, "threading"), store, "tasks", tasks)
     assert ([result["value"] for result in found.results], found.reused) == ([1, 2, 3], 1)
+
+
+def test_results_that_workers_send_are_kept_for_the_next_command(tmp_path, monkeypatch):
+    def at_once(call, tasks, **further):
+        return [(task, call(task)) for task in tasks]
+
+    monkeypatch.setattr("campaigns.machinery.tasks.opened", lambda *pool: nullcontext(at_once))
+    store, how = Store(tmp_path), Running(tmp_path, 2, "dask")
+    first = results(how, store, "tasks", [Task("a", partial(dict, value=1))])
+    again = results(how, store, "tasks", [Task("a", None)])
+    assert (first.reused, again.reused) == (0, 1) and again.results == first.results == [{"value": 1}]
 
 
 def contents(out, files="trajectories/*.nc"):
