@@ -93,7 +93,7 @@ class Order:
     faults: list[str] = field(default_factory=list)
     cases: list[Job] = field(default_factory=list)
     simulate: Callable | None = None  # in place of engine.simulate
-    key: str = ""  # of everything that the results depend on; "" without cases
+    key: str = ""  # of everything that the results depend on; "" without cases, or of code that is not known
 
     @property
     def scenes(self) -> list:
@@ -230,18 +230,28 @@ class Study:
             return order
         order.name = values.scene
         order.changes = cli.assignments(values.set, self.taken, faults)
-        unsound = not as_shipped and order.base() is None
+        scene = None
+        if not as_shipped:
+            scene = order.base()
+        unsound = not as_shipped and scene is None
         if unsound:  # the cases tell why, before the key of the order loads anything heavy
             self._add_cases(order)
         if faults:
             return order
-        order.key = self._key(values)
+        order.key = self._key(values, scene)
         if not unsound and finished(how.out, order.key) is None:
             self._add_cases(order)
         return order
 
-    def _key(self, values: Namespace, **further: object) -> str:
-        """`Order.key` of the values of options, but for those that say where it is done, and of `further` ones."""
+    def _key(self, values: Namespace, scene: "engine.Scene | None", **further: object) -> str:
+        """`Order.key` of the values of options, but for those that say where it is done, and of `further` ones.
+
+        scene: with the changes of --set, because a key of it may name a file (`waves.record`); None: as it is shipped.
+        """
+        if self.module:
+            return ""  # the code of a campaign outside of the project, and what it imports, is not known
+        if scene is not None:
+            further["of_values"] = scene.key()
         asked = {name: value for name, value in vars(values).items() if name not in (*self.places, "out")}
         return order_key(self.called, asked | further, session.versions())
 
@@ -256,7 +266,7 @@ class Study:
         order = Order(how, cli.options_of(self.options, values), scene, changes, faults=faults)
         if self.lengths is not None:
             self.lengths.read(values, order)
-        order.key = self._key(values, of_scene=scene, changes=changes)
+        order.key = self._key(values, order.base(), of_scene=scene, changes=changes)
         self._add_cases(order)
         return order
 

@@ -31,12 +31,12 @@ def dictionary(columns: Iterable[Column]) -> bytes:
 
 
 def csv_of(head: Iterable[str], rows: Iterable[Iterable[object]]) -> bytes:
-    """The content of a CSV file."""
+    """The content of a CSV file. A byte of a file name that is no UTF-8 is written as "\\udcff"."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(head)
     writer.writerows(rows)
-    return text.getvalue().encode()
+    return text.getvalue().encode(errors="backslashreplace")
 
 
 def write_table(path: Path, columns: Sequence[Column], rows: Iterable[Row]) -> None:

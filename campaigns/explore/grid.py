@@ -80,7 +80,7 @@ def varied(
     from engine.scene.reference import keys
 
     key = words[0]
-    list_name, element, part = re.fullmatch(r"(.*?)(?:\[(\d+)\](?:\.(\w+))?)?", key).groups("")
+    list_name, element, part = re.fullmatch(r"(?s)(.*?)(?:\[(\d+)\](?:\.(\w+))?)?", key).groups("")
     name = ".".join(filter(None, (list_name, part)))
     declared = keys().get(name)
     kind = declared and declared.kind

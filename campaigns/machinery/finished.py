@@ -22,7 +22,7 @@ _COMPUTED_AGAIN = {"error", "worker-died", "analysis-failed", "lost"}  # statuse
 def order_key(called: str, asked: Mapping[str, object], versions: Mapping[str, str | None]) -> str:
     """Hash of everything that a finished folder depends on: an order, all code and data, the versions of libraries.
 
-    called: the command; asked: what its options ask for. Of a word that names a file the content counts.
+    called: the command; asked: what its options ask for. Of a word that names a file or a folder the content counts.
     """
     root = Path(__file__).resolve().parents[2]
     data = [path.relative_to(root).as_posix() for pattern in _DATA for path in root.glob(pattern)]
@@ -37,10 +37,12 @@ def order_key(called: str, asked: Mapping[str, object], versions: Mapping[str, s
 
 
 def _files_in(values) -> Iterator[Path]:
-    """The files that words among these values name, also words of a list."""
+    """The files that words among these values name, also words of a list; of a folder its tables."""
     for value in values:
         if isinstance(value, str) and os.path.isfile(value):
             yield Path(value)
+        elif isinstance(value, str) and os.path.isdir(value):
+            yield from sorted(Path(value).rglob("*.csv"))
         elif isinstance(value, list | tuple):
             yield from _files_in(value)
 

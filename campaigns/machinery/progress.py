@@ -162,13 +162,16 @@ def _clock(began: float) -> str:
 
 
 def reporter(folder: Path | None, task: str) -> Callable:
-    """A function report(*numbers) by which a worker tells the progress of a task; without a folder it does nothing."""
+    """A function report(*numbers) by which a worker tells the progress of a task; without a folder it does nothing.
+
+    Numbers that follow within REPORT_S are left out, unless they are the last=True ones.
+    """
     last_s = -REPORT_S
 
-    def report(*numbers):
+    def report(*numbers, last=False):
         nonlocal last_s
         now = time.monotonic()
-        if folder is not None and now - last_s >= REPORT_S:
+        if folder is not None and (last or now - last_s >= REPORT_S):
             last_s = now
             with contextlib.suppress(OSError):  # another machine, or a campaign that has ended
                 draft = folder / f"{task}.{os.getpid()}"

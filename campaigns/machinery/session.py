@@ -122,7 +122,8 @@ def conduct(study, order, argv: list[str], parameters: dict) -> int:
     with claimed(how.out), stage(study.name):
         summary = finished(how.out, key)
         if summary is not None:
-            answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
+            if study.answer is not None:
+                answer = (how.out / ANSWER).read_text(encoding="utf-8").splitlines()
         elif key and not order.cases:
             raise CampaignStopped(f"{how.out} has just been changed; run the same command again")
         else:

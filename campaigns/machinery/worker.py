@@ -72,14 +72,19 @@ def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], repo
             under_way.append(run)
     saved_s = {}
     length_s = sum(_length_s(run.part) for run in under_way)  # of all parts that are known by now
+    ended_s = 0.0  # of those that have ended
 
     def progress(share):
         report(len(outcomes), share * length_s)
 
+    def progress_alone(share):
+        report(len(outcomes), ended_s + share * _length_s(run.part))
+
     def go_on(number, trajectory):
         """Take a part that has ended; what the run does next, as `engine.simulate_each` asks for it."""
-        nonlocal length_s
+        nonlocal length_s, ended_s
         run = under_way[number]
+        ended_s += _length_s(run.part)
         run.take(trajectory)
         outcome = _described(plan, run.job, run.trajectory, run.checks)
         run.row = outcome.row
@@ -103,15 +108,17 @@ def _run_side_by_side(plan: Plan, jobs: Jobs, outcomes: dict[str, Outcome], repo
         further = with_progress(plan.simulate_each, progress)
         for _ in plan.simulate_each(scenes, periods, durations_s[0], starts=starts, then=go_on, **further):
             pass
+        report(len(outcomes), ended_s, last=True)
         return
     for number, run in enumerate(under_way):
         simulate = run.job.simulate or plan.simulate
-        further = with_progress(simulate, progress)
+        further = with_progress(simulate, progress_alone)
         while run.part is not None:
             scene, periods, start, _, duration_s = run.part
             if start is not None:
                 further["start"] = start
             go_on(number, simulate(scene, periods=periods, duration_s=duration_s, **further))
+    report(len(outcomes), ended_s, last=True)
 
 
 def _length_s(part: Part) -> float:

@@ -10,6 +10,7 @@ the figures and statements.csv are made from these folders alone. Random starts 
 nothing else is random. To change a scene, run the campaign of that part.
 """
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -34,7 +35,8 @@ class Options(cli.Options):
         """The parts in the order in which they run."""
         self.parts = [part for part in PARTS if part in self.parts]
         for part in PARTS:
-            if (self.out / part).exists() and not (self.out / part).is_dir():
+            path = self.out / part
+            if os.path.exists(path) and not os.path.isdir(path):  # pathlib raises where a name is too long
                 given = f"--out: given {str(self.out)!r}, where {part} is a file"
                 faults.append(f"{given}; allowed: a folder of this campaign")
 

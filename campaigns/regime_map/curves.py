@@ -1,5 +1,6 @@
 """The curves of a folder of `campaigns.orbits --curves`, taken over into the folder of a map over the same two keys."""
 
+import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +16,7 @@ OF_AN_ORBIT = "gravity_mps2", "tether", "anchor", "end", "buoy", "water", "waves
 
 def folder_of_curves(text: str) -> str:
     """The name of a folder that has curves. Raises ValueError without them."""
-    if not (Path(text) / FOLDER / FILES[1]).is_file():
+    if not os.path.isfile(Path(text) / FOLDER / FILES[1]):  # pathlib raises where a name is too long
         raise ValueError(text)
     return text
 

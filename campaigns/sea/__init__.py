@@ -60,7 +60,9 @@ class Options(cli.Options):
         f"(default: {MOST_HOURS:g}, in a map 0)",
         cli.number("a finite number, at least 0", lambda hours: 0.0 <= hours < math.inf),
     )
-    transient: int = cli.option("N", "peak periods left out of exponent, events and loads", cli.whole(0), 40)
+    transient: int = cli.option(
+        "N", "peak periods left out of exponent, events and loads", cli.whole(0, cli.MOST_PERIODS), 40
+    )
     kick_speed: float = kick_speed()
     seed: int = cli.seed("of the kicks")
     distance: float = cli.option("SHARE", "of the size of the motion: nearer starts are one response", SHARE, 0.05)

@@ -247,14 +247,19 @@ def sweep(
     varied_key = varied([str(key)], faults, "key", numbers=numbers or [0.0])
     if faults:
         raise ValueError("; ".join(faults))
-    name = str(scene)
+    name, earlier = str(scene), None  # earlier: content of the file in a folder that holds results
     if isinstance(scene, Scene):
-        name, content = str(how.out / "given.toml"), scene.to_toml().encode()
+        path = how.out / "given.toml"
+        if path.exists():
+            earlier = path.read_bytes()
         how.out.mkdir(parents=True, exist_ok=True)
-        write_new(Path(name), content)
+        name = str(path)
+        write_new(path, scene.to_toml().encode())
     order = STUDY.order(how, name, {}, **vars(options) | {"grid": Grid((varied_key,))})
     if order.faults:
-        if isinstance(scene, Scene):
+        if earlier is not None:
+            write_new(Path(name), earlier)
+        elif isinstance(scene, Scene):
             Path(name).unlink()
             with contextlib.suppress(OSError):  # a folder that holds more stays
                 how.out.rmdir()

@@ -98,7 +98,7 @@ def read_order(argv: list[str], faults: list[str]) -> Order:
 
     def value(option, kind):
         words = getattr(options, option[2:])
-        if words is not None:
+        if isinstance(words, str):  # argparse makes an empty list of --step=--
             words = [words]
         return cli.Option("", "", kind).value(option, words, faults)
 

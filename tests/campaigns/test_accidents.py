@@ -16,7 +16,8 @@ import pytest
 from campaigns.explore.judgement import Judgement
 from campaigns.explore.rows import COLUMNS, buoy_row
 from campaigns.machinery.cli import Running
-from campaigns.machinery.folder import CampaignStopped
+from campaigns.machinery.folder import PROGRESS, CampaignStopped, claimed, write_new
+from campaigns.machinery.long_runs import until_judged
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import FEWEST, MOST, groups_of, run_campaign, spare_groups
 from engine import load_scene
@@ -144,6 +145,23 @@ def test_a_disk_that_fills_up(small_disk, campaign):
     assert campaign.sound_part() and not list(campaign.out.rglob(".*.tmp"))
     subprocess.run(["mount", "-o", "remount,size=8m", str(small_disk)], check=True)
     campaign.complete()
+
+
+def test_a_folder_that_is_let_go_holds_nothing_half_written(tmp_path):
+    with claimed(tmp_path):
+        (tmp_path / "trajectories" / ".a.nc.7-77.tmp").write_bytes(b"CDF")
+        (tmp_path / f"{PROGRESS}a").mkdir()
+    assert not [*tmp_path.rglob(".*.tmp"), *tmp_path.glob(f"{PROGRESS}*")]
+
+
+def test_a_file_that_has_its_content_already_is_left_as_it_is(tmp_path):
+    path = tmp_path / "answer.txt"
+    write_new(path, b"the answer")
+    inode = path.stat().st_ino
+    write_new(path, b"the answer")
+    assert path.stat().st_ino == inode
+    write_new(path, b"another")
+    assert path.read_bytes() == b"another"
 
 
 def test_no_space_within_a_run_stops_the_campaign(sweep, capfd):
@@ -278,6 +296,24 @@ def test_groups_are_even_and_hold_every_job_once(tmp_path):
     # the engine runs one by one what keeps profiles, and threads share no worker
     assert groups(tmp_path, jobs_of(EIGHT, {"output.profiles": True}), **side_by_side) == []
     assert groups(tmp_path, jobs_of(EIGHT), "threading", **side_by_side) == groups(tmp_path, jobs_of(EIGHT)) == []
+
+
+def test_jobs_that_last_as_long_as_they_need_share_no_group_with_those_of_one_length(tmp_path):
+    jobs = jobs_of([0.01 + 0.01 * i for i in range(12)])
+    lasting = [replace(job, going=until_judged) for job in jobs[::2]]
+    grouped = groups(tmp_path, [*lasting, *jobs[1::2]], simulate_each=FakeEngine().each)
+    assert sum(map(len, grouped)) == len(jobs)
+    assert all(len({job.going for job in group}) == 1 for group in grouped)
+
+
+def test_no_group_gets_cheap_runs_beside_all_the_dear_ones(tmp_path):
+    """Eight runs on 81 nodes cost as much as 31 on 21 nodes."""
+    jobs = jobs_of([0.01 + 0.005 * i for i in range(16)], {"tether.nodes": 21})
+    jobs += jobs_of([0.1 + 0.005 * i for i in range(8)], {"tether.nodes": 81})
+    costs = []
+    for group in groups(tmp_path, jobs, simulate_each=FakeEngine().each):
+        costs.append(sum(job.scene.tether.nodes for job in group))
+    assert sum(costs) == 16 * 21 + 8 * 81 and max(costs) <= 8 * 81
 
 
 def test_few_jobs_of_another_length_share_one_worker_while_others_work(tmp_path):

@@ -6,6 +6,7 @@ import io
 import json
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -88,6 +89,21 @@ def test_every_flying_sphere_has_a_wetted_cap(nine):
     values = [job.labels["steepness"] for job in cases]
     assert [job.labels["steepness"] for job in jobs] == values[5:]
     assert {job.scene.buoy.submergence for job in jobs} == {"spherical-cap"} and {job.periods for job in jobs} == {60}
+
+
+def test_a_motion_that_rest_does_not_lead_to_is_repeated_from_its_last_state(nine, monkeypatch):
+    plan = nine[0]
+    state = SimpleNamespace(at_zero=lambda: "its last state")
+    monkeypatch.setattr(batches, "run_of", lambda folder, row: SimpleNamespace(final_state=state))
+    starts = [batches.start_of(plan, {"found_by": found_by}) for found_by in ("rest", "kick", None)]
+    assert starts == [None, "its last state", None]
+
+
+def test_runs_between_that_were_begun_ahead_are_not_left_to_later_steps(nine):
+    plan, summary, cases, _ = nine
+    plan.spare.append("runs between")
+    batches.between(plan, summary, "waves.steepness", cases)
+    assert plan.spare == []
 
 
 @pytest.fixture

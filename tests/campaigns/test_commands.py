@@ -15,7 +15,7 @@ from campaigns import buoy_sweep
 from campaigns.__main__ import COMMANDS, tether
 from campaigns.__main__ import main as every_campaign
 from campaigns.buoy_sweep import STEEPNESS, STUDY
-from campaigns.machinery.cli import fault_of
+from campaigns.machinery.cli import evenly, fault_of
 from campaigns.machinery.plausible import doubts
 from engine import load_scene
 from engine.physics.waves import breaking_steepness, wave_number
@@ -265,3 +265,8 @@ def test_a_wave_is_linear_up_to_an_ursell_number_of_40():
         changes = {"waves.period_s": period_s, "waves.amplitude_m": share * highest_m}
         lines = [*doubts(load_scene("tethered_buoy", changes))]
         assert len(lines) == count and all(line.startswith("waves.period_s") for line in lines)
+
+
+def test_a_value_of_a_range_is_the_one_that_one_would_type():
+    typed = [0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.16]
+    assert evenly(["0.01", "0.16", "16"], "--steepness-range", []) == typed

@@ -1,10 +1,15 @@
 """A finished campaign is only read again where nothing of it has changed: order, code, libraries, files."""
 
+import math
+import os
+
 import pytest
 
-from campaigns import regime_map
+from campaigns import regime_map, sweep
 from campaigns.machinery import finished
 from campaigns.machinery.plan import Summary
+from campaigns.study import Lengths, Measures, Study
+from tables import STATUS
 from tests.campaigns.conftest import order_of
 from tests.pages import ROOT
 
@@ -94,3 +99,71 @@ def test_the_key_tells_the_data_of_campaigns_and_scenes_apart(monkeypatch):
     for folder in ("campaigns", "engine/scenes"):
         data = {path.relative_to(ROOT).as_posix() for path in (ROOT / folder).rglob("*.*") if path.suffix in DATA}
         assert data and data <= {*read}
+
+
+def study_of(calls, module=""):
+    """A campaign without an answer whose runs are a row; calls: grows with every time that they are done."""
+
+    def runs(order, plan, jobs):
+        calls.append(len(jobs))
+        return Summary([{"status": "ok"}], 0, 1)
+
+    return Study(
+        name="mine",
+        module=module,
+        protocol="",
+        scene="tethered_buoy",
+        lengths=Lengths(2, 1),
+        cases=lambda order: [order.case({}, {})],
+        measures=lambda order: Measures((STATUS,), None),
+        runs=runs,
+    )
+
+
+def test_a_finished_campaign_without_an_answer_is_not_done_again(tmp_path):
+    words, calls = ["--out", str(tmp_path / "out"), "--no-report"], []
+    assert [study_of(calls).main(words) for _ in range(2)] == [0, 0]
+    assert len(calls) == 1
+
+
+def test_a_campaign_of_ones_own_is_always_looked_at_because_its_code_is_not_known(tmp_path):
+    words, calls = ["--out", str(tmp_path / "out"), "--no-report"], []
+    for _ in range(2):
+        assert study_of(calls, module="mine").main(words) == 0
+    assert len(calls) == 2
+
+
+def test_the_key_tells_the_contents_of_a_measured_sea_apart(tmp_path):
+    path, keys = tmp_path / "gauge.csv", set()
+    words = ["--vary", *"water.depth_m 22 23 2".split(), "--periods", "2", "--out", str(tmp_path / "out")]
+    for height_m in (0.5, 0.6):
+        lines = [f"{0.1 * step:.1f},{height_m * math.sin(0.4 * math.pi * 0.1 * step)}" for step in range(1500)]
+        path.write_text("\n".join(["time_s,elevation_m", *lines]))
+        keys.add(order_of(sweep, *words, "--set", f"waves.record={path}").key)
+    assert len(keys) == 2
+
+
+def test_the_key_tells_the_contents_of_curves_apart(tmp_path):
+    path, keys = tmp_path / "orbits" / "curves" / "table.csv", set()
+    path.parent.mkdir(parents=True)
+    for content in ("curve\n1\n", "curve\n2\n"):
+        path.write_text(content)
+        keys.add(finished.order_key("campaigns.regime_map", {"curves": str(tmp_path / "orbits")}, VERSIONS))
+    assert len(keys) == 2
+
+
+def test_a_file_that_is_rewritten_at_the_same_size_has_the_folder_looked_at(tmp_path):
+    folder_of(tmp_path)
+    path = tmp_path / "table.csv"
+    written_ns = path.stat().st_mtime_ns
+    path.write_text("steepness\n0.2\n")
+    os.utime(path, ns=(written_ns + 1, written_ns + 1))
+    assert finished.finished(tmp_path, "key") is None
+
+
+def test_where_runs_are_done_is_not_in_the_key(tmp_path):
+    words = ["--vary", *"water.depth_m 22 23 2".split(), "--periods", "2"]
+    keys = set()
+    for name, jobs, backend in (("a", "1", "loky"), ("b", "2", "threading")):
+        keys.add(order_of(sweep, *words, "--jobs", jobs, "--backend", backend, "--out", str(tmp_path / name)).key)
+    assert len(keys) == 1

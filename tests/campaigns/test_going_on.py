@@ -11,7 +11,9 @@ import pytest
 
 from analysis.looks import BLURRED
 from campaigns.explore.stages import TIMES, let_chaos_last, outlasting
+from campaigns.machinery import worker
 from campaigns.machinery.cli import Running
+from campaigns.machinery.folder import trajectory_path
 from campaigns.machinery.long_runs import LEAST_CHECK, LongRun, Part, until_judged
 from campaigns.machinery.plan import Job, Plan
 from campaigns.machinery.runner import run_campaign
@@ -197,3 +199,38 @@ def test_chaos_that_settles_late_asks_the_chaos_beside_it_to_last_longer():
 def test_what_is_no_chaos_any_more_ends():
     (job,) = longer_jobs(LASTING, settled(900)).values()
     assert job.going(SCENE, RUN, settled(900), {}) is None
+
+
+def two_parts_and_two_checks(scene, trajectory, row, checks):
+    """What a run does that lasts two parts of two periods, and is checked for twice as long."""
+    if row is None or row["periods"] < 4:
+        return Part(scene, 2, trajectory)
+    check = checks.get(4)
+    if check is None:
+        return Part(scene, 2, trajectory, check=True)
+    if check.columns["time_s"][-1] < 8 * scene.waves.period_s - 1e-6:
+        return Part(scene, 2, check, check=True)
+    return None
+
+
+def test_a_run_is_saved_between_its_parts_but_not_while_it_is_checked(tmp_path, monkeypatch):
+    """Because checks are not kept: a run that is killed in one begins it again."""
+    (tmp_path / "trajectories").mkdir()
+    monkeypatch.setattr(worker, "SAVED_S", -1.0)
+    job = Job({}, load_scene("tethered_buoy"), 4, going=two_parts_and_two_checks)
+    path, saved = trajectory_path(tmp_path, job.key), []
+
+    def simulate(scene, periods=None, duration_s=None, start=None):
+        saved.append(path.read_bytes() if path.exists() else b"")
+        run = sines(scene, periods)
+        if start is not None:
+            run.columns["time_s"] += start.columns["time_s"][-1]
+        return run
+
+    def row(run):
+        return {"status": "ok", "periods": run.columns["time_s"][-1] / run.scene.waves.period_s}
+
+    worker.run_jobs(Plan(Running(tmp_path), simulate, row, ()), [job])
+    nothing, first, *in_checks = saved
+    assert nothing == b"" and first and in_checks == [first] * 2
+    assert path.read_bytes() != first

@@ -1,15 +1,19 @@
 """A command shows its stage, how much of it is done and the time since the start; in a file it does so rarely."""
 
 import io
+import shutil
 import sys
 import time
+from contextlib import nullcontext
 from types import SimpleNamespace
 
 import pytest
 
+import engine
 from campaigns.machinery import progress, runner
 from campaigns.machinery.cli import Running
-from campaigns.machinery.plan import Job, Outcome, Plan, name_of
+from campaigns.machinery.long_runs import Part
+from campaigns.machinery.plan import Job, Outcome, Plan, Summary, name_of
 from campaigns.machinery.progress import reporter, reports, stage
 from campaigns.machinery.worker import run_jobs
 from engine import load_scene
@@ -102,6 +106,41 @@ def test_the_seconds_that_a_run_has_simulated_are_seen_while_it_goes(tmp_path):
     assert seen == {name_of([job]): [0.0, 10.0]}  # of four waves of 5 s
 
 
+def parts_of_two_periods(scene, trajectory, row, checks):
+    """What a run does that lasts three parts."""
+    if row is None or row["periods"] < 6:
+        return Part(scene, 2, trajectory)
+    return None
+
+
+@pytest.mark.parametrize("going", [None, parts_of_two_periods])
+def test_a_run_has_simulated_all_its_seconds_in_the_end_and_never_fewer_than_before(tmp_path, going, monkeypatch):
+    (tmp_path / "trajectories").mkdir()
+    job, seen_s = Job({}, load_scene("tethered_buoy"), 6, going=going), [0.0]
+
+    def at_once(scene, periods=None, duration_s=None, progress=None, start=None):
+        for share in (0.0, 1.0):
+            progress(share)
+            for _, length_s in reports(tmp_path).values():
+                seen_s.append(length_s)
+        run = sines(scene, periods)
+        if start is not None:
+            run.columns["time_s"] += start.columns["time_s"][-1]
+        return run
+
+    def row(run):
+        return {"status": "ok", "periods": run.columns["time_s"][-1] / 5.0}
+
+    for report_s in (0.0, 100.0):  # between two reports
+        monkeypatch.setattr(progress, "REPORT_S", report_s)
+        shutil.rmtree(tmp_path / "trajectories")
+        (tmp_path / "trajectories").mkdir()
+        run_jobs(Plan(Running(tmp_path), at_once, row, (), reports=tmp_path), [job])
+        assert reports(tmp_path) == {name_of([job]): [1.0, 30.0]}
+        assert seen_s == sorted(seen_s)
+        seen_s.clear()
+
+
 def test_the_count_of_runs_never_falls_while_the_results_of_a_group_come_in(tmp_path, monkeypatch):
     """A group has reported its five runs, and a sixth, which runs alone, that it has ended."""
     jobs = [Job({}, load_scene("tethered_buoy", {"waves.steepness": 0.01 * number}), 4) for number in range(1, 8)]
@@ -123,3 +162,24 @@ def test_the_count_of_runs_never_falls_while_the_results_of_a_group_come_in(tmp_
     monkeypatch.setattr(runner, "groups_of", lambda plan, jobs: [group])
     list(runner._computed(Plan(Running(tmp_path), None, None, ()), jobs, 0))
     assert counts == [6] * 6
+
+
+@pytest.mark.parametrize(("tangent_vectors", "carrying"), [(0, False), (1, False), (0, True)])
+def test_what_runs_side_by_side_need_is_compiled_before_they_begin(tangent_vectors, carrying, tmp_path, monkeypatch):
+    """Beside the lanes: what their companions need, which go alone, and those that leave the lanes in the end."""
+    compiled = []
+
+    def at_once(call, tasks):
+        return [(task, call(task)) for task in tasks]
+
+    monkeypatch.setattr(engine, "compile_piece", lambda key, scene: compiled.append(key[1]))
+    monkeypatch.setattr(runner, "_ready", set())
+    monkeypatch.setattr(runner, "run_campaign", lambda plan, jobs: Summary([], 0, 0))
+    monkeypatch.setattr(runner, "opened", lambda *pool: nullcontext(at_once))
+    jobs = []
+    for number in range(1, 9):
+        changes = {"waves.steepness": 0.01 * number, "output.tangent_vectors": tangent_vectors}
+        jobs.append(Job({}, load_scene("tethered_buoy", changes), 4, carrying=carrying))
+    runner.run(Plan(Running(tmp_path), engine.simulate, None, (), simulate_each=engine.simulate_each), jobs)
+    assert {"rest", "advance", "march"} <= {*compiled}
+    assert ({"follow", "carry"} <= {*compiled}) == bool(tangent_vectors or carrying)

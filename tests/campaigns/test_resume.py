@@ -8,7 +8,10 @@ import json
 import platform
 import socket
 import subprocess
+from contextlib import nullcontext
+from functools import partial
 
+import numpy as np
 import pytest
 
 from campaigns import buoy_sweep
@@ -18,6 +21,8 @@ from campaigns.machinery.cli import Running
 from campaigns.machinery.folder import CampaignStopped, keep_json, kept_json, made_by
 from campaigns.machinery.plan import Job, Outcome, Plan
 from campaigns.machinery.pools import dask_client
+from campaigns.machinery.store import Store, key_of
+from campaigns.machinery.tasks import Task, results
 from campaigns.machinery.worker import keep_row, kept_row
 from engine import Trajectory, load_scene, source_hash
 from tables import names
@@ -135,6 +140,32 @@ def test_the_content_key_follows_everything_that_changes_a_result(monkeypatch):
     keys.append(Job({}, scenes[0], 6).key)
     assert len(set(keys)) == len(keys)
     assert Job({"steepness": 1}, scenes[0], 6).key == keys[-1]  # a label changes nothing
+
+
+def test_the_key_of_a_result_tells_values_shapes_and_bounds_of_its_parts_apart():
+    values = np.arange(6.0)
+    parts = [(values,), (values.reshape(2, 3),), (values.reshape(3, 2),), (values + 1.0,), ("ab", "c"), ("a", "bc")]
+    assert len({key_of(*of_a_result) for of_a_result in parts}) == len(parts)
+    assert key_of(values.copy()) == key_of(values)
+
+
+def test_results_come_in_the_order_of_their_tasks_whatever_was_finished_before(tmp_path):
+    store = Store(tmp_path)
+    store.put("b", {"value": 2})
+    tasks = [Task(key, partial(dict, value=number)) for number, key in enumerate("abc", 1)]
+    found = results(Running(tmp_path, 2, "threading"), store, "tasks", tasks)
+    assert ([result["value"] for result in found.results], found.reused) == ([1, 2, 3], 1)
+
+
+def test_results_that_workers_send_are_kept_for_the_next_command(tmp_path, monkeypatch):
+    def at_once(call, tasks, **further):
+        return [(task, call(task)) for task in tasks]
+
+    monkeypatch.setattr("campaigns.machinery.tasks.opened", lambda *pool: nullcontext(at_once))
+    store, how = Store(tmp_path), Running(tmp_path, 2, "dask")
+    first = results(how, store, "tasks", [Task("a", partial(dict, value=1))])
+    again = results(how, store, "tasks", [Task("a", None)])
+    assert (first.reused, again.reused) == (0, 1) and again.results == first.results == [{"value": 1}]
 
 
 def contents(out, files="trajectories/*.nc"):

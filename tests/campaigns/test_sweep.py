@@ -285,3 +285,16 @@ def test_the_time_of_a_study_is_that_of_all_its_work(tmp_path):
 
     summary = replace(sweep_command.STUDY, runs=runs, beside=lambda order: [later]).work(order)
     assert 0.4 <= summary.times["run_s"] < 2.0
+
+
+def test_a_key_with_a_line_end_is_no_key(tmp_path):
+    faults = []
+    sweep_command.read_order(["--vary", "\n", "1", "2", "3", "--out", str(tmp_path)], faults)
+    assert faults == ["--vary \n: no such key"]
+
+
+def test_from_python_a_refusal_leaves_the_scene_of_earlier_results(tmp_path):
+    (tmp_path / "given.toml").write_text("that of the results")
+    with pytest.raises(ValueError, match="where a wave of 5 s breaks"):
+        sweep_command.sweep(load_scene("tethered_buoy"), "waves.steepness", [9.0], out=tmp_path, starts="rest")
+    assert (tmp_path / "given.toml").read_text() == "that of the results"

@@ -19,6 +19,7 @@ from reports import build, content_of
 from reports.__main__ import main
 from reports.buoy_sweep.report import report
 from reports.parts.content import Bullets, Figure, Heading, Notice, Picture, Report, Sheet, Text, plain
+from reports.parts.folder import Folder
 from reports.parts.pdf import render_pdf
 from tables import read_rows
 from tests.processes import OTHERWISE, python
@@ -198,3 +199,15 @@ def test_an_empty_folder_lists_everything_that_is_missing(tmp_path, capsys):
         assert main([str(place)]) == 2
         message = capsys.readouterr().err
         assert all(words in message for words in phrase) and list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "dictionary", [None, b"name,unit\n", b"\xff\xfe", b"name,unit,symbol,meaning,digits\na,,a,a,x\n"]
+)
+def test_a_part_of_a_folder_that_cannot_be_read_has_no_rows(tmp_path, dictionary):
+    (tmp_path / "between").mkdir()
+    (tmp_path / "between" / "table.csv").write_text("a\n1\n")
+    if dictionary is not None:
+        (tmp_path / "between" / "columns.csv").write_bytes(dictionary)
+    part = Folder(tmp_path, {}, (), None, {}).part("between")
+    assert (part.table, part.columns, part.directory) == ((), {}, tmp_path / "between")

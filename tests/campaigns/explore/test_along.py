@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from analysis.motions import share_of
+from analysis.motions import Settled, share_of
 from campaigns.explore import ends, stages, tracing
-from campaigns.explore.motions import in_a_row
+from campaigns.explore.motions import Motion, in_a_row
 from campaigns.explore.proposals import kicks
 from tables import Column
 from tests.campaigns.explore.toy import Job, Scene, ToyMotions, explored
@@ -123,3 +123,32 @@ def test_what_is_found_again_is_one_motion(swept):
         candidate.motion is None or candidate.motion in swept.at[candidate.motion.place]
         for candidate in swept.starts.endings
     )
+
+
+def motion_at(place: int, x: float, period: int = 1) -> Motion:
+    """A motion of that period whose state is x at every strobe."""
+    points = np.full((period, 1), x)
+    measures = np.full((period, 3), x)
+    return Motion(place, Settled(period, points, measures, np.array([2.0]), ""), None, "rest")
+
+
+def test_a_motion_is_matched_with_the_nearest_of_its_period_within_the_distance():
+    motion, near, nearer = motion_at(0, 1.0), motion_at(1, 1.1), motion_at(1, 0.95)
+    doubled, far = motion_at(1, 1.0, period=2), motion_at(1, 3.0)
+    assert stages.nearest_match(motion, [doubled, near, nearer, far], 0.5) is nearer
+    assert stages.nearest_match(motion, [doubled, far], 0.5) is None
+    assert stages.nearest_match(motion, [near], 0.0) is None
+
+
+@pytest.mark.parametrize(("backs", "letters"), [(1, ["A", "A"]), (2, ["A", "B", "C"])])
+def test_an_unsettled_motion_becomes_the_one_that_becomes_it_if_there_is_but_one(tmp_path, backs, letters):
+    motions = ToyMotions(tmp_path, [KEY], in_a_row(2))
+    motions.jobs = [Job({"p": p}, Scene(p)) for p in (0.0, 0.1)]
+    first = motion_at(0, 1.0)
+    first.becomes[1] = None
+    seconds = [motion_at(1, 5.0 + number) for number in range(backs)]
+    for second in seconds:
+        second.becomes[0] = first
+    motions.at = [[first], seconds]
+    stages.name(motions)
+    assert [motion.branch.letter for motion in (first, *seconds)] == letters
