@@ -63,6 +63,11 @@ def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return x if heading == 0 else np.cos(heading) * x + np.sin(heading) * y
 
 
+def across_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The component across such waves, to their left, of vectors with components x and y."""
+    return y if heading == 0 else np.cos(heading) * y - np.sin(heading) * x
+
+
 def columns_of(samples: np.ndarray, scene: Scene) -> Columns:
     """The COLUMNS of a run of the scene, from its samples (n, SAMPLE_WIDTH) with the columns of `engine.record`.
 
