@@ -141,7 +141,7 @@ def _of_buoys(runs):
     records = []
     for run in runs:
         step_s, period_s = run.scene.sample_step_s(), run.scene.waves.period_s
-        coordinates, scale = state_of(run.columns, step_s, period_s, transient_periods=140)
+        coordinates, scale = state_of(run.scene, run.columns, round(140 * period_s / step_s))
         samples = round(period_s / step_s)
         columns = np.column_stack([run.columns["radius_m"], run.columns["tension_top_high_N"]])
         cut = np.lib.stride_tricks.sliding_window_view(columns, samples + 1, axis=0)[::samples]

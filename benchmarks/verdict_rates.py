@@ -122,7 +122,7 @@ def cable_motions(changes, periods):
         if run.status != "ok":
             print(f"{changes[number]}: {run.status}")
             continue
-        states, scale = state_of(run.columns, step_s, period_s, periods // 2)
+        states, scale = state_of(scenes[number], run.columns, round(periods // 2 * period_s / step_s))
         strobed = np.column_stack(list(states.values()))[:: round(period_s / step_s)]
         yield strobed, run.tangent.growth_nats[:, 0], np.array(scale), f"H = {scenes[number].water.depth_m} m"
 

@@ -64,7 +64,7 @@ def record_regime(trajectory, transient_periods: int, tangent=None):
     step_s, period_s = scene.sample_step_s(), scene.waves.period_s
     first_sample = round(transient_periods * period_s / step_s)  # after the transient
     wolf = wolf_lyapunov(columns["radius_m"][first_sample:], step_s).in_bits_per_period(period_s)
-    coordinates, scale = state_of(columns, step_s, period_s, transient_periods)
+    coordinates, scale = state_of(scene, columns, first_sample)
     verdict = regime(
         np.column_stack(list(coordinates.values())),
         step_s,

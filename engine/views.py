@@ -62,25 +62,26 @@ def carried(run: "Trajectory") -> bool:
 
 
 def state_of(
-    columns: "Mapping[str, numpy.ndarray]", step_s: float, period_s: float, transient_periods: int
+    scene: "Scene", columns: "Mapping[str, numpy.ndarray]", first_sample: int
 ) -> "tuple[dict[str, numpy.ndarray], list[float]]":
-    """Position (x, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
+    """Place (along the waves, z) and velocity (along and across the radius) of the buoy, and what counts as 1 in each.
 
-    Positions are measured by the larger extent of the path after the transient, velocities by their larger range: so a
+    Places are measured by the larger extent of the path from first_sample on, velocities by their larger range: so a
     millimetre counts the same in every direction, and a buoy that turns round and round needs no other treatment.
     """
     import numpy as np
 
+    from engine.trajectory.columns import along_waves, heading_of
+
     coordinates = {
-        "x_m": columns["x_m"],
+        "along_m": along_waves(heading_of(scene), columns["x_m"], columns["y_m"]),
         "z_m": columns["z_m"],
         "radial_mps": columns["radius_rate_mps"],
         "lateral_mps": columns["radius_m"] * columns["angle_rate_radps"],
     }
-    first = round(transient_periods * period_s / step_s)  # sample after the transient
-    x, z, radial, lateral = (float(np.ptp(values[first:])) for values in coordinates.values())
+    along, z, radial, lateral = (float(np.ptp(values[first_sample:])) for values in coordinates.values())
     # A buoy at rest has no range of its own; a micrometre, and a micrometre a second, are rest for this one.
-    path_m, speed_mps = max(x, z, 1e-6), max(radial, lateral, 1e-6)
+    path_m, speed_mps = max(along, z, 1e-6), max(radial, lateral, 1e-6)
     return coordinates, [path_m, path_m, speed_mps, speed_mps]
 
 
@@ -99,7 +100,8 @@ def strobed_states(
     from analysis import poincare_section
 
     step_s, period_s = _forcing(run)
-    coordinates, scale = state_of(run.columns if columns is None else columns, step_s, period_s, first_period)
+    first_sample = round(first_period * period_s / step_s)  # of the scale
+    coordinates, scale = state_of(run.scene, run.columns if columns is None else columns, first_sample)
     return poincare_section(coordinates, step_s, period_s, phase, transient_periods).points, scale
 
 

@@ -41,7 +41,7 @@ COLUMNS = (
 )
 ORBIT = (
     Column("period", "", "t/T", "wave periods since it has been followed", 0),
-    Column("x_m", "m", "x", "strobed place along x", 4),
+    Column("x_m", "m", "x", "strobed place along the waves", 4),
     Column("z_m", "m", "z", "strobed height above the anchor", 4),
     Column("radial_mps", "m/s", "dr/dt", "strobed radial speed", 4),
     Column("lateral_mps", "m/s", "r dθ/dt", "strobed speed across the radius", 4),

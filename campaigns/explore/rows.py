@@ -17,6 +17,7 @@ from campaigns.explore.multipliers import MULTIPLIERS
 from campaigns.judge import periods_of, samples_of
 from campaigns.machinery import filled
 from engine.run.rest import static_tension_N
+from engine.trajectory.columns import across_waves, heading_of
 from engine.trajectory.excursions import emergence
 from engine.views import LONGEST_PERIOD, STROBE_TOLERANCE, snaps_of, strobed_states
 from tables import (
@@ -146,8 +147,22 @@ COLUMNS = (
     UTILISATION,
     *OUT_OF_WATER,
     *LINE_COUNTS,
-    Column("buoy_lateral_max_m", "m", "buoy |y|", "largest |y| of the buoy after the transient, in 3-D", 3, PLANE),
-    Column("rope_lateral_max_m", "m", "rope |y|", "largest |y| of any node after the transient, in 3-D", 3, PLANE),
+    Column(
+        "buoy_lateral_max_m",
+        "m",
+        "buoy |y|",
+        "largest distance of the buoy from the plane of the waves after the transient, in 3-D",
+        3,
+        PLANE,
+    ),
+    Column(
+        "rope_lateral_max_m",
+        "m",
+        "rope |y|",
+        "largest distance of any node from the plane of the waves after the transient, in 3-D",
+        3,
+        PLANE,
+    ),
     Column(
         "planar_loop_releases",
         "",
@@ -185,7 +200,8 @@ def buoy_row(trajectory, judgement) -> Row:
         row |= {TRANSIENT.name: transient_periods, **measured}
         if scene.motion.dimensions == 3:
             first = samples_of(scene, transient_periods)  # after the transient
-            row["buoy_lateral_max_m"] = float(np.abs(columns["y_m"][first:]).max())
+            distance_m = across_waves(heading_of(scene), columns["x_m"], columns["y_m"])
+            row["buoy_lateral_max_m"] = float(np.abs(distance_m[first:]).max())
             row["rope_lateral_max_m"] = float(columns["offplane_m"][first:].max())
     if judgement.verdict is not None:
         row |= regime_of(judgement)

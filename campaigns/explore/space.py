@@ -16,6 +16,7 @@ from campaigns.judge import UNFOLLOWED
 from campaigns.machinery import Jobs, Plan, Summary, run
 
 SEED_MPS = 1e-5  # size of the push
+ROUNDING = 1e-15  # of a velocity along the waves: so much of it may seem to be across them
 # components of a push along and across the waves; a mirrored push has to give the mirrored motion, and a push along the
 # waves no motion across them
 DIRECTIONS = {
@@ -43,7 +44,8 @@ def in_space(scene):
     sine, cosine = math.sin(heading), math.cos(heading)
     vx, vy, vz = scene.start.buoy_velocity_mps
     changes = {"motion.dimensions": 3, **UNFOLLOWED}
-    added = math.isclose(-vx * sine + vy * cosine, 0.0, abs_tol=1e-300)
+    across = vy * cosine - vx * sine
+    added = abs(across) <= ROUNDING * math.hypot(vx, vy)
     if added:
         changes["start.buoy_velocity_mps"] = [vx - SEED_MPS * sine, vy + SEED_MPS * cosine, vz]
     return engine.scene.scene_from_toml(scene.to_toml(), changes), added

@@ -21,12 +21,12 @@ from tables import finite
 
 Solved = tuple[dict, list[np.ndarray]]  # result of a task, and points
 SOURCES = *OF_ORBITS, "campaigns/explore/tracing.py"
-STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: m of what is seen, and shares of the range
+STEPS = {"step": 0.05, "least": 2e-3, "longest": 0.3}  # of a branch: of what is seen, and shares of the range
 SHORT, MOST_SHORT = STEPS | {"longest": 0.1}, 12  # to an event that is near
 LOCATED = {"count": COUNT, "accuracy": 1e-2}  # of a chord, to which an event is: another grid changes it by more
 AROUND, NEAREST = 3.0, 0.02  # an event is looked for again within this many chords, and this share of the range
 HISTORY = "time_s", "radius_m", "radius_rate_mps", "angle_rad", "tension_top_N", "tension_min_N"
-AMPLITUDE = 0.02, 0.1  # m, tried in turn, from an orbit at its flip to the one of twice the period
+AMPLITUDE = 0.02, 0.1  # of what is seen, tried in turn, from an orbit at its flip to the one of twice the period
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Scenes:
 class Line:
     """Scenes with the coordinates of their orbits, taken from a state of a run at a value.
 
-    low, high: range in which orbits are followed; size: the change of the key that counts as 1 m of the motion; nodes:
+    low, high: range in which orbits are followed; size: the change of the key that counts as 1 of what is seen; nodes:
     of another grid, 0 for that of the scenes; rtol: tolerance of the orbits, at most.
     """
 
@@ -152,8 +152,8 @@ def followed(line: Line, value: float, points: np.ndarray, most: int) -> Solved:
 
 def _doubled(system, event):
     """The orbit of twice the period that begins at a flip; None where none is found."""
-    for amplitude_m in AMPLITUDE:
-        orbit = doubled_orbit(system, event, amplitude=amplitude_m, count=COUNT)
+    for amplitude in AMPLITUDE:
+        orbit = doubled_orbit(system, event, amplitude=amplitude, count=COUNT)
         if orbit.found:
             return orbit
     return None

@@ -20,7 +20,7 @@ from campaigns.orbits.tree import Tree
 from tables import MESSAGE, STATUS, Column, Row, finite, of_words, write_table
 
 FOLDER = "curves"
-# m of what is seen, and shares of the ranges; below `least` steps of time scatter an orbit by more than the curve moves
+# of what is seen, and shares of the ranges; below `least` steps of time scatter an orbit by more than the curve moves
 STEPS = {"step": 0.3, "least": 0.008, "longest": 0.5}
 KNOWN = 0.02  # of the range of the first key: an event this near to a curve of its kind and period lies on it
 CURVE = Column("curve", "", "curve", "number of the curve, from 1 on", 0)

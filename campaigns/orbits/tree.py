@@ -15,7 +15,7 @@ FOLDER = "branches"
 SHARP = 1e-3  # of the range of the key: an event that is known worse is found again at a tenth of the tolerance
 BESIDE = 0.02  # of the range of the key: an orbit so far from a fold is there on another grid, too
 BEYOND = 2.0  # steps from the last orbit of a branch to the flip at which it meets another
-NEAR_M, ON_CHORD = 0.01, 0.1  # of an orbit to a known branch: m of what is seen, and shares of a chord
+NEAR, ON_CHORD = 0.01, 0.1  # of an orbit to a known branch: of what is seen, and shares of a chord
 
 
 @dataclass(eq=False)
@@ -279,7 +279,7 @@ def _same(seen, candidate) -> bool:
     """Whether two orbits are one, begun at any strobe."""
     if np.shape(seen) != np.shape(candidate):
         return False
-    return any(np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR_M for k in range(len(seen)))
+    return any(np.abs(np.roll(seen, k, axis=0) - candidate).max() < NEAR for k in range(len(seen)))
 
 
 def _on(chord, value: float, seen: np.ndarray, size: float) -> bool:
@@ -296,4 +296,4 @@ def _on(chord, value: float, seen: np.ndarray, size: float) -> bool:
         share = (value - first["value"]) / (last["value"] - first["value"])
     on = begin + np.clip(share, 0.0, 1.0) * (end - begin)
     off = min(np.linalg.norm(np.roll(seen, k, axis=0) - on, axis=1).max() for k in range(len(seen)))
-    return bool(off < NEAR_M + ON_CHORD * length)
+    return bool(off < NEAR + ON_CHORD * length)

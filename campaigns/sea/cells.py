@@ -130,7 +130,7 @@ def digest(run, row: Row, transient: int, folds: Folds | None) -> Digest:
     period_s, step_s, columns = run.scene.waves.period_s, run.scene.sample_step_s(), run.columns
     samples = period_s / step_s  # of a peak period
     strobes = np.rint(np.arange(0.0, len(columns["time_s"]) - 0.5, samples)).astype(int)
-    coordinates, scale = state_of(columns, step_s, period_s, 0)
+    coordinates, scale = state_of(run.scene, columns, 0)
     states = np.column_stack([series[strobes] for series in coordinates.values()])
     growth_nats = run.tangent.growth_nats[:, 0] if carried(run) else None
     high_N = columns["tension_top_high_N"]

@@ -14,7 +14,11 @@ from engine.views import snaps_of
 from tables import Column, Row, Rows
 
 SURFACE = Column(
-    "significant_elevation_m", "m", "4 σ_η", "four standard deviations of the surface at x = 0 after the transient", 2
+    "significant_elevation_m",
+    "m",
+    "4 σ_η",
+    "four standard deviations of the surface over the anchor after the transient",
+    2,
 )
 DEVIATION = Column("tension_std_N", "N", "σ_T", "standard deviation of the tension at the top after the transient", 0)
 COLUMNS = SURFACE, MEAN, DEVIATION, SNAPS
@@ -24,8 +28,9 @@ def statistics(scene, columns, transient_s: float) -> Row:
     """`COLUMNS` of the samples after the transient; without snaps for a line that bears no tension at rest."""
     first = math.ceil(transient_s / scene.sample_step_s() - 1e-6)
     tension_N = columns["tension_top_N"][first:]
+    x_m, y_m, _ = scene.anchor.position_m
     row = {
-        SURFACE.name: 4.0 * float(elevation_m(scene, columns["time_s"][first:]).std()),
+        SURFACE.name: 4.0 * float(elevation_m(scene, columns["time_s"][first:], x_m, y_m).std()),
         MEAN.name: float(tension_N.mean()),
         DEVIATION.name: float(tension_N.std()),
     }

@@ -207,13 +207,14 @@ def elevation_m(
 
 
 def envelope_m(scene: Scene, time_s: np.ndarray) -> np.ndarray:
-    """Amplitude (m) of the surface at x = y = 0: the modulus of the sum of A exp(i (phase - omega t)) over all waves.
+    """Amplitude (m) of the surface over the anchor: the modulus of the sum of A exp(i (k.x - omega t + phase)).
 
-    Source: S. O. Rice, Bell Syst. Tech. J. 23 (1944) 282.
+    The sum is over all waves. Source: S. O. Rice, Bell Syst. Tech. J. 23 (1944) 282.
     """
-    rows, total = rows_of(scene), np.zeros(time_s.shape, complex)
-    for omega, phase, amplitude in rows[:, [OMEGA, PHASE, AMPLITUDE]]:
-        total += amplitude * np.exp(1j * (phase - omega * time_s))
+    total = np.zeros(time_s.shape, complex)
+    x, y, _ = scene.anchor.position_m
+    for k, omega, phase, cosine, sine, _, amplitude in rows_of(scene):
+        total += amplitude * np.exp(1j * (k * (x * cosine + y * sine) - omega * time_s + phase))
     return np.abs(total) * _share_of_ramp(scene, time_s)
 
 

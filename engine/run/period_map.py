@@ -34,6 +34,7 @@ from ..trajectory.final_state import FinalState
 from . import Idle, advice
 
 FIRST_STEPS = 0.3, 0.2, 0.45  # of the longest step: one of every mesh
+SPHERE_M = 1.5  # diameter of the paper's sphere
 RATES = 100.0  # by which rates count less than their frequency says
 PASSES, NEARBY = 64, 1e-3  # maps that are kept; distance of states that have one map
 GRADE = 2.0  # longest step, in lengths of the next one
@@ -77,7 +78,8 @@ class PeriodMap:
 
     scene_of : value -> Scene; SceneError or ValueError where there is none. All have one grid (n nodes).
     start : state of a run; `first` (8 n,) is it at the next whole number of periods, in the scene of `value`.
-    seen : (8 n, 4); seen.T @ z is the place of the buoy (m) and its velocity over the frequency of the waves (m).
+    seen : (8 n, 4); seen.T @ z is the place of the buoy and its velocity over the frequency of the waves, in metres for
+    a sphere of the diameter SPHERE_M, and in proportion for another one: a model has the numbers of its prototype.
     Raises ValueError for a scene that has no such map, and ArithmeticError, with the end of a sentence, where a state
     has no image: the release of a loop begins or ends near it, or lasts over the strobe, or Newton's method fails.
     """
@@ -176,7 +178,7 @@ class PeriodMap:
             shares[0, :-1, i, i] += 0.5 * h
         for i in (VX, VZ):
             shares[0, -1, i, i] = run.scene.waves.period_s / (2.0 * math.pi)
-        return shares.reshape(8 * n, 4) * self.scale[:, None]
+        return shares.reshape(8 * n, 4) * self.scale[:, None] * (SPHERE_M / run.scene.buoy.diameter_m)
 
     def trail_of(self, rows: int, value: float) -> Trail:
         """Room for the stages of so many steps."""

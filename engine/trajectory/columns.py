@@ -11,12 +11,12 @@ Columns = Mapping[str, np.ndarray]  # of a trajectory: a name of COLUMNS -> (n,)
 
 COLUMNS = {  # name -> (unit, long name), in the order of the table
     "time_s": ("s", "time"),
-    "x_m": ("m", "position of the upper end along x (the waves), from the anchor"),
-    "y_m": ("m", "position of the upper end along y (across the waves), from the anchor"),
+    "x_m": ("m", "position of the upper end along x, from the anchor"),
+    "y_m": ("m", "position of the upper end along y, from the anchor"),
     "z_m": ("m", "height of the upper end above the anchor"),
     "radius_m": ("m", "distance of the upper end from the anchor"),
     "radius_rate_mps": ("m s-1", "rate of the distance of the upper end from the anchor"),
-    "angle_rad": ("rad", "angle of the upper end from the vertical in the plane of the waves, atan2(x, z), unwrapped"),
+    "angle_rad": ("rad", "angle of the upper end from the vertical, positive where the waves go, unwrapped"),
     "angle_rate_radps": ("rad s-1", "rate of the angle of the upper end from the vertical"),
     "offplane_m": ("m", "largest distance of any node from the plane of the waves"),
     "tension_top_N": ("N", "tension at the upper end"),
@@ -54,13 +54,18 @@ def sample_count(duration_s: float, step_s: float) -> int:
 
 
 def heading_of(scene: Scene) -> float:
-    """Direction (rad) of the waves of a motion in space; 0 in a plane and without waves."""
-    return float(scene.waves.direction_rad) if scene.motion.dimensions == 3 and scene.waves is not None else 0.0
+    """Direction (rad) of the waves; 0 without waves."""
+    return 0.0 if scene.waves is None else float(scene.waves.direction_rad)
 
 
 def along_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """The component along waves that travel in the direction `heading` (rad) of vectors with components x and y."""
     return x if heading == 0 else np.cos(heading) * x + np.sin(heading) * y
+
+
+def across_waves(heading: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """The component across such waves, to their left, of vectors with components x and y."""
+    return y if heading == 0 else np.cos(heading) * y - np.sin(heading) * x
 
 
 def columns_of(samples: np.ndarray, scene: Scene) -> Columns:

@@ -81,9 +81,10 @@ def _radius_panel(axes, time: np.ndarray, runs, shown: slice, together: float) -
 
 
 def _waves_panel(axes, time: np.ndarray, scene, period_s: float, cell: Row) -> None:
-    """The waves, and the amplitudes at which the small motion and the large one end, where both are known."""
+    """The waves over the anchor, and the amplitudes at which small and large motion end, where both are known."""
     time_s = time * period_s
-    axes.plot(*thinned(time, elevation_m(scene, time_s), _BINS), color=SOFT, linewidth=0.5, rasterized=True)
+    x_m, y_m, _ = scene.anchor.position_m
+    axes.plot(*thinned(time, elevation_m(scene, time_s, x_m, y_m), _BINS), color=SOFT, linewidth=0.5, rasterized=True)
     axes.plot(time, envelope_m(scene, time_s), color=INK, linewidth=1.2, label="envelope")
     up, down = cell["fold_up_m"], cell["fold_down_m"]
     if math.isfinite(up + down):

@@ -170,6 +170,15 @@ def test_a_scene_in_space_gets_a_push_only_where_it_has_none():
     assert added and across.start.buoy_velocity_mps == pytest.approx((-SEED_MPS, 0.0, 0.0), abs=1e-20)
 
 
+@pytest.mark.parametrize("heading, x, y", [(0.0, 2.0, 0.0), (math.pi, -2.0, 0.0), (math.pi / 2, 0.0, 2.0)])
+def test_a_kick_along_the_waves_is_no_push_across_them(heading, x, y):
+    """Rounding leaves 1e-16 m/s across the waves; taken for a push, it would leave the buoy in its plane."""
+    changes = {"motion.dimensions": 3, "waves.direction_rad": heading, "start.buoy_velocity_mps": [x, y, 0.5]}
+    pushed, added = in_space(load_scene("tethered_buoy", changes))
+    vx, vy, _ = pushed.start.buoy_velocity_mps
+    assert added and vy * math.cos(heading) - vx * math.sin(heading) == pytest.approx(SEED_MPS, rel=1e-9)
+
+
 def test_directions_have_the_size_of_the_push():
     for word in DIRECTIONS:
         assert np.linalg.norm(velocity(3e-4, word)) == pytest.approx(3e-4)

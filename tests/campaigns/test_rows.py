@@ -62,6 +62,15 @@ def test_the_rope_and_the_buoy_leave_the_plane_after_the_transient(scene):
     assert (row["buoy_lateral_max_m"], row["rope_lateral_max_m"]) == (0.5, 0.75)
 
 
+def test_across_the_plane_is_across_the_waves_whatever_their_direction():
+    turned = {"motion.dimensions": 3, "waves.direction_rad": 2.5}
+    run = sines(load_scene("tethered_buoy", turned), PERIODS)
+    along_m, across_m = run.columns["x_m"].copy(), 0.25
+    run.columns["x_m"][:] = along_m * math.cos(2.5) - across_m * math.sin(2.5)
+    run.columns["y_m"][:] = along_m * math.sin(2.5) + across_m * math.cos(2.5)
+    assert judged_row(run, TRANSIENT)["buoy_lateral_max_m"] == pytest.approx(across_m, abs=1e-12)
+
+
 def test_a_run_in_three_dimensions_repeats_though_nothing_else_confirms_it(scene):
     """Its transient, of which it knows nothing, is a third."""
     run = sines(load_scene("tethered_buoy", {"motion.dimensions": 3}), 150)

@@ -3,6 +3,7 @@ campaign of one's own, as docs/developing.md#a-campaign has them (tests/test_pag
 """
 
 import json
+import math
 import re
 import sys
 import time
@@ -20,15 +21,18 @@ import pytest
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from campaigns.machinery import Summary
+from campaigns.sweep.seas import statistics
 from engine import Trajectory, load_scene, simulate
 from engine.natural_frequencies import natural_frequencies
+from engine.physics.waves import wave_number
+from engine.scene import scene_from_toml
 from reports import build
 from reports.figures.quantities import measured
 from reports.parts.content import Figure, Table, plain
 from reports.sweep.report import report
 from tables import Column
 from tests.campaigns.conftest import built_twice, order_of, ran, rows_of
-from tests.campaigns.fake_engine import FakeEngine
+from tests.campaigns.fake_engine import FakeEngine, sines
 from tests.pages import ROOT
 from tests.reports.conftest import folder_at, of_kind
 
@@ -85,6 +89,20 @@ def test_in_a_sea_rows_have_statistics_in_place_of_regimes(second, tmp_path):
     words = [text.split()[0] for text in answer.splitlines() if text[:1].isupper()]
     assert words == ["SEA", "LOAD", "TENSION", "SNAPS", "OPEN"]
     build(tmp_path)
+
+
+def test_the_waves_of_a_row_are_those_over_the_anchor():
+    """Two waves of one period cancel half a wave length from where they add up."""
+    waves = [{"period_s": 5.0, "amplitude_m": 0.5, "direction_rad": direction} for direction in (0.0, math.pi)]
+    heights_m = []
+    for length in (0.0, 0.25):
+        sea = load_scene("tethered_buoy", {"waves": {"period_s": 5.0, "components": waves}})
+        k = wave_number(5.0, sea.water.depth_m, sea.gravity_mps2)
+        place = {"anchor.position_m": [length * 2.0 * math.pi / k, 0.0, 0.0]}
+        scene = scene_from_toml(sea.to_toml(), place)
+        columns = sines(scene, 60).columns
+        heights_m.append(statistics(scene, columns, 0.0)["significant_elevation_m"])
+    assert heights_m == pytest.approx([4.0 * math.sqrt(0.5), 0.0], abs=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """What a run says of itself, on motions made of known lines: period 2, a torus, a failed run, one without waves."""
 
+import math
 import re
 from dataclasses import replace
 from types import SimpleNamespace
@@ -12,7 +13,7 @@ from engine.__main__ import main
 from engine.natural_frequencies import axial_period_s, impact_Nspm
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
-from engine.views import FOLLOWED, doubt_of_verdict, facts
+from engine.views import FOLLOWED, doubt_of_verdict, facts, strobed_states
 from tests.engine.lines import line
 
 PERIODS, STEPS = 310, 100
@@ -44,6 +45,23 @@ def test_a_motion_of_period_2():
     half = np.argmax(lines.amplitude[1:-1] * (lines.angular_frequency_radps[1:-1] < 0.9 * 2 * np.pi / 5)) + 1
     assert lines.angular_frequency_radps[half] == pytest.approx(np.pi / 5)
     assert lines.amplitude[half] == pytest.approx(0.25) and lines.amplitude[half + 1] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_motion_is_judged_in_the_plane_of_its_waves_whatever_their_direction():
+    """A buoy that swings with period 2 along the waves, and with period 1 across them and in height."""
+    angle = 2.0 * np.pi * np.arange(PERIODS * STEPS + 1) / STEPS
+    along_m, across_m = np.cos(0.5 * angle), 0.5 * np.sin(angle)
+    strobed = []
+    for heading in (0.0, 2.5):
+        run = moved(1.0)
+        scene = load_scene("tethered_buoy", {"motion.dimensions": 3, "waves.direction_rad": heading})
+        x_m = math.cos(heading) * along_m - math.sin(heading) * across_m
+        y_m = math.sin(heading) * along_m + math.cos(heading) * across_m
+        strobed.append(strobed_states(replace(run, scene=scene, columns=run.columns | {"x_m": x_m, "y_m": y_m}), 30))
+    (points, scale), (turned_points, turned_scale) = strobed
+    assert np.abs(points[2:] - points[:-2]).max() < 1e-9 < 0.5 < np.abs(points[1:] - points[:-1]).max()
+    np.testing.assert_allclose(turned_points, points, atol=1e-9)
+    assert turned_scale == pytest.approx(scale)
 
 
 def test_a_torus_needs_perturbations_to_be_told():

@@ -174,6 +174,15 @@ def test_the_envelope_is_the_slow_amplitude_of_two_waves_and_ends_with_the_ramp(
     assert np.abs(envelope_m(scene, t) - ramp * beat).max() < 1e-12
 
 
+def test_the_surface_over_the_anchor_touches_its_envelope_and_stays_below_it():
+    waves = [{"period_s": 5.0, "amplitude_m": 0.5}, {"period_s": 5.5, "amplitude_m": 0.3, "direction_rad": 2.0}]
+    place = {"anchor.position_m": [70.0, -30.0, 0.0], "motion.dimensions": 3}
+    scene = load_scene("tethered_buoy", {"waves": {"period_s": 5.0, "components": waves}, **place})
+    t = np.linspace(0.0, 200.0, 20001)
+    share = np.abs(elevation_m(scene, t, *scene.anchor.position_m[:2])) / envelope_m(scene, t)
+    assert 1.0 - 1e-5 < share.max() < 1.0 + 1e-9
+
+
 def test_a_gaussian_sea_has_its_energy_and_its_width_and_without_width_is_a_regular_wave():
     keys = {"waves.jonswap": None, "waves.significant_steepness": 0.1}
     broad = rows_of(sea(0, **keys, **{"waves.relative_width": 0.1, "waves.component_count": 500}))

@@ -56,6 +56,7 @@ def test_a_regular_motion_is_the_same(name):
     plane, space = both(parts, duration_s=duration_s)
     assert np.ptp(plane.profiles.x_m, axis=0).max() > 0.1
     assert distances(plane, space).max() < 1e-6
+    assert np.abs(plane.columns["angle_rad"] - space.columns["angle_rad"]).max() < 1e-6  # both along the waves
     tension = plane.columns["tension_top_N"]
     assert np.abs(tension - space.columns["tension_top_N"]).max() < 1e-4 * np.abs(tension).max()
 
