@@ -4,7 +4,7 @@ LOAD     the largest tension, and whether one may design for it (`campaigns.expl
 SNAPS    how often the line snaps, and how hard
 JUMP     where one motion becomes another, as the key rises, as it falls, and from rest
 MOTIONS  the range of each motion, and its regimes
-STARTS   where the start decides
+STARTS   where the start decides, and kicks that ended in no motion
 CHAOS    the largest exponent
 OPEN     what is not decided, why, and what would decide it
 
@@ -78,7 +78,7 @@ def sentences(rows: Rows, key: str, symbol: str, scene, companions: Rows = (), e
         "SNAPS": snaps(good, key, symbol),
         "JUMP": jump(good, key, symbol, ends),
         "MOTIONS": motions(good, key, symbol),
-        "STARTS": starts(good, key, symbol, scene),
+        "STARTS": " ".join(filter(None, (starts(good, key, symbol, scene), lost_kicks(rows, key, symbol)))),
         "CHAOS": chaos(good, key, symbol),
         "OPEN": undecided(rows, key, symbol, scene),
     }
@@ -319,6 +319,25 @@ def starts(rows: Rows, key: str, symbol: str, scene) -> str:
     return (
         f"{sentence}. At {symbol} = {typed(worst[key])}, {kicks} kicks{interval} end in motion {worst['motion']}, "
         f"which pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
+    )
+
+
+def lost_kicks(rows: Rows, key: str, symbol: str) -> str:
+    """How many kicks ended in no motion, and where; "" where each has one. rows: all, failed ones too."""
+    most = greatest(rows, "kicks")
+    if most is None:
+        return ""
+    values, lost = by_value(sorted(rows, key=partial(number_of, name=key)), key), []
+    for members in values.values():
+        joined = sum(number_of(row, "share") for row in known_rows(members, "share"))
+        lost.append(round(most["kicks"] * (1.0 - joined)))
+    if not any(lost):
+        return ""
+    place = ranges([*values], [how_many > 0 for how_many in lost], 2)
+    kicks = count(round(most["kicks"] * len(values)), "kick")
+    return (
+        f"{sum(lost)} of {kicks}, at {symbol} = {place}, ended in no motion: they had not settled or failed "
+        "(starts/table.csv)."
     )
 
 
