@@ -9,7 +9,8 @@ CHAOS    the largest exponent
 OPEN     what is not decided, why, and what would decide it
 
 A line is left out where the rows know nothing of it. A jump: between two neighbouring values the largest tension
-changes by more than a quarter, and by more than three times the median change between neighbours.
+changes by more than a quarter, and by more than three times the median change between neighbours. No change of two can
+be three times their median, so four values are needed.
 """
 
 import math
@@ -50,6 +51,7 @@ from tables import (
 )
 
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
+LEAST_PAIRS = 3  # of neighbours, for a change that is more than TYPICAL times their median
 NAMED = 3  # jumps that are named
 MOST_STRETCHES = 6  # of a motion that are named; of more each regime says at how many values it is
 LONGER = "a longer run (--budget) decides"
@@ -210,8 +212,13 @@ def _from_rest(rows: Rows, key: str, symbol: str, ended: bool) -> str:
     if words and ended:
         return f"From rest already: {', '.join(words)}, because the start-up crosses the border between these motions."
     if not words:
-        factor = math.exp(max(map(itemgetter(0), pairs)))
-        return "" if ended else f"none: the largest tension changes by a factor of {factor:.2g} between values at most."
+        if ended:
+            return ""
+        change = max(map(itemgetter(0), pairs))
+        verdict = "none"
+        if len(pairs) < LEAST_PAIRS and change > LEAST_JUMP:
+            verdict = f"not told by fewer than {LEAST_PAIRS + 1} values"
+        return f"{verdict}: the largest tension changes by a factor of {math.exp(change):.2g} between values at most."
     _, below, above = large[0]
     place = "There" if len(words) == 1 else "At the largest"
     return f"From rest, {symbol}: {', '.join(words)}. {place} {_swings(below, above)}."
