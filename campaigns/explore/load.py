@@ -4,7 +4,7 @@ A tension is doubted where the model says more than it knows (`reasons`).
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from campaigns.answers import greatest, kilonewton, known_rows
 from engine.natural_frequencies import natural_frequencies
@@ -46,10 +46,9 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:
         return sentences[0]
-    searched = bool(known_rows(rows, "share"))
     if not any(reasons(peak, scene)):
-        return f"{sentences[0]} {use_of(peak, scene, searched)}"
-    sentences.append(use_of(peak, scene, searched))
+        return f"{sentences[0]} {use_of(peak, scene, is_searched(peak, rows, keys))}"
+    sentences.append(use_of(peak, scene, is_searched(peak, rows, keys)))
     capped = greatest([row for row in companions if row["status"] == "ok" and row["role"] == CAPPED], PEAK)
     if capped is not None:
         sentences.append(f"With the {CAPPED} at most {kilonewton(capped[PEAK])}.")
@@ -59,8 +58,16 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         kind = "Largest without these faults"
         if scene.buoy is not None and scene.buoy.submergence == "full":
             kind = "Largest of the runs that stay in the water"
-        sentences += [f"{kind}: {place}.", use_of(usable, scene, searched)]
+        sentences += [f"{kind}: {place}.", use_of(usable, scene, is_searched(usable, rows, keys))]
     return " ".join(sentences)
+
+
+def is_searched(row: Row, rows: Rows, keys: Iterable[str]) -> bool:
+    """Whether a kick at the place of a row ended in a motion: kicks that have not settled find no other one."""
+    for other in known_rows(rows, "share"):
+        if other["share"] > 0.0 and all(other[key] == row[key] for key in keys):
+            return True
+    return False
 
 
 def place_of(row: Row, keys: Mapping[str, str]) -> str:

@@ -77,12 +77,14 @@ def test_what_steps_blur_waits_for_a_tighter_tolerance_and_not_for_a_longer_run(
     assert line.startswith("OPEN") and "solver.rtol" in line and "--budget" not in line
 
 
-def test_other_motions_were_looked_for_where_a_share_is_known():
+def test_other_motions_were_looked_for_where_a_kick_ended_in_a_motion():
     scene = load_scene("tethered_buoy")
     single = sentences([PULLS], "steepness", "kA", scene)
     kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
+    lost = sentences([PULLS | {"share": 0.0}], "steepness", "kA", scene)
     assert "other motions" in single[0].partition("not checked")[2]
     assert "other motions" not in kicked[0].partition("not checked")[2]
+    assert "other motions" in lost[0].partition("not checked")[2]
 
 
 def test_a_random_sea_says_how_long_it_was():
