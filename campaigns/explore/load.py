@@ -41,7 +41,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
     share = number_of(peak, "utilisation")
     if math.isfinite(share):
-        words[0] += f", {100.0 * share:.2g} % of the breaking load"
+        words[0] += f", {100.0 * share:.2g} % of the breaking load{_in_the_line(peak)}"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:
@@ -60,6 +60,14 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
             kind = "Largest of the runs that stay in the water"
         sentences += [f"{kind}: {place}.", use_of(usable, scene, is_searched(usable, rows, keys))]
     return " ".join(sentences)
+
+
+def _in_the_line(row: Row) -> str:
+    """ " (0.152 kN, 0 m from the anchor)": what is a share of the breaking load, if it is not about that at the top."""
+    most_N = number_of(row, "tension_line_max_N")
+    if not most_N > (1.0 + COARSE) * row[PEAK]:
+        return ""
+    return f" ({kilonewton(most_N)}, {typed(number_of(row, 'tension_line_max_s_m'))} m from the anchor)"
 
 
 def is_searched(row: Row, rows: Rows, keys: Iterable[str]) -> bool:

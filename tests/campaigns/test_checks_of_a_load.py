@@ -46,6 +46,13 @@ def test_a_load_names_its_share_of_a_known_breaking_load_only():
     assert "breaking load" not in load([PULLS], {"steepness": "kA"}, load_scene("tethered_buoy"))
 
 
+@pytest.mark.parametrize(("most_N", "words"), [(1040.0, "load,"), (2500.0, "load (2.5 kN, 0 m from the anchor),")])
+def test_a_share_of_the_breaking_load_says_where_the_line_is_pulled_if_not_at_its_top(most_N, words):
+    """The peak is 1000 N at the top."""
+    row = PULLS | {"utilisation": most_N / 1e4, "tension_line_max_N": most_N, "tension_line_max_s_m": 0.0}
+    assert f"% of the breaking {words}" in load([row], {"steepness": "kA"}, load_scene("tethered_buoy"))
+
+
 @pytest.mark.parametrize(
     ("name", "row", "changes"),
     [*((name, row, {}) for name, row in KNOWN.items()), *((name, {}, changes) for name, changes in IN_SCENE.items())],
