@@ -27,6 +27,7 @@ from tables import (
     typed,
 )
 
+BELOW_BED = "below the bed"  # in the message of a run (`engine.trajectory.excursions`)
 OVERBUOYANT = "the buoy comes out of the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
@@ -119,7 +120,10 @@ def use_of(row: Row, scene, searched: bool) -> str:
     elif waves is not None:
         checks[f"a sea longer than its {typed(number_of(row, 'end_time_s') / 60.0, 2)} min or of another seed"] = False
     if scene.water is not None:
-        checks["the sea bed"] = scene.floor is not None
+        bed = "the sea bed"
+        if BELOW_BED in str(row.get("message")):
+            bed = f"{bed} (the line lay below it: --set floor.stiffness_Npm3=1e5)"
+        checks[bed] = scene.floor is not None
     checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
     checks["what the scene is given (stiffness, drag, masses)"] = False
     passed, missing = [], []

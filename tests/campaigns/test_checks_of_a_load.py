@@ -9,6 +9,7 @@ from analysis.looks import BLURRED
 from campaigns.explore.answer import sentences
 from campaigns.explore.load import load, use_of
 from engine import load_scene
+from engine.trajectory.excursions import BED
 from tables import OPEN, OTHER_MOTION
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
@@ -65,6 +66,13 @@ def test_what_a_row_knows_or_a_scene_has_was_checked(name, row, changes):
 def test_the_error_of_the_largest_tension_is_told_in_kN_and_per_cent():
     line, *_ = sentences([PULLS | KNOWN["grid and steps"]], "steepness", "kA", load_scene("tethered_buoy"))
     assert "1 kN (± 0.03 kN by grid and steps)" in line and "grid and steps (± 3 %)" in line
+
+
+def test_a_line_that_lay_below_the_bed_is_told_beside_the_bed_that_was_not_checked():
+    row = PULLS | {"message": BED.format(most=0.72, first=30.7)}
+    scene = load_scene("tethered_buoy")
+    words = "the sea bed (the line lay below it: --set floor.stiffness_Npm3=1e5)"
+    assert words in checked(row, scene)[1] and words not in checked(PULLS, scene)[1]
 
 
 @pytest.mark.parametrize(("dimensions", "doubted"), [(2, True), (3, False)])
