@@ -120,7 +120,7 @@ def snaps(rows: Rows, key: str, symbol: str) -> str:
             continue
         words = f"{span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
         if len(snapping) < len(members):
-            words += f" from {symbol} = {typed(snapping[0][key])} on"
+            words += f" at {symbol} = {_at(snapping, members, key)}"
         largest = greatest(snapping, "snap_peak_max_N")
         if largest is not None:
             words += f", up to {kilonewton(largest['snap_peak_max_N'])}"
