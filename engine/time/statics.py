@@ -391,6 +391,13 @@ def why_no_rest(record: np.void, scene: Scene) -> str:
                 "the line is longer than the way along the bed and straight up to both ends: nothing stretches it "
                 "where it lies, because the bed at rest has no friction; shorten it, or move its held end away"
             )
+    if scene.floor is not None and scene.end.kind == "buoy":
+        mass_kg, displaced_kg = scene.buoy.mass_kg, scene.water.density_kgpm3 * math.pi * scene.buoy.diameter_m**3 / 6.0
+        if mass_kg > displaced_kg:
+            return (
+                f"the buoy, {mass_kg:.5g} kg, displaces {displaced_kg:.5g} kg of water, so that it sinks, and the bed "
+                "bears the line alone; lower buoy.mass_kg, or leave out [floor]"
+            )
     if record["spherical_cap"]:
         return (
             "the iteration did not settle; where the buoy floats on a slack line (buoy.submergence 'spherical-cap'), "
