@@ -15,7 +15,7 @@ WORDS = dict(
 )
 
 WAVES_ON_ELEMENT = (  # of a run that is ok
-    "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
+    "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force} N; "
     "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )
 ADVICE = {  # of the conservation form; `paper_box.driver` has its own
