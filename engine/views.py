@@ -11,6 +11,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 
 from engine.atomic import write_atomic
+from engine.digits import digits
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -259,7 +260,9 @@ def facts(run: "Trajectory") -> dict[str, str]:
     """What a run did, in words: the name of a fact -> its text; extremes of all of it, and after its beginning."""
     time_s, waves = run.columns["time_s"], run.scene.waves
     end_s = float(time_s[-1]) if len(time_s) else 0.0
-    length = f"{end_s:g} s" if waves is None else f"{end_s / waves.period_s:.4g} wave periods, {end_s:.4g} s"
+    length = f"{end_s:g} s"
+    if waves is not None:
+        length = f"{digits(end_s / waves.period_s, 4)} wave periods, {digits(end_s, 4)} s"
     texts = {"scene": run.scene.title or run.scene.name, "run": f"{run.status}, {length}"}
     if run.message:
         texts["message"] = run.message
@@ -289,7 +292,7 @@ def _snaps_in_words(run: "Trajectory") -> dict[str, str]:
         counted = snaps_of(run.scene, run.columns)
     except ValueError:
         return {}
-    text = f"{len(counted)} in {counted.watched_s:.4g} s"
+    text = f"{len(counted)} in {digits(counted.watched_s, 4)} s"
     if len(counted):
         hardest = counted.peak_N.argmax()
         text += f"; the hardest pulls with {counted.peak_N[hardest]:.2f} N (t = {counted.peak_s[hardest]:.5g} s)"
@@ -345,7 +348,7 @@ def snaps_of(
         static_N = static_tension_N(scene, columns) if sound.any() else np.nan
         if not static_N > 0.0:
             raise ValueError(
-                f"snaps: the line bears {static_N:.4g} N at rest; give static_N, which they are measured by"
+                f"snaps: the line bears {digits(static_N, 4)} N at rest; give static_N, which they are measured by"
             )
     if ringing_s is None:
         ringing_s = max(axial_period_s(scene, static_N), 2.0 * step_s)

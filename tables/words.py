@@ -25,6 +25,7 @@ VERDICTS = {
 SETTLED, JOINED, UNSETTLED = OUTCOMES = "settled", "joined", "unsettled"  # of a start
 COMPUTED, SCREENED, FAILED = "computed", "screened", "failed"  # where the regime of a cell of a map comes from
 CAPPED = "wetted cap"  # role of a companion
+WHOLE_BRANCH = "reaches", "comes back", "meets"  # first words of the end of a branch that was followed to its end
 # in a row's message: with smaller elements and steps
 OTHER_MOTION, OTHER_GROWTH = "becomes another motion", "perturbations grow otherwise"
 PEAK, PEAK_ERROR = "tension_top_max_N", "tension_top_max_error_N"

@@ -34,7 +34,7 @@ DOORS = {  # the only imports against the flow: module -> what it may import
     "engine.views": "analysis",
 }
 FLOORS = (  # rooms and modules of the engine, from the ground up; of two that hold a module the inner one counts
-    {"atomic", "streams", "record", "arrays", "compiled", "simd", "time.integrators"},
+    {"atomic", "streams", "digits", "record", "arrays", "compiled", "simd", "time.integrators"},
     {"planar.columns", "spatial.columns", "spatial.vectors", "scene.values", "scene.faults"},
     {"physics.laws", "physics.law_choice", "physics.tension", "physics.drag", "physics.strains"},
     {"scene"},

@@ -35,7 +35,7 @@ def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows
     elif parts["shock"]:
         times = worst[PEAK] / motions[0][PEAK]
         yield f"Motion {worst['motion']} is the dangerous one: it pulls {times:.2g} times as hard as A."
-    used = use_of(worst, scene, searched=True)
+    used = use_of(worst, scene, searched=any(row["motion"] for row in rows))
     yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
     if parts["shock"]:
         yield _shock(parts["shock"], across, math.cos(scene.waves.direction_rad))

@@ -63,7 +63,7 @@ class Options(motions.SweepOptions):
 
 def grid_of(values) -> Grid:
     """The places of a sweep over the wave steepness, whose column has a short name."""
-    return Grid((Varied(SWEPT, SWEPT, None, tuple(values), COLUMN),))
+    return Grid((Varied(SWEPT, SWEPT, (), tuple(values), COLUMN),))
 
 
 def cases(order: Order) -> Iterator[Job]:

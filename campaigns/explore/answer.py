@@ -4,12 +4,13 @@ LOAD     the largest tension, and whether one may design for it (`campaigns.expl
 SNAPS    how often the line snaps, and how hard
 JUMP     where one motion becomes another, as the key rises, as it falls, and from rest
 MOTIONS  the range of each motion, and its regimes
-STARTS   where the start decides
+STARTS   where the start decides, and kicks that ended in no motion
 CHAOS    the largest exponent
 OPEN     what is not decided, why, and what would decide it
 
 A line is left out where the rows know nothing of it. A jump: between two neighbouring values the largest tension
-changes by more than a quarter, and by more than three times the median change between neighbours.
+changes by more than a quarter, and by more than three times the median change between neighbours. No change of two can
+be three times their median, so four values are needed.
 """
 
 import math
@@ -50,6 +51,7 @@ from tables import (
 )
 
 LEAST_JUMP, TYPICAL = math.log(1.25), 3.0
+LEAST_PAIRS = 3  # of neighbours, for a change that is more than TYPICAL times their median
 NAMED = 3  # jumps that are named
 MOST_STRETCHES = 6  # of a motion that are named; of more each regime says at how many values it is
 LONGER = "a longer run (--budget) decides"
@@ -81,7 +83,7 @@ def sentences(rows: Rows, key: str, symbol: str, scene, companions: Rows = (), e
         "SNAPS": snaps(good, key, symbol),
         "JUMP": jump(good, key, symbol, ends),
         "MOTIONS": motions(good, key, symbol),
-        "STARTS": starts(good, key, symbol, scene),
+        "STARTS": " ".join(filter(None, (starts(good, key, symbol, scene), lost_kicks(rows, key, symbol)))),
         "CHAOS": chaos(good, key, symbol),
         "OPEN": undecided(rows, key, symbol, scene),
     }
@@ -121,7 +123,7 @@ def snaps(rows: Rows, key: str, symbol: str) -> str:
             continue
         words = f"{span(numbers_of(snapping, 'snaps_per_wave'))} a wave"
         if len(snapping) < len(members):
-            words += f" from {symbol} = {typed(snapping[0][key])} on"
+            words += f" at {symbol} = {_at(snapping, members, key)}"
         largest = greatest(snapping, "snap_peak_max_N")
         if largest is not None:
             words += f", up to {kilonewton(largest['snap_peak_max_N'])}"
@@ -213,8 +215,13 @@ def _from_rest(rows: Rows, key: str, symbol: str, ended: bool) -> str:
     if words and ended:
         return f"From rest already: {', '.join(words)}, because the start-up crosses the border between these motions."
     if not words:
-        factor = math.exp(max(map(itemgetter(0), pairs)))
-        return "" if ended else f"none: the largest tension changes by a factor of {factor:.2g} between values at most."
+        if ended:
+            return ""
+        change = max(map(itemgetter(0), pairs))
+        verdict = "none"
+        if len(pairs) < LEAST_PAIRS and change > LEAST_JUMP:
+            verdict = f"not told by fewer than {LEAST_PAIRS + 1} values"
+        return f"{verdict}: the largest tension changes by a factor of {math.exp(change):.2g} between values at most."
     _, below, above = large[0]
     place = "There" if len(words) == 1 else "At the largest"
     return f"From rest, {symbol}: {', '.join(words)}. {place} {_swings(below, above)}."
@@ -322,6 +329,25 @@ def starts(rows: Rows, key: str, symbol: str, scene) -> str:
     return (
         f"{sentence}. At {symbol} = {typed(worst[key])}, {kicks} kicks{interval} end in motion {worst['motion']}, "
         f"which pulls {kilonewton(worst[PEAK])}; {other} pulls {kilonewton(usual[PEAK])}."
+    )
+
+
+def lost_kicks(rows: Rows, key: str, symbol: str) -> str:
+    """How many kicks ended in no motion, and where; "" where each has one. rows: all, failed ones too."""
+    most = greatest(rows, "kicks")
+    if most is None:
+        return ""
+    values, lost = by_value(sorted(rows, key=partial(number_of, name=key)), key), []
+    for members in values.values():
+        joined = sum(number_of(row, "share") for row in known_rows(members, "share"))
+        lost.append(round(most["kicks"] * (1.0 - joined)))
+    if not any(lost):
+        return ""
+    place = ranges([*values], [how_many > 0 for how_many in lost], 2)
+    kicks = count(round(most["kicks"] * len(values)), "kick")
+    return (
+        f"{sum(lost)} of {kicks}, at {symbol} = {place}, ended in no motion: they had not settled or failed "
+        "(starts/table.csv)."
     )
 
 

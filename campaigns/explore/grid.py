@@ -22,16 +22,17 @@ STEEPNESS = Column("steepness", "", "kA", "wave steepness: wave number times amp
 class Varied:
     """A key with its values.
 
-    key: as on the command line, "water.depth_m", "start.buoy_velocity_mps[1]" or "waves.components[0].amplitude_m".
+    key: as on the command line, "water.depth_m", "start.buoy_velocity_mps[1]", "current.velocity_mps[2][0]" or
+    "waves.components[0].amplitude_m".
     name: of the number or of the list in the scene.
-    index: of the element of a list; None for a number.
+    index: of the element of a list, a number for each list within it; () for a number.
     part: the number in an element that is a table; "" for an element that is a number.
     column: of tables, with its name, unit and symbol.
     """
 
     key: str
     name: str
-    index: int | None
+    index: tuple[int, ...]
     values: tuple
     column: Column
     part: str = ""
@@ -41,27 +42,44 @@ class Varied:
 
         base: the scene whose list it is; two keys may change two elements of one list.
         """
-        if self.index is None:
+        if not self.index:
             changes[self.name] = value
             return
         elements = changes.get(self.name)
         if elements is None:
             elements = reduce(lambda table, name: (table or {}).get(name), self.name.split("."), base.as_dict())
-        if not isinstance(elements, list | tuple) or self.index >= len(elements):
+        element = _element(elements, self.index)
+        if element is None:
             yield f"--vary {self.key}: the scene has no such element; {self.name} is {elements}"
             return
+        if isinstance(element, list | tuple):
+            yield f"--vary {self.key}: holds a list; allowed: one element of it, as {self.key}[0]"
+            return
         if self.part:
-            value = {**elements[self.index], self.part: value}
-        changes[self.name] = [*elements[: self.index], value, *elements[self.index + 1 :]]
+            value = {**element, self.part: value}
+        changes[self.name] = _with_element(elements, self.index, value)
 
     def of(self, scene) -> float | None:
         """The value of the key in a scene; None where it has none."""
         value = reduce(lambda section, name: getattr(section, name, None), self.name.split("."), scene)
-        if self.index is None:
-            return value
-        if isinstance(value, list | tuple) and self.index < len(value):
-            return value[self.index]
-        return None
+        return _element(value, self.index)
+
+
+def _element(elements, index: tuple[int, ...]):
+    """The element of lists within lists; None where there is none. index: () for the whole."""
+    for place in index:
+        if not isinstance(elements, list | tuple) or place >= len(elements):
+            return None
+        elements = elements[place]
+    return elements
+
+
+def _with_element(elements, index: tuple[int, ...], value):
+    """The lists with another value at an index."""
+    if not index:
+        return value
+    place, *inner = index
+    return [*elements[:place], _with_element(elements[place], inner, value), *elements[place + 1 :]]
 
 
 def varied(
@@ -80,7 +98,7 @@ def varied(
     from engine.scene.reference import keys
 
     key = words[0]
-    list_name, element, part = re.fullmatch(r"(?s)(.*?)(?:\[(\d+)\](?:\.(\w+))?)?", key).groups("")
+    list_name, places, part = re.fullmatch(r"(?s)(.*?)(?:((?:\[\d+\])+)(?:\.(\w+))?)?", key).groups("")
     name = ".".join(filter(None, (list_name, part)))
     declared = keys().get(name)
     kind = declared and declared.kind
@@ -95,7 +113,7 @@ def varied(
     if declared is None:
         faults.append(f"{option} {key}: no such key{suggestion(name, list(keys()))}")
         return None
-    if kind == "list" and not element:
+    if kind == "list" and not places:
         faults.append(f"{option} {key}: holds a list; allowed: one element of it, as {name}[0]")
         return None
     if kind not in ("number", "whole number", "list") and not text:
@@ -114,8 +132,8 @@ def varied(
         symbol = key.rpartition(".")[2]
     meaning = declared.meaning[:1].lower() + declared.meaning[1:].rstrip(".")
     column = Column(key, declared.unit.removesuffix("1"), symbol, meaning, digits)
-    place = int(element) if element else None
-    return Varied(key, list_name, place, values, column, part)
+    index = tuple(map(int, re.findall(r"\d+", places)))
+    return Varied(key, list_name, index, values, column, part)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ A tension is doubted where the model says more than it knows (`reasons`).
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from campaigns.answers import greatest, kilonewton, known_rows
 from engine.natural_frequencies import natural_frequencies
@@ -27,6 +27,7 @@ from tables import (
     typed,
 )
 
+BELOW_BED = "below the bed"  # in the message of a run (`engine.trajectory.excursions`)
 OVERBUOYANT = "the buoy comes out of the water and keeps its whole buoyancy (--set buoy.submergence=spherical-cap)"
 
 
@@ -41,15 +42,14 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
     share = number_of(peak, "utilisation")
     if math.isfinite(share):
-        words[0] += f", {100.0 * share:.2g} % of the breaking load"
+        words[0] += f", {100.0 * share:.2g} % of the breaking load{_in_the_line(peak)}"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
     sentences = [f"{', '.join(filter(None, words))}."]
     if scene is None:
         return sentences[0]
-    searched = bool(known_rows(rows, "share"))
     if not any(reasons(peak, scene)):
-        return f"{sentences[0]} {use_of(peak, scene, searched)}"
-    sentences.append(use_of(peak, scene, searched))
+        return f"{sentences[0]} {use_of(peak, scene, is_searched(peak, rows, keys))}"
+    sentences.append(use_of(peak, scene, is_searched(peak, rows, keys)))
     capped = greatest([row for row in companions if row["status"] == "ok" and row["role"] == CAPPED], PEAK)
     if capped is not None:
         sentences.append(f"With the {CAPPED} at most {kilonewton(capped[PEAK])}.")
@@ -59,8 +59,24 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         kind = "Largest without these faults"
         if scene.buoy is not None and scene.buoy.submergence == "full":
             kind = "Largest of the runs that stay in the water"
-        sentences += [f"{kind}: {place}.", use_of(usable, scene, searched)]
+        sentences += [f"{kind}: {place}.", use_of(usable, scene, is_searched(usable, rows, keys))]
     return " ".join(sentences)
+
+
+def _in_the_line(row: Row) -> str:
+    """ " (0.152 kN, 0 m from the anchor)": what is a share of the breaking load, if it is not about that at the top."""
+    most_N = number_of(row, "tension_line_max_N")
+    if not most_N > (1.0 + COARSE) * row[PEAK]:
+        return ""
+    return f" ({kilonewton(most_N)}, {typed(number_of(row, 'tension_line_max_s_m'))} m from the anchor)"
+
+
+def is_searched(row: Row, rows: Rows, keys: Iterable[str]) -> bool:
+    """Whether a kick at the place of a row ended in a motion: kicks that have not settled find no other one."""
+    for other in known_rows(rows, "share"):
+        if other["share"] > 0.0 and all(other[key] == row[key] for key in keys):
+            return True
+    return False
 
 
 def place_of(row: Row, keys: Mapping[str, str]) -> str:
@@ -104,7 +120,10 @@ def use_of(row: Row, scene, searched: bool) -> str:
     elif waves is not None:
         checks[f"a sea longer than its {typed(number_of(row, 'end_time_s') / 60.0, 2)} min or of another seed"] = False
     if scene.water is not None:
-        checks["the sea bed"] = scene.floor is not None
+        bed = "the sea bed"
+        if BELOW_BED in str(row.get("message")):
+            bed = f"{bed} (the line lay below it: --set floor.stiffness_Npm3=1e5)"
+        checks[bed] = scene.floor is not None
     checks["motion out of the plane"] = 3 in (number_of(row, "dimensions"), scene.motion.dimensions)
     checks["what the scene is given (stiffness, drag, masses)"] = False
     passed, missing = [], []

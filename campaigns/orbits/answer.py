@@ -7,7 +7,7 @@ from functools import partial
 from itertools import groupby
 
 from campaigns.answers import kilonewton, numbers_of
-from tables import Column, Row, count, listed, number_of, typed
+from tables import WHOLE_BRANCH, Column, Row, count, listed, number_of, typed
 
 NONE = "No periodic motion has an orbit that could be found: {}."
 ACCURATE = 2e-4  # of an event, and of its value where that is above 1, as in the report
@@ -75,6 +75,10 @@ def _branch(branch: Row, orbits: Sequence[Row], key: Column, events: Sequence[Ro
     sentence += f": {stability}"
     if events:
         sentence += f"; {listed(_event(event, key) for event in events)}"
+    ends = [end for end in (branch["begins"], branch["ends"]) if end]
+    reasons = dict.fromkeys(end for end in ends if not end.startswith(WHOLE_BRANCH))
+    if reasons:
+        sentence += f"; not followed to its end ({listed(reasons)})"
     return f"{sentence}."
 
 

@@ -18,6 +18,7 @@ from campaigns.answers import lasting
 from campaigns.explore.grid import Grid, varied
 from campaigns.explore.sweep import REST
 from campaigns.machinery import CampaignStopped, Plan, Summary, spare_groups
+from campaigns.machinery.session import condensed
 from campaigns.study import Order
 from engine.views import carries_tangents
 from tables import PEAK, Rows, number_of
@@ -59,7 +60,10 @@ def one_set(order: Order) -> bool:
 
 
 def regular_order(order: Order) -> Order | None:
-    """The order of a sweep over regular waves; None where the states of a map have none in common."""
+    """The order of a sweep over regular waves; None where the states of a map have none in common.
+
+    Raises CampaignStopped where a wave cannot be run.
+    """
     if not one_set(order):
         return None
     heights_m = sorted({round(significant_height_m(scene), 4) for scene in order.scenes})
@@ -86,14 +90,19 @@ def regular_order(order: Order) -> Order | None:
         seed=order.options.seed,
         no_accuracy=True,
     )
+    if waves.faults:
+        raise CampaignStopped("; ".join(condensed(waves.faults)) + "; leave regular waves out with --no-regular")
     waves.simulate = None if order.simulate is engine.simulate else order.simulate
     return waves
 
 
 def regular_ahead(order: Order, plan: Plan) -> None:
-    """Let workers that would wait for the last runs in a sea do those of regular waves from rest."""
+    """Let workers that would wait for the last runs in a sea do those of regular waves from rest.
+
+    Raises CampaignStopped where a wave cannot be run: before the runs in the sea.
+    """
     waves = regular_order(order)
-    if waves is not None and not waves.faults:
+    if waves is not None:
         plan.spare.extend(spare_groups(sweep.STUDY.plan(waves), waves.how.out, waves.cases))
 
 
@@ -102,8 +111,6 @@ def regular_waves(order: Order, plan: Plan, summary: Summary) -> float:
     waves = regular_order(order)
     if waves is None:
         return 0.0
-    if waves.faults:
-        raise CampaignStopped("; ".join(waves.faults) + "; leave regular waves out with --no-regular")
     plan.spare.clear()  # what is left of `regular_ahead` is done here
     (waves.how.out / "trajectories").mkdir(parents=True, exist_ok=True)
     return sweep.STUDY.work(waves).times["analysis_s"]

@@ -68,7 +68,7 @@ def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
     grid = order.options.grid
     grid.refuse_set(order)
-    first = {key.name: key.values[0] for key in grid.keys if key.index is None}
+    first = {key.name: key.values[0] for key in grid.keys if not key.index}
     base = order.base() or order.base(first, tell=True)  # keys may need each other
     if base is None or not grid.keys:
         return

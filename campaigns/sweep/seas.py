@@ -63,6 +63,8 @@ def _sea(rows: Rows, symbols: Mapping[str, str], scene) -> str:
     if "waves.period_s" not in symbols:
         words += f", peak period {scene.waves.period_s:.3g} s"
     left_out = f"the first {rows[0]['transient_periods']:.3g} peak periods left out (--transient)"
+    if rows[0]["transient_periods"] == 0.0:
+        left_out = "from its first moment on: waves that do not grow (waves.ramp_s) may pull hardest as they set in"
     return f"{words}; one run for each value, {left_out}."
 
 

@@ -31,6 +31,7 @@ from .rest import Rest, largest_turn, rest_of
 from .start import taken_over
 from .trust import doubts_of
 
+CONTROLLED = "solver.rtol or solver.max_step_s"  # keys of steps that are controlled
 CALL_S = 0.1  # length of a call of machine code; Ctrl-C has an effect only between two calls
 
 
@@ -210,7 +211,8 @@ class Run:
 
     def _reason(self) -> str:
         """Why the run ended early."""
-        message = advice(self.state)
+        steps = CONTROLLED if self.record["adaptive"] else longest_step(self.scene)[0]
+        message = advice(self.state, steps)
         return message if self.rest is None else message + self.rest.fault
 
     def _statistics(self, columns: Columns) -> dict[str, int | float]:
@@ -247,8 +249,11 @@ class Idle(Run):
         self.state["status"] = OK
 
 
-def advice(state: np.void) -> str:
-    """What the status of a STATE means, "event: what to do"; the reason of a failure of statics is still to come."""
+def advice(state: np.void, steps: str = CONTROLLED) -> str:
+    """What the status of a STATE means, "event: what to do"; the reason of a failure of statics is still to come.
+
+    steps: the keys that shorten the steps.
+    """
     return ADVICE[int(state["status"])].format(
-        t=state["t"], dt=state["dt"], turn=state["max_turn"], releases=state["releases"]
+        t=state["t"], dt=state["dt"], steps=steps, turn=state["max_turn"], releases=state["releases"]
     )

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ..digits import digits
 from ..record import ONE_STAGE
 from ..scene.models import Output, Scene
 from ..time.status import OK
@@ -70,8 +71,8 @@ def steps_too_long(run: "Run", columns: Columns) -> str:
     if error_N <= NOTED * abs(largest_N):
         return ""
     return (
-        f"the largest tension, {largest_N:.4g} N, holds to {error_N:.2g} N, because it is {other_N:.4g} N in steps "
-        "twice as long: shorten solver.step_s"
+        f"the largest tension, {digits(largest_N, 4)} N, holds to {digits(error_N, 2)} N, because it is "
+        f"{digits(other_N, 4)} N in steps twice as long: shorten solver.step_s"
     )
 
 
@@ -215,13 +216,11 @@ class _Differences(NamedTuple):
 
     def words(self, limits: _Limits) -> str:
         """A sentence on the largest tension and on the slack fraction, each if it differs by more; or nothing."""
-        parts = []
+        parts, largest = [], digits(self.largest_N, 4)
         if self.tension > limits.tension:
-            parts.append(f"the largest tension is {self.other_N:.4g} N in place of {self.largest_N:.4g} N")
+            parts.append(f"the largest tension is {digits(self.other_N, 4)} N in place of {largest} N")
         elif self.at_peak > limits.at_peak:
-            parts.append(
-                f"the top bears {self.at_peak_N:.4g} N where this run bears its largest {self.largest_N:.4g} N"
-            )
+            parts.append(f"the top bears {digits(self.at_peak_N, 4)} N where this run bears its largest {largest} N")
         if self.slack_change > limits.slack:
             most = int(np.abs(self.other_slack - self.slack).argmax())
             threshold, slack, other_slack = THRESHOLDS[most], self.slack[most], self.other_slack[most]
@@ -239,7 +238,7 @@ def _differences(run, columns, duration_s, grid):
     scene = run.scene
     other, settings = _on_grid(run, grid)
     if duration_s < run.duration_s:
-        settings += f", in the first {duration_s:.4g} s,"
+        settings += f", in the first {digits(duration_s, 4)} s,"
     other_columns = _columns_of_companion(run, other, duration_s)
     if other_columns is None:
         return None

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..digits import digits
 from ..parameters.limits import longest_step
 from ..parameters.scales import fastest_wave, jumps_of, ringing_period, wave_beyond
 from ..physics.sea import AMPLITUDE, OMEGA, RECURRENCES, SPEED, K, rows_of
@@ -80,7 +81,8 @@ def _coarse_at_rest(run):
     if finer.status != OK or abs(top_N - finer.top_N) <= NOTED * max(abs(top_N), abs(finer.top_N)):
         return ""
     return (
-        f"at rest the top bears {top_N:.4g} N on this grid and {finer.top_N:.4g} N on {nodes} nodes: add tether.nodes"
+        f"at rest the top bears {digits(top_N, 4)} N on this grid and {digits(finer.top_N, 4)} N on {nodes} nodes: "
+        "add tether.nodes"
     )
 
 
@@ -120,7 +122,7 @@ def _waves_on_element(run):
     force_N = wave_beyond(record, length, float(top_m))
     if force_N <= HEARD * tension_at(1.0 / record["per_strain"], run.scene.tether.tension):
         return ""
-    return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=force_N)
+    return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=digits(force_N, 2))
 
 
 def _undamped(run, columns):
@@ -159,8 +161,9 @@ def _unsteady_at_rest(run):
     if weight_N <= 0.0 or rest.top_N >= -ROUNDING * weight_N:
         return ""
     return (
-        f"the buoy does not carry the line, whose top is pressed with {-rest.top_N:.4g} N at rest: it falls out of an "
-        "equilibrium that does not last, and the grid decides how; give the buoy more buoyancy, or the line less weight"
+        f"the buoy does not carry the line, whose top is pressed with {digits(-rest.top_N, 4)} N at rest: it falls out "
+        "of an equilibrium that does not last, and the grid decides how; give the buoy more buoyancy, or the line less "
+        "weight"
     )
 
 
@@ -180,7 +183,7 @@ def _pressed_together(run, columns):
     largest_N = columns["tension_top_high_N"].max()
     return (
         f"elements of {element_m:.2g} m cannot buckle as the line does, which is pressed together: without drag across "
-        f"the line the largest tension, {largest_N:.4g} N, holds to {pressed_N:.2g} N; add nodes"
+        f"the line the largest tension, {digits(largest_N, 4)} N, holds to {digits(pressed_N, 2)} N; add nodes"
     )
 
 
@@ -241,7 +244,8 @@ def _sea(run, columns):
     if len(omega) >= MANY and run.duration_s > (1.0 if measured else RECURRENCES) * recurs_s:
         yield (
             f"the sea has {len(omega)} waves and {'repeats' if measured else 'nearly repeats its groups'} after some "
-            f"{recurs_s:.4g} s: " + ("use a longer record" if measured else "give it more waves, or run several seeds")
+            f"{digits(recurs_s, 4)} s: "
+            + ("use a longer record" if measured else "give it more waves, or run several seeds")
         )
 
 
@@ -279,12 +283,13 @@ def unresolved(record: np.void, tables: np.ndarray, scene: Scene, columns: Colum
     cause = f"axial ringing of period {ringing_period(record, scene):.2g} s is"
     if record["all_waves"]:
         cause = f"axial waves on elements of {lengths_of(record, tables)[-1]:.2g} m are"
-    holds = f"the largest tension, {high[peak]:.4g} N at t = {time_s[peak]:.4g} s, holds to {errors[peak]:.2g} N"
+    largest = f"{digits(high[peak], 4)} N at t = {digits(time_s[peak], 4)} s"
+    holds = f"the largest tension, {largest}, holds to {digits(errors[peak], 2)} N"
     if errors[worst] > 1.1 * errors[peak]:
-        holds += f", others to {errors[worst]:.2g} N (t = {time_s[worst]:.4g} s)"
+        holds += f", others to {digits(errors[worst], 2)} N (t = {digits(time_s[worst], 4)} s)"
     settled = large[-1] + 1
     if settled < len(errors):
-        holds += f", from t = {time_s[settled]:.4g} s on to {errors[settled:].max():.2g} N"
+        holds += f", from t = {digits(time_s[settled], 4)} s on to {digits(errors[settled:].max(), 2)} N"
     return f"{cause} not resolved by steps of up to {step_s:.2g} s: {holds}; lower {key}"
 
 
@@ -304,7 +309,7 @@ def blows(record: np.void, scene: Scene, columns: Columns) -> str:
         force_N = float(record["m"]) * wave_mps * speed * min(1.0, back_s / max(spread_s, 1e-300))
         soon = t - spread_s <= largest_s <= t + spread_s + 2 * back_s + sample_s
         if soon and 0 < rise_N < 2 * force_N and force_N > NOTED * forces.max():
-            jumps.append(f"by {speed:.2g} m/s at t = {t:.4g} s (about {force_N:.2g} N)")
+            jumps.append(f"by {speed:.2g} m/s at t = {digits(t, 4)} s (about {digits(force_N, 2)} N)")
     if not jumps:
         return ""
     return f"the velocity of end.motion jumps {' and '.join(jumps)}, a blow on the line: let it begin and end at rest"

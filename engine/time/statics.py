@@ -12,6 +12,7 @@ from itertools import product
 import numpy as np
 
 from ..arrays import Stage
+from ..digits import digits
 from ..parameters import numbers_of
 from ..parameters.scales import buckling_load
 from ..physics.strains import strain_at, tension_at
@@ -369,8 +370,8 @@ def why_no_rest(record: np.void, scene: Scene) -> str:
         carried = tension_at(MOST_STRAIN, law)
         if largest > carried:
             return (
-                f"the line has to carry {largest:.4g} N, and tether.tension gives {carried:.4g} N at a strain of "
-                f"{MOST_STRAIN:g}; lower the load or raise the stiffness"
+                f"the line has to carry {digits(largest, 4)} N, and tether.tension gives {digits(carried, 4)} N at a "
+                f"strain of {MOST_STRAIN:g}; lower the load or raise the stiffness"
             )
         if largest == 0 and not record["bent"]:
             return (
@@ -380,8 +381,8 @@ def why_no_rest(record: np.void, scene: Scene) -> str:
     pull = tension_at(NEARLY_NOTHING, law)
     if pull > 0 and (loads is None or pull > min(loads)):
         return (
-            f"tether.tension still pulls with {pull:.4g} N at a strain of {NEARLY_NOTHING:g}; let it fall to zero "
-            "where the line is not stretched"
+            f"tether.tension still pulls with {digits(pull, 4)} N at a strain of {NEARLY_NOTHING:g}; let it fall to "
+            "zero where the line is not stretched"
         )
     if scene.floor is not None and scene.end.kind == "held":
         x, y, z = scene.end.position_m
@@ -390,6 +391,13 @@ def why_no_rest(record: np.void, scene: Scene) -> str:
             return (
                 "the line is longer than the way along the bed and straight up to both ends: nothing stretches it "
                 "where it lies, because the bed at rest has no friction; shorten it, or move its held end away"
+            )
+    if scene.floor is not None and scene.end.kind == "buoy":
+        mass_kg, displaced_kg = scene.buoy.mass_kg, scene.water.density_kgpm3 * math.pi * scene.buoy.diameter_m**3 / 6.0
+        if mass_kg > displaced_kg:
+            return (
+                f"the buoy, {mass_kg:.5g} kg, displaces {displaced_kg:.5g} kg of water, so that it sinks, and the bed "
+                "bears the line alone; lower buoy.mass_kg, or leave out [floor]"
             )
     if record["spherical_cap"]:
         return (

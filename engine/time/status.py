@@ -15,13 +15,13 @@ WORDS = dict(
 )
 
 WAVES_ON_ELEMENT = (  # of a run that is ok
-    "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force:.2g} N; "
+    "elements of {length:.2g} m are longer than the waves reach down ({depth:.2g} m): tensions hold to {force} N; "
     "add nodes, or refine the grid upwards (tether.grid_stretching)"
 )
 ADVICE = {  # of the conservation form; `paper_box.driver` has its own
     OK: "",
     NEWTON_FAILED: "Newton's method did not converge at t = {t:.6g} s, at the smallest step tried ({dt:.2g} s): "
-    "lower solver.rtol or solver.max_step_s, or add nodes",
+    "lower {steps}, or add nodes",
     STEP_UNDERFLOW: "the error control asks for steps below solver.min_step_s at t = {t:.6g} s (last step {dt:.2g} s): "
     "raise solver.rtol, lower solver.min_step_s, or look for a load or mass that no line of this size could bear",
     TURN_UNRESOLVED: "the tether turns by {turn:.3g} rad within one element at t = {t:.6g} s ({releases} loop releases "

@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 
 from engine.views import strobed_radius
-from tables import EMPTY, Column, any_rows, count, decimals, listed, number, number_of
+from tables import EMPTY, WHOLE_BRANCH, Column, any_rows, count, decimals, listed, number, number_of
 
 from ..buoy_sweep.motions import MARKS
 from ..figures.curves import Curve, Panel, curves, dots
@@ -43,7 +43,6 @@ from .curves import curve_items
 
 _NEEDED = ("branch", "place", "period", "unstable", MODULUS, PEAK, "status", "message")
 _ACCURATE = 2e-4  # largest error of an event that needs no mark; a share of the value of the key where that is above 1
-_WHOLE = "reaches", "comes back", "meets"  # first words of the end of a branch that was followed to its end
 _SHOWN = range(1, 5)  # numbers of the multipliers that are shown
 _FAR = 3.0  # largest modulus in the figure over the key
 _OUT = 2.0  # largest modulus in the complex plane
@@ -302,7 +301,7 @@ def _warnings(folder: Folder, key: Column, branches: Sequence[Branch]) -> Notice
             lines.append(f"Branch {branch.name} changes its stability at {listed(places)}: no event was located there.")
     for row in followed:
         for end in (row["begins"], row["ends"]):
-            if end and not end.startswith(_WHOLE):
+            if end and not end.startswith(WHOLE_BRANCH):
                 lines.append(f"Branch {row['branch']} was not followed to its end: {end}.")
     coarse = []
     for row in events:

@@ -93,6 +93,15 @@ def test_a_map_names_the_largest_tension_and_the_largest_that_may_be_used():
     assert sentence.startswith("Not for design: 1 loop released") and "4 kN, at kA = 0.04" in sentence
 
 
+@pytest.mark.parametrize(("left_out", "told"), [(0.0, True), (10.0, False)])
+def test_a_sweep_in_a_sea_that_leaves_nothing_out_doubts_its_first_moments(left_out, told):
+    row = {"kA": 0.1, "status": "ok", PEAK: 9e3, "transient_periods": left_out, "significant_elevation_m": 1.0}
+    row |= {"tension_mean_N": 5e3, "tension_std_N": 800.0}
+    scene = load_scene("tethered_buoy", {"waves.jonswap.significant_height_m": 1.0})
+    first, *_ = of_sweep_in_a_sea([row], {"kA": "kA"}, scene)
+    assert first.startswith("SEA") and ("may pull hardest as they set in" in first) == told
+
+
 def test_a_sweep_in_a_sea_names_where_the_tension_varies_least_and_most():
     rows = []
     for kA, mean_N, deviation_N in ((0.1, 5e3, 800.0), (0.2, 6e3, 300.0), (0.3, 5500.0, 500.0)):

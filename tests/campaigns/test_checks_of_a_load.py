@@ -9,6 +9,7 @@ from analysis.looks import BLURRED, OF_STEPS
 from campaigns.explore.answer import sentences
 from campaigns.explore.load import load, use_of
 from engine import load_scene
+from engine.trajectory.excursions import BED
 from tables import OPEN, OTHER_MOTION
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
@@ -46,6 +47,13 @@ def test_a_load_names_its_share_of_a_known_breaking_load_only():
     assert "breaking load" not in load([PULLS], {"steepness": "kA"}, load_scene("tethered_buoy"))
 
 
+@pytest.mark.parametrize(("most_N", "words"), [(1040.0, "load,"), (2500.0, "load (2.5 kN, 0 m from the anchor),")])
+def test_a_share_of_the_breaking_load_says_where_the_line_is_pulled_if_not_at_its_top(most_N, words):
+    """The peak is 1000 N at the top."""
+    row = PULLS | {"utilisation": most_N / 1e4, "tension_line_max_N": most_N, "tension_line_max_s_m": 0.0}
+    assert f"% of the breaking {words}" in load([row], {"steepness": "kA"}, load_scene("tethered_buoy"))
+
+
 @pytest.mark.parametrize(
     ("name", "row", "changes"),
     [*((name, row, {}) for name, row in KNOWN.items()), *((name, {}, changes) for name, changes in IN_SCENE.items())],
@@ -58,6 +66,13 @@ def test_what_a_row_knows_or_a_scene_has_was_checked(name, row, changes):
 def test_the_error_of_the_largest_tension_is_told_in_kN_and_per_cent():
     line, *_ = sentences([PULLS | KNOWN["grid and steps"]], "steepness", "kA", load_scene("tethered_buoy"))
     assert "1 kN (± 0.03 kN by grid and steps)" in line and "grid and steps (± 3 %)" in line
+
+
+def test_a_line_that_lay_below_the_bed_is_told_beside_the_bed_that_was_not_checked():
+    row = PULLS | {"message": BED.format(most=0.72, first=30.7)}
+    scene = load_scene("tethered_buoy")
+    words = "the sea bed (the line lay below it: --set floor.stiffness_Npm3=1e5)"
+    assert words in checked(row, scene)[1] and words not in checked(PULLS, scene)[1]
 
 
 @pytest.mark.parametrize(("dimensions", "doubted"), [(2, True), (3, False)])
@@ -83,12 +98,14 @@ def test_what_steps_blur_waits_for_a_tighter_tolerance_and_not_for_a_longer_run(
     assert line.startswith("OPEN") and "solver.rtol" in line and "--budget" not in line
 
 
-def test_other_motions_were_looked_for_where_a_share_is_known():
+def test_other_motions_were_looked_for_where_a_kick_ended_in_a_motion():
     scene = load_scene("tethered_buoy")
     single = sentences([PULLS], "steepness", "kA", scene)
     kicked = sentences([PULLS | {"share": 0.5}], "steepness", "kA", scene)
+    lost = sentences([PULLS | {"share": 0.0}], "steepness", "kA", scene)
     assert "other motions" in single[0].partition("not checked")[2]
     assert "other motions" not in kicked[0].partition("not checked")[2]
+    assert "other motions" in lost[0].partition("not checked")[2]
 
 
 def test_a_random_sea_says_how_long_it_was():

@@ -65,6 +65,15 @@ def test_listed_waves_are_one_sea_and_no_other_is_drawn(tmp_path):
     assert plain == [(1, start) for start in range(4)] and order.options.most_hours == 0.0
 
 
+def test_regular_waves_that_cannot_be_run_end_the_command_before_the_runs_in_the_sea(tmp_path, capsys):
+    """The sea may be run, but regular waves of 1.86 times its height are no longer linear."""
+    words = [word for word in SHORT if word != "--no-regular"]
+    code = sea.main([*words, "--set", f"{sea.HEIGHT}=4", "waves.period_s=20", "--out", str(tmp_path)])
+    error = capsys.readouterr().err
+    assert code == 1 and not finished(tmp_path)
+    assert error.count("Hedges") == 1 and "more with other numbers" in error and "--no-regular" in error
+
+
 @pytest.mark.parametrize(("workers", "together"), [(2, 4), (3, 4), (4, 3)])
 def test_runs_that_share_lanes_go_to_one_worker_and_every_worker_gets_runs(tmp_path, workers, together):
     """together: of the four runs that share lanes, those of one worker."""

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from engine import simulate
+from engine import load_scene, simulate
 from engine.perturbations.tangent import Base
 from engine.physics.bed import bed_load, bed_powers
 from engine.planar.extras import G_V, more_across
@@ -114,6 +114,14 @@ def test_a_line_that_lies_on_the_bed_in_part(dimensions):
         assert lowest < 0.0
     assert errors[0] < 2e-3
     assert errors[1] < 0.6 * errors[0]
+
+
+def test_a_buoy_that_sinks_to_a_bed_is_told_as_the_reason():
+    """The sphere displaces 1027 pi 1.5^3/6 kg; the bed bears lines alone."""
+    sinks = {"buoy.mass_kg": 1900.0, "buoy.submergence": "spherical-cap", "floor": BED, "waves": None}
+    run = simulate(load_scene("tethered_buoy", sinks), duration_s=0.05)
+    assert run.status == "statics-failed"
+    assert "displaces 1814.9 kg of water, so that it sinks" in run.message
 
 
 def test_a_line_too_long_to_lie_stretched_is_refused_in_words():

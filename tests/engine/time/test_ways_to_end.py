@@ -90,6 +90,8 @@ def test_a_run_ends_with_its_reason(name, dimensions):
         assert (samples - 1) * step_s <= end_s < samples * step_s * (1 + 1e-9)
     for column in run.columns.values():
         assert len(column) == samples and np.all(np.isfinite(column))
+    if name == "long fixed steps into a snap":
+        assert "lower solver.step_s, or add nodes" in run.message
     if name == "more loops than allowed":
         assert run.statistics["loop_releases"] == 2 and "2 loop releases" in run.message
 
