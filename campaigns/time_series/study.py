@@ -85,15 +85,15 @@ class Study:
     embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
     dimension: CorrelationDimension | None  # of the delay vectors of `embedding`; None as there
     verdict: Verdict  # on the section
-    tolerance: float  # share of the range within which the section had to repeat
+    tolerance: float  # share of `motion_range` within which the section had to repeat
     used: int  # samples looked at by exponents and dimension: the last of the record
 
 
 def study(record: Record, period: float | None = None, tolerance: float | None = None) -> Study:
     """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
 
-    tolerance: share of the range within which a motion repeats; None: `least_tolerance`, and where that decides nothing
-    `noise_tolerance`. The same record gives the same study.
+    tolerance: share of `motion_range` within which a motion repeats; None: `least_tolerance`, and where that decides
+    nothing `noise_tolerance`. The same record gives the same study.
     """
     x, step = record.values, record.step
     view = seen(x, step, period)
@@ -126,6 +126,11 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
     )
 
 
+def motion_range(x: np.ndarray) -> float:
+    """Range of the later half of a record (n,), because a large start would make any small motion after it a period."""
+    return max(np.ptp(x[len(x) // 2 :]), 1e-9 * np.abs(x).max())
+
+
 def least_tolerance(view: Seen) -> float:
     """0.001, or the error of the spline at a maximum or between samples: h^4/384 for a sine."""
     if view.kind == SAMPLES:
@@ -144,7 +149,7 @@ def _spectrum(x, step, view, period):
 
 def noise_tolerance(x: np.ndarray, view: Seen) -> float | None:
     """OF_NOISE times the noise on a record (n,), as a share of its range; None where that is too little or too much."""
-    tolerance = OF_NOISE * view.noise / np.ptp(x)
+    tolerance = OF_NOISE * view.noise / motion_range(x)
     if view.kind != SAMPLES and least_tolerance(view) < tolerance <= MOST_TOLERANCE:
         return tolerance
     return None
@@ -157,7 +162,7 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
     least, of_noise = least_tolerance(view), noise_tolerance(x, view)
     verdict = _judged(x, view, least)
     if verdict.regime == "undecided" and of_noise is not None:
-        repeats = detect_period(view.points[-MOST_POINTS:], tolerance=of_noise, scale=np.ptp(x))
+        repeats = detect_period(view.points[-MOST_POINTS:], tolerance=of_noise, scale=motion_range(x))
         if repeats.period is not None:
             within_noise = _judged(x, view, of_noise)
             if within_noise.period is not None:
@@ -171,7 +176,7 @@ def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     section = view.points[-MOST_POINTS:]
-    verdict = regime(strobed=section, scale=np.ptp(x), tolerance=tolerance, surrogates=SURROGATES)
+    verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
     if view.kind != MAXIMA:
         return verdict
     if verdict.period is not None:

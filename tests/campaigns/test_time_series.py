@@ -83,6 +83,15 @@ def test_each_motion_gets_its_word(tmp_path, capsys, name):
             assert [float(number) for number in bits.split(" +- ")] == pytest.approx(wanted, abs=0.12 * wanted[-1])
 
 
+def test_no_small_torus_is_a_period_because_its_record_begins_with_a_large_start():
+    """The start is 4000 times as large as the motion, and has died out in the later half."""
+    time = FORTY / (2.0 * np.pi)
+    torus = np.sin(FORTY) + 0.7 * np.sin(GOLDEN * FORTY)
+    x = torus + 4000.0 * np.exp(-time / 3.0) * np.cos(5.0 * time)
+    verdict, _ = study.judged(x, study.seen(x, 1.0, 40.0))
+    assert verdict.regime == "transient", verdict.reason
+
+
 @pytest.mark.slow
 def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     result = answered(tmp_path, logistic(4.0, 1500))
