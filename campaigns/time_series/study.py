@@ -172,10 +172,10 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
 
 def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     """The Verdict at one tolerance."""
-    outliers = outlier_evidence(x)
+    section, time = view.points[-MOST_POINTS:], view.time[-MOST_POINTS:]
+    outliers = outlier_evidence(x) or outlier_evidence(section, time)
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
-    section = view.points[-MOST_POINTS:]
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
     if view.kind != MAXIMA:
         return verdict

@@ -92,6 +92,14 @@ def test_no_small_torus_is_a_period_because_its_record_begins_with_a_large_start
     assert verdict.regime == "transient", verdict.reason
 
 
+def test_a_point_of_the_section_that_lies_far_outside_is_named_by_its_time():
+    """Its four phases are at 600, 605, 610 and 615: the row of a point is no row of the record."""
+    x = np.sin(FORTY) + 100.0 * np.exp(-((np.arange(4000) - 1240.0) ** 2) / 50.0)
+    verdict, _ = study.judged(x, study.seen(x, 0.5, 20.0))
+    assert verdict.regime == "undecided" and "points of the section" in verdict.reason
+    assert "600 after the first sample" in verdict.reason
+
+
 @pytest.mark.slow
 def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     result = answered(tmp_path, logistic(4.0, 1500))
