@@ -18,7 +18,8 @@ The verdict is that of `verdicts.regime` on this section. At maxima two things a
   them to keep time (`_even_times`).
 
 A record that is left undecided may be a period with noise: whether it repeats within OF_NOISE times its noise is asked
-then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period.
+then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period. Within such a tolerance, or one of the
+command line, every point has to keep its place, too (`_places`): the steps of a slow torus, however thick, are small.
 """
 
 from dataclasses import dataclass, replace
@@ -177,6 +178,8 @@ def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
+    if verdict.period is not None and tolerance > least_tolerance(view):
+        verdict = _places(verdict, section, motion_range(x), tolerance)
     if view.kind != MAXIMA:
         return verdict
     if verdict.period is not None:
@@ -199,6 +202,17 @@ def _with(verdict, test, but):
     if test.passed is not False:
         return verdict
     return replace(verdict, regime="undecided", period=None, reason=but + test.sentence)
+
+
+def _places(verdict, section, scale, tolerance):
+    """The verdict period-N, with whether every Nth point of the later half keeps its place: "undecided" where it does
+    not. The steps of a slow torus are small and add up; noise on them hides that.
+    """
+    later = section[-max(len(section) // 2, 3 * verdict.period) :]
+    ways = [np.ptp(later[first :: verdict.period], axis=0).max() for first in range(verdict.period)]
+    way = float(max(ways) / scale)
+    sentence = f"points that are alike wander by {way:.2g} of the range in the later half"
+    return _with(verdict, Evidence("places", way, tolerance, way <= tolerance, sentence), "no period: ")
 
 
 def _even_times(verdict, view, tolerance):

@@ -100,6 +100,17 @@ def test_a_point_of_the_section_that_lies_far_outside_is_named_by_its_time():
     assert "600 after the first sample" in verdict.reason
 
 
+def test_no_slow_torus_is_a_period_because_its_steps_are_small():
+    """Its amplitude changes by 40 % in 53 cycles, from one to the next by less than eight times the noise."""
+    x = (1.0 + 0.4 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
+    view = study.seen(x, 1.0, 40.0)
+    for tolerance in (None, 0.05):
+        verdict, _ = study.judged(x, view, tolerance)
+        assert verdict.period is None, verdict.reason
+    x = (1.0 + 0.003 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
+    assert study.judged(x, study.seen(x, 1.0, 40.0))[0].period == 1
+
+
 @pytest.mark.slow
 def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     result = answered(tmp_path, logistic(4.0, 1500))
