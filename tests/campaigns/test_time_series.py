@@ -335,3 +335,12 @@ def test_snaps_of_a_measured_tension_are_counted_once_though_the_line_rings(tmp_
     assert "20 snaps in 200 s" in capsys.readouterr().out
     taut_s = pandas.read_csv(tmp_path / "out" / "snaps.csv").taut_s
     np.testing.assert_allclose(taut_s, 2.0 + 10.0 * np.arange(20), atol=0.1)
+
+
+def test_a_record_without_snaps_is_told_why(tmp_path, capsys):
+    """A sensor whose zero is 150 N too high shows no slack below 100 N."""
+    tension_N = 150.0 + np.maximum(6e3 * np.sin(0.01 * np.arange(2000)), 0.0)
+    np.savetxt(tmp_path / "tension.csv", tension_N, header="T", comments="")
+    assert main([str(tmp_path / "tension.csv"), "--step", "0.1", "--snaps", "--static", "2000"]) == 0
+    printed = capsys.readouterr().out
+    assert "0 snaps" in printed and "between 150 and 6150 N" in printed
