@@ -42,7 +42,7 @@ from analysis.periods import detect_period
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
-from analysis.verdicts import Verdict, regime
+from analysis.verdicts import LEAST_POINTS, Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test
 from campaigns.time_series.record import Record
@@ -174,7 +174,9 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
 def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     """The Verdict at one tolerance."""
     section, time = view.points[-MOST_POINTS:], view.time[-MOST_POINTS:]
-    outliers = outlier_evidence(x) or outlier_evidence(section, time)
+    outliers = outlier_evidence(x)
+    if not outliers and len(section) >= LEAST_POINTS:
+        outliers = outlier_evidence(section, time)
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)

@@ -100,6 +100,14 @@ def test_a_point_of_the_section_that_lies_far_outside_is_named_by_its_time():
     assert "600 after the first sample" in verdict.reason
 
 
+def test_a_section_of_few_points_is_too_short_whatever_lies_outside():
+    """Eleven maxima of a slow sine; noise has placed one of them elsewhere."""
+    x = np.sin(2.0 * np.pi * np.arange(10_000) / 900.0)
+    x[3000] += 0.05
+    verdict, _ = study.judged(x, study.seen(x, 1.0))
+    assert verdict.reason.startswith("too short"), verdict.reason
+
+
 def test_no_slow_torus_is_a_period_because_its_steps_are_small():
     """Its amplitude changes by 40 % in 53 cycles, from one to the next by less than eight times the noise."""
     x = (1.0 + 0.4 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
