@@ -49,6 +49,7 @@ from campaigns.time_series.record import Record
 
 STROBED, SAMPLES, MAXIMA = "strobed", "samples", "maxima"
 NOISE_MULTIPLE = 6.0
+# Samples at either end of a record in which a spline lacks neighbours; what it lacks falls by 0.27 a sample.
 SPLINE_END = 20
 # More samples make exponents no better than their other errors, and take long.
 MOST_SAMPLES = 30_000
@@ -243,7 +244,12 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
     noise = noise_level(series, chosen.delay)
     if period is not None and abs(period - step) > 1e-6 * step:
         section = section_at_phases(series, step, period)
-        return Seen(STROBED, section.points, section.time_s, period, noise, chosen.mean_period)
+        inner = np.ones(len(section.points), dtype=bool)
+        if section.interpolated:
+            first, last = SPLINE_END * step, (len(series) - 1 - SPLINE_END) * step
+            inner = (section.time_s >= first) & (section.time_s + period <= last)
+        points, time = section.points[inner], section.time_s[inner]
+        return Seen(STROBED, locked(points), locked(time), period, noise, chosen.mean_period)
     if period is not None or chosen.mean_period < LEAST_SAMPLES_PER_PERIOD:
         time = step * np.arange(len(series))
         return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)
@@ -266,8 +272,8 @@ def maxima_and_minima(series: np.ndarray, prominence: float) -> tuple[np.ndarray
 def successive_maxima(series: np.ndarray, prominence: float) -> tuple[np.ndarray, np.ndarray]:
     """Places [samples] and heights of the maxima that stand out by `prominence`, on a cubic spline.
 
-    Newton's method on the derivative from the parabola through the three samples; error O(step^4). Twenty samples at
-    either end are left out: the spline has no neighbours there, and what it lacks falls by 0.27 a sample.
+    Newton's method on the derivative from the parabola through the three samples; error O(step^4). SPLINE_END samples
+    at either end are left out.
     Source of the section: E. N. Lorenz, J. Atmos. Sci. 20 (1963) 130, fig. 4.
     """
     from scipy.interpolate import CubicSpline

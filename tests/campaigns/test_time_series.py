@@ -108,6 +108,13 @@ def test_a_section_of_few_points_is_too_short_whatever_lies_outside():
     assert verdict.reason.startswith("too short"), verdict.reason
 
 
+def test_the_ends_of_a_spline_are_no_points_of_a_section_between_samples():
+    """A period of 7.3 samples: the spline errs twenty times as much at the last of them as within the record."""
+    x = np.cos(2.0 * np.pi * np.arange(4000) / 7.3)
+    verdict, _ = study.judged(x, study.seen(x, 1.0, 7.3))
+    assert verdict.period == 1, verdict.reason
+
+
 def test_no_slow_torus_is_a_period_because_its_steps_are_small():
     """Its amplitude changes by 40 % in 53 cycles, from one to the next by less than eight times the noise."""
     x = (1.0 + 0.4 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
