@@ -23,6 +23,7 @@ command line, every point has to keep its place, too (`_places`): the steps of a
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -59,6 +60,9 @@ TOLERANCE = 1e-3
 OF_NOISE, MOST_TOLERANCE = 8.0, 0.1
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
+# A line beside the forcing period: stretches of the record; turns by which the two part over it; share of these turns
+# by which a stretch may stray from a steady parting.
+STRETCHES, LEAST_PARTED, STEADY = 8, 1e-3, 0.1
 ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
 
 
@@ -87,6 +91,7 @@ class Study:
     embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
     dimension: CorrelationDimension | None  # of the delay vectors of `embedding`; None as there
     verdict: Verdict  # on the section
+    line_period: float | None  # of the line beside a given forcing period, `line_beside` [unit of time of the record]
     tolerance: float  # share of `motion_range` within which the section had to repeat
     used: int  # samples looked at by exponents and dimension: the last of the record
 
@@ -123,9 +128,30 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
         embedding=embedding,
         dimension=dimension,
         verdict=verdict,
+        line_period=line_beside(x, step, period) if view.kind == STROBED else None,
         tolerance=tolerance,
         used=len(last),
     )
+
+
+def line_beside(x: np.ndarray, step: float, period: float) -> float | None:
+    """Period of the line of a record (n,) that lies beside the period given, where the two part steadily; else None.
+
+    The mean of x exp(-2 pi i t/T) over each of eight stretches, under Hann's window, turns from stretch to stretch.
+    """
+    cycles = int((len(x) - 1) * step / period) // STRETCHES
+    samples = cycles * period / step
+    ends = np.rint(samples * np.arange(STRETCHES + 1)).astype(int)
+    turning = (x - x.mean()) * np.exp(-2j * np.pi * step / period * np.arange(len(x)))
+    means = np.array([np.average(turning[a:b], weights=np.hanning(b - a)) for a, b in pairwise(ends)])
+    phase, stretch = np.unwrap(np.angle(means)) / (2.0 * np.pi), np.arange(STRETCHES)
+    line = np.polyfit(stretch, phase, 1)
+    parted = STRETCHES * abs(line[0])
+    strays = np.abs(phase - np.polyval(line, stretch)).max()
+    size = np.abs(means)
+    if parted < LEAST_PARTED or strays > STEADY * parted or size.min() < 0.5 * size.max():
+        return None
+    return float(period / (1.0 + line[0] / cycles))
 
 
 def motion_range(x: np.ndarray) -> float:
