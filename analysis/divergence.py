@@ -9,6 +9,13 @@ neighbours as near as the record has, and averages the logarithm over the whole 
 Growth between neighbours starts with a transient (the vector turns towards the fastest direction), is exponential while
 distances are small, and ends at the size of the attractor. Only the middle is a Lyapunov exponent, and a curve without
 a straight middle has none to give, however well a line may be put through it.
+
+The slope is too small, because noise lifts the begin of the curve and the size of the attractor bends its end. So
+
+    error^2 = (largest deviation of the slope of a quarter of the region)^2 + (scatter of eight blocks of pairs)^2
+              + (slope over the nearer half of the pairs - slope over the farther half)^2
+
+The value is not corrected: it stays what Rosenstein's method gives.
 """
 
 from itertools import pairwise
@@ -37,7 +44,7 @@ class ScalingRegion:
     """A straight part of y(t).
 
     slope        of the least-squares line; NaN where there is no region
-    error        standard deviation of the slopes of its four quarters: what the line's curvature leaves open
+    error        largest deviation of the slopes of its four quarters: what the line's curvature leaves open
     begin, end   first and last index of the region, inclusive; -1 where there is none
     span         rise of the line over the region [nats]
     reason       one sentence
@@ -60,9 +67,10 @@ def rosenstein_lyapunov(series: ArrayLike, step_s: float) -> Exponent:
     step_s         sampling step [s], or 1 for a map
     The embedding is that of choose_embedding. Neighbours nearer in time than a mean period or the span of a delay
     vector do not count. k goes up to eight mean periods, at most a quarter of the record.
-    Returns an Exponent [nats/time]. Its error joins the bend of the region with the scatter of eight blocks of centres.
-    NaN with a reason where no straight part of the curve spans one nat: regular motion, noise, or too short a record.
-    details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres.
+    Returns an Exponent [nats/time]; error: head of this file. NaN with a reason where no straight part of the curve
+    spans one nat: regular motion, noise, or too short a record.
+    details: time_s and curve (k,), region (ScalingRegion), embedding, dimension, theiler, centres, block_error,
+    length_change.
     Raises ValueError for values that are not finite.
     Source: Rosenstein, Collins & De Luca, Physica D 65, 117 (1993).
     """
@@ -112,10 +120,16 @@ def _slope_of(growth, step_s, period, details):
     if not np.isfinite(region.slope):
         return no_exponent(ROSENSTEIN, region.reason, details=details)
     part = slice(region.begin, region.end + 1)
-    slopes = []
-    for block in np.array_split(growth, BLOCKS, axis=1):
-        slopes.append(np.polyfit(time_s[part], block[part].mean(axis=1), 1)[0])
-    error = np.hypot(region.error, standard_error(slopes))
+
+    def slope(pairs):
+        return np.polyfit(time_s[part], pairs[part].mean(axis=1), 1)[0]
+
+    block_error = float(standard_error([slope(block) for block in np.array_split(growth, BLOCKS, axis=1)]))
+    near, length_change = growth[0] <= np.median(growth[0]), 0.0
+    if not near.all():
+        length_change = float(slope(growth[:, near]) - slope(growth[:, ~near]))
+    details |= {"block_error": block_error, "length_change": length_change}
+    error = float(np.linalg.norm([region.error, block_error, length_change]))
     return Exponent(region.slope, error, "nats/time", ROSENSTEIN, region.reason, details)
 
 
@@ -143,10 +157,11 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
         for end in range(begin + LEAST_POINTS, len(t) + 1, stride):
             slope, pieces = _line(t[begin:end], y[begin:end])
             span = slope * (t[end - 1] - t[begin])
-            if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:
+            bend = np.max(np.abs(pieces - slope))
+            if slope > 0.0 and bend <= MOST_CURVATURE * slope:
                 straight = True
                 if span >= LEAST_SPAN_NATS and (best is None or span > best[0]):
-                    best = span, slope, np.std(pieces), begin, end - 1
+                    best = span, slope, bend, begin, end - 1
     if best is None:
         why = "no straight rising part"
         if straight:

@@ -114,13 +114,19 @@ def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
     return [period, Evidence("contraction", multiplier, 1.0, abs(multiplier) < 1.0, sentence)]
 
 
-def outlier_evidence(series: np.ndarray) -> list[Evidence]:
-    """Samples far outside the rest, where there are any: no verdict can be given then."""
+def outlier_evidence(series: np.ndarray, time: np.ndarray | None = None) -> list[Evidence]:
+    """Samples far outside the rest, where there are any: no verdict can be given then.
+
+    time (n,)   of a section, whose rows are not those of the record; None: the series is the record
+    """
     far = outlying(series)
     if len(far) == 0:
         return []
-    first = f"the first in row {far[0] + 1} ({np.ravel(series[far[0]])[0]:.6g})"
-    sentence = f"{len(far)} of {len(series)} samples lie far outside the rest, {first}: cut or repair the record there"
+    outside, first = "samples", f"in row {far[0] + 1} ({np.ravel(series[far[0]])[0]:.6g})"
+    if time is not None:
+        outside, first = "points of the section", f"{time[far[0]]:.6g} after the first sample"
+    lie = f"{len(far)} of {len(series)} {outside} lie far outside the rest"
+    sentence = f"{lie}, the first {first}: cut or repair the record there"
     return [Evidence("outliers", float(len(far)), 0.0, False, sentence)]
 
 

@@ -5,11 +5,12 @@ The one definition of the whole programme, for regular waves, irregular seas and
     mean tension   the running mean of the tension over `ringing_s`: the tension without waves along the line
     slack          from the moment at which the mean tension falls to `slack_share` of the static tension or below it,
                    until it last passes this share before it reaches the static tension again
-    pull           what follows, for as long as the mean tension stays above the static tension
+    pull           what follows, until the mean tension falls halfway from the static tension to the slack one
     snap           a pull that ends a slack interval, if its largest tension is `snap_share` of the static one or more
 
 Why two levels: a line that bears less than the static tension does not hold its body, which therefore moves on until
-the line is taut. A twitch between the two levels ends no slack interval, and a weak pull counts for nothing.
+the line is taut. A twitch between the two levels ends no slack interval, and a weak pull counts for nothing. Noise that
+crosses the static tension again while the pull begins does not end it either: its largest tension is still to come.
 
 Why a running mean: after a snap, axial waves run along the line, and the tension at one end can fall to zero and return
 many times. A wave comes back to where it was after the time that it needs to the other end and back, 2 l/c. All axial
@@ -123,8 +124,8 @@ def detect_snaps(
     rate_mps (n,)    rate of the distance between the ends of the line, where known [m/s]
     impact_Nspm      sqrt(k m) of line and body, where known [N s/m]
     slack_share      share of the static tension, 0 <= share < snap_share
-    snap_share       share of the static tension that a snap reaches. Less than 1: a pull is then a mean tension above
-                     this share, so that every retensioning counts if it is just above slack_share
+    snap_share       share of the static tension that a snap reaches. Less than 1: a pull then begins at this share, so
+                     that every retensioning counts if it is just above slack_share
     transient_s      snaps that count before it are left out [s]
     Returns Snaps; a slack interval that the record does not see end is none.
     Raises ValueError for values that are not finite, arrays of other lengths, and thresholds without meaning.
@@ -199,11 +200,11 @@ def running_mean(series: ArrayLike, step_s: float, length_s: float) -> np.ndarra
 
 def _pulls(mean, slack_N, pull_N):
     """Of each pull that ends a slack interval four samples: the first and the last at or below the slack threshold,
-    the first at the pull's, and the first that is below this again, or the last of the record.
+    the first at the pull's, and the first below the middle of the two thresholds, or the last of the record.
     """
     pulls = mean >= pull_N
     decided = np.flatnonzero((mean <= slack_N) | pulls)
-    below = np.append(np.flatnonzero(~pulls), len(mean) - 1)
+    below = np.append(np.flatnonzero(mean < 0.5 * (slack_N + pull_N)), len(mean) - 1)
     begins = np.flatnonzero(np.diff(pulls[decided], prepend=~pulls[decided][:1]))
     for slack_run, pull_run in pairwise(begins):
         if not pulls[decided[pull_run]]:

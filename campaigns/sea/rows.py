@@ -1,6 +1,7 @@
 """A run in one sea as a row: its exponent, its snaps and its loads after the transient."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -52,6 +53,9 @@ EQUIVALENT = Column(
 )
 LARGEST = Column(PEAK, "N", "T_max", "largest tension at the top after the transient", 0)
 _, SNAP_PEAK, *_, SNAP_SPEED = SNAPS_OF_RUNS
+SLACK_OF_SEA = replace(
+    SLACK, meaning="share of the time after the transient with less than --slack-share of the static tension at the top"
+)
 _MEASURED = (
     SEA,
     START,
@@ -65,7 +69,7 @@ _MEASURED = (
     SNAPS,
     SNAP_PEAK,
     SNAP_SPEED,
-    SLACK,
+    SLACK_OF_SEA,
     MEAN,
     LARGEST,
     Column("peaks", "", "peaks", "peaks of the tension: one between two up-crossings of its mean", 0, SHEET),

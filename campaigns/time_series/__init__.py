@@ -39,7 +39,8 @@ OPTIONS = {  # option: its word and its use in the help
     "--period": ("SECONDS", "period of the forcing (default: none is known)"),
     "--tolerance": (
         "SHARE",
-        "a motion repeats within this share of its range (default: 0.001, and then eight times the noise)",
+        "a motion repeats within this share of its range in the later half (default: 0.001, and then eight times the "
+        "noise)",
     ),
 }
 OF_SNAPS = {  # option: argument of `analysis.detect_snaps`, its kind; its word and its use in the help

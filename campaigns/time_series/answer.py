@@ -23,7 +23,16 @@ import numpy as np
 import pandas
 
 from analysis.poincare import PHASES
-from campaigns.time_series.study import MAXIMA, MOST_TOLERANCE, OF_NOISE, SAMPLES, STROBED, Study, noise_tolerance
+from campaigns.time_series.study import (
+    MAXIMA,
+    MOST_TOLERANCE,
+    OF_NOISE,
+    SAMPLES,
+    STROBED,
+    Study,
+    motion_range,
+    noise_tolerance,
+)
 from engine.atomic import write_atomic
 from tables import Column, dictionary, names
 
@@ -135,6 +144,9 @@ def _notes(study: Study) -> list[str]:
     if undecided and len(view.points) < 200:
         needed = "chaos can be shown with 200 points or more on the section, any regime with 40"
         notes.append(f"{needed}; here are {len(view.points)}")
+    if study.line_period is not None and study.verdict.period is None:
+        line = f"the record has a line of the period {study.line_period:.8g} {record.unit}, from which --period parts"
+        notes.append(f"{line} steadily: if the line is that of the forcing, give its period")
     notes.extend(_notes_on_noise(study))
     if view.kind == MAXIMA:
         notes.append("of a motion that is forced with a known period, --period sees more: the section once per period")
@@ -145,7 +157,7 @@ def _notes(study: Study) -> list[str]:
 
 def _notes_on_noise(study: Study) -> Iterator[str]:
     """What the noise of a record may hide, and the option that shows more."""
-    share = study.seen.noise / np.ptp(study.record.values)
+    share = study.seen.noise / motion_range(study.record.values)
     noise, tolerance = f"the noise is {share:.1g} of the range", OF_NOISE * share
     if study.tolerance == noise_tolerance(study.record.values, study.seen):
         yield f"{noise}: a torus thinner than {tolerance:.1g} of the range looks like a period"

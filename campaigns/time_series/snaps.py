@@ -34,7 +34,8 @@ def snap_page(record: Record, found: Snaps) -> str:
     """The text: how many, by which thresholds, how large; the largest snaps."""
     lines = [f"{record.path}, column {record.column}: {found} (static: {found.static_N:.4g} N)"]
     if not len(found):
-        return lines[0]
+        low_N, high_N = record.values.min(), record.values.max()
+        return f"{lines[0]}\nthe tension lies between {low_N:.4g} and {high_N:.4g} N"
     hours = found.watched_s / 3600.0
     peaks = found.peak_N
     lines.append(

@@ -18,10 +18,12 @@ The verdict is that of `verdicts.regime` on this section. At maxima two things a
   them to keep time (`_even_times`).
 
 A record that is left undecided may be a period with noise: whether it repeats within OF_NOISE times its noise is asked
-then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period.
+then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period. Within such a tolerance, or one of the
+command line, every point has to keep its place, too (`_places`): the steps of a slow torus, however thick, are small.
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,13 +43,14 @@ from analysis.periods import detect_period
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
-from analysis.verdicts import Verdict, regime
+from analysis.verdicts import LEAST_POINTS, Verdict, regime
 from analysis.wolf_plateau import LEAST_PERIODS, wolf_lyapunov
 from analysis.zero_one import ZeroOneTest, zero_one_test
 from campaigns.time_series.record import Record
 
 STROBED, SAMPLES, MAXIMA = "strobed", "samples", "maxima"
 NOISE_MULTIPLE = 6.0
+# Samples at either end of a record in which a spline lacks neighbours; what it lacks falls by 0.27 a sample.
 SPLINE_END = 20
 # More samples make exponents no better than their other errors, and take long.
 MOST_SAMPLES = 30_000
@@ -57,6 +60,9 @@ TOLERANCE = 1e-3
 OF_NOISE, MOST_TOLERANCE = 8.0, 0.1
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
+# A line beside the forcing period: stretches of the record; turns by which the two part over it; share of these turns
+# by which a stretch may stray from a steady parting.
+STRETCHES, LEAST_PARTED, STEADY = 8, 1e-3, 0.1
 ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
 
 
@@ -85,15 +91,16 @@ class Study:
     embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
     dimension: CorrelationDimension | None  # of the delay vectors of `embedding`; None as there
     verdict: Verdict  # on the section
-    tolerance: float  # share of the range within which the section had to repeat
+    line_period: float | None  # of the line beside a given forcing period, `line_beside` [unit of time of the record]
+    tolerance: float  # share of `motion_range` within which the section had to repeat
     used: int  # samples looked at by exponents and dimension: the last of the record
 
 
 def study(record: Record, period: float | None = None, tolerance: float | None = None) -> Study:
     """The Study of a Record; period: of the forcing, in the record's unit of time, or None (`section`).
 
-    tolerance: share of the range within which a motion repeats; None: `least_tolerance`, and where that decides nothing
-    `noise_tolerance`. The same record gives the same study.
+    tolerance: share of `motion_range` within which a motion repeats; None: `least_tolerance`, and where that decides
+    nothing `noise_tolerance`. The same record gives the same study.
     """
     x, step = record.values, record.step
     view = seen(x, step, period)
@@ -121,9 +128,35 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
         embedding=embedding,
         dimension=dimension,
         verdict=verdict,
+        line_period=line_beside(x, step, period) if view.kind == STROBED else None,
         tolerance=tolerance,
         used=len(last),
     )
+
+
+def line_beside(x: np.ndarray, step: float, period: float) -> float | None:
+    """Period of the line of a record (n,) that lies beside the period given, where the two part steadily; else None.
+
+    The mean of x exp(-2 pi i t/T) over each of eight stretches, under Hann's window, turns from stretch to stretch.
+    """
+    cycles = int((len(x) - 1) * step / period) // STRETCHES
+    samples = cycles * period / step
+    ends = np.rint(samples * np.arange(STRETCHES + 1)).astype(int)
+    turning = (x - x.mean()) * np.exp(-2j * np.pi * step / period * np.arange(len(x)))
+    means = np.array([np.average(turning[a:b], weights=np.hanning(b - a)) for a, b in pairwise(ends)])
+    phase, stretch = np.unwrap(np.angle(means)) / (2.0 * np.pi), np.arange(STRETCHES)
+    line = np.polyfit(stretch, phase, 1)
+    parted = STRETCHES * abs(line[0])
+    strays = np.abs(phase - np.polyval(line, stretch)).max()
+    size = np.abs(means)
+    if parted < LEAST_PARTED or strays > STEADY * parted or size.min() < 0.5 * size.max():
+        return None
+    return float(period / (1.0 + line[0] / cycles))
+
+
+def motion_range(x: np.ndarray) -> float:
+    """Range of the later half of a record (n,), because a large start would make any small motion after it a period."""
+    return max(np.ptp(x[len(x) // 2 :]), 1e-9 * np.abs(x).max())
 
 
 def least_tolerance(view: Seen) -> float:
@@ -144,7 +177,7 @@ def _spectrum(x, step, view, period):
 
 def noise_tolerance(x: np.ndarray, view: Seen) -> float | None:
     """OF_NOISE times the noise on a record (n,), as a share of its range; None where that is too little or too much."""
-    tolerance = OF_NOISE * view.noise / np.ptp(x)
+    tolerance = OF_NOISE * view.noise / motion_range(x)
     if view.kind != SAMPLES and least_tolerance(view) < tolerance <= MOST_TOLERANCE:
         return tolerance
     return None
@@ -157,7 +190,7 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
     least, of_noise = least_tolerance(view), noise_tolerance(x, view)
     verdict = _judged(x, view, least)
     if verdict.regime == "undecided" and of_noise is not None:
-        repeats = detect_period(view.points[-MOST_POINTS:], tolerance=of_noise, scale=np.ptp(x))
+        repeats = detect_period(view.points[-MOST_POINTS:], tolerance=of_noise, scale=motion_range(x))
         if repeats.period is not None:
             within_noise = _judged(x, view, of_noise)
             if within_noise.period is not None:
@@ -167,11 +200,15 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
 
 def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     """The Verdict at one tolerance."""
+    section, time = view.points[-MOST_POINTS:], view.time[-MOST_POINTS:]
     outliers = outlier_evidence(x)
+    if not outliers and len(section) >= LEAST_POINTS:
+        outliers = outlier_evidence(section, time)
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
-    section = view.points[-MOST_POINTS:]
-    verdict = regime(strobed=section, scale=np.ptp(x), tolerance=tolerance, surrogates=SURROGATES)
+    verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
+    if verdict.period is not None and tolerance > least_tolerance(view):
+        verdict = _places(verdict, section, motion_range(x), tolerance)
     if view.kind != MAXIMA:
         return verdict
     if verdict.period is not None:
@@ -194,6 +231,17 @@ def _with(verdict, test, but):
     if test.passed is not False:
         return verdict
     return replace(verdict, regime="undecided", period=None, reason=but + test.sentence)
+
+
+def _places(verdict, section, scale, tolerance):
+    """The verdict period-N, with whether every Nth point of the later half keeps its place: "undecided" where it does
+    not. The steps of a slow torus are small and add up; noise on them hides that.
+    """
+    later = section[-max(len(section) // 2, 3 * verdict.period) :]
+    ways = [np.ptp(later[first :: verdict.period], axis=0).max() for first in range(verdict.period)]
+    way = float(max(ways) / scale)
+    sentence = f"points that are alike wander by {way:.2g} of the range in the later half"
+    return _with(verdict, Evidence("places", way, tolerance, way <= tolerance, sentence), "no period: ")
 
 
 def _even_times(verdict, view, tolerance):
@@ -222,7 +270,12 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
     noise = noise_level(series, chosen.delay)
     if period is not None and abs(period - step) > 1e-6 * step:
         section = section_at_phases(series, step, period)
-        return Seen(STROBED, section.points, section.time_s, period, noise, chosen.mean_period)
+        inner = np.ones(len(section.points), dtype=bool)
+        if section.interpolated:
+            first, last = SPLINE_END * step, (len(series) - 1 - SPLINE_END) * step
+            inner = (section.time_s >= first) & (section.time_s + period <= last)
+        points, time = section.points[inner], section.time_s[inner]
+        return Seen(STROBED, locked(points), locked(time), period, noise, chosen.mean_period)
     if period is not None or chosen.mean_period < LEAST_SAMPLES_PER_PERIOD:
         time = step * np.arange(len(series))
         return Seen(SAMPLES, locked(series[:, None]), locked(time), step, noise, chosen.mean_period)
@@ -245,8 +298,8 @@ def maxima_and_minima(series: np.ndarray, prominence: float) -> tuple[np.ndarray
 def successive_maxima(series: np.ndarray, prominence: float) -> tuple[np.ndarray, np.ndarray]:
     """Places [samples] and heights of the maxima that stand out by `prominence`, on a cubic spline.
 
-    Newton's method on the derivative from the parabola through the three samples; error O(step^4). Twenty samples at
-    either end are left out: the spline has no neighbours there, and what it lacks falls by 0.27 a sample.
+    Newton's method on the derivative from the parabola through the three samples; error O(step^4). SPLINE_END samples
+    at either end are left out.
     Source of the section: E. N. Lorenz, J. Atmos. Sci. 20 (1963) 130, fig. 4.
     """
     from scipy.interpolate import CubicSpline

@@ -110,6 +110,18 @@ def test_the_error_by_rosenstein_is_that_of_the_mean_over_independent_pairs():
     assert np.mean(errors) == pytest.approx(0.5 / np.sqrt(2000), rel=0.15)
 
 
+def test_short_flows_and_noisy_maps_by_rosenstein_lie_within_two_errors_in_nine_of_ten():
+    """Their exponents are too small by 15 to 30 %."""
+    deviations = []
+    for part in np.split(record("ueda", 24_000)[0], 4):
+        result = rosenstein_lyapunov(part, 2.0 * np.pi / 50.0)
+        deviations.append((TRUTH["ueda"] - result.value) / result.error)
+    for seed in range(6):
+        result = rosenstein_lyapunov(*record("logistic", 2500, noise=0.01, seed=seed))
+        deviations.append((TRUTH["logistic"] - result.value) / result.error)
+    assert np.sum(np.abs(deviations) < 2.0) >= 9
+
+
 T = 0.1 * np.arange(200)
 
 
@@ -120,10 +132,10 @@ def test_a_line_between_two_plateaus_is_found_with_its_slope():
     assert T[region.begin] > 3.0 and T[region.end] < 12.2
 
 
-def test_the_error_of_a_line_is_the_scatter_of_the_slopes_of_its_quarters():
-    """Of t + 0.05 t^2 up to 4 they are 1.05, 1.15, 1.25 and 1.35."""
+def test_the_error_of_a_line_is_the_largest_deviation_of_the_slopes_of_its_quarters():
+    """Of t + 0.05 t^2 up to 4 they are 1.05, 1.15, 1.25 and 1.35; that of the line is 1.2."""
     t = 0.1 * np.arange(41)
-    assert scaling_region(t, t + 0.05 * t**2).error == pytest.approx(np.std([1.05, 1.15, 1.25, 1.35]))
+    assert scaling_region(t, t + 0.05 * t**2).error == pytest.approx(0.15)
 
 
 def test_a_swing_that_rides_on_the_line_is_averaged_away():

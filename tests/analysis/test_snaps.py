@@ -109,6 +109,14 @@ def test_ringing_does_not_count_twice(tension_N, count, hertz, share):
     np.testing.assert_allclose(rung.taut_s, alone.taut_s, atol=2.0 * RINGING_S)
 
 
+def test_noise_about_the_static_tension_does_not_end_a_pull_before_its_peak():
+    """White noise of a twentieth of the static tension; each pull passes it in some ten samples."""
+    tension_N, count = BY_HAND["five, all alike"]
+    noise_N = 0.05 * STATIC_N * np.random.default_rng(0).normal(size=len(tension_N))
+    detected = detect_snaps(tension_N + noise_N, STEP_S, STATIC_N)
+    np.testing.assert_allclose(detected.peak_N, np.full(count, tension_N.max()), atol=0.2 * STATIC_N)
+
+
 def test_ringing_counts_without_the_filter():
     tension_N, count = BY_HAND["taut at the start, slack at the end"]
     assert len(detect_snaps(ringing(tension_N, 1.5, 40.0, 0.3), STEP_S, STATIC_N)) > 2 * count

@@ -83,6 +83,57 @@ def test_each_motion_gets_its_word(tmp_path, capsys, name):
             assert [float(number) for number in bits.split(" +- ")] == pytest.approx(wanted, abs=0.12 * wanted[-1])
 
 
+def test_no_small_torus_is_a_period_because_its_record_begins_with_a_large_start():
+    """The start is 4000 times as large as the motion, and has died out in the later half."""
+    time = FORTY / (2.0 * np.pi)
+    torus = np.sin(FORTY) + 0.7 * np.sin(GOLDEN * FORTY)
+    x = torus + 4000.0 * np.exp(-time / 3.0) * np.cos(5.0 * time)
+    verdict, _ = study.judged(x, study.seen(x, 1.0, 40.0))
+    assert verdict.regime == "transient", verdict.reason
+
+
+def test_a_point_of_the_section_that_lies_far_outside_is_named_by_its_time():
+    """Its four phases are at 600, 605, 610 and 615: the row of a point is no row of the record."""
+    x = np.sin(FORTY) + 100.0 * np.exp(-((np.arange(4000) - 1240.0) ** 2) / 50.0)
+    verdict, _ = study.judged(x, study.seen(x, 0.5, 20.0))
+    assert verdict.regime == "undecided" and "points of the section" in verdict.reason
+    assert "600 after the first sample" in verdict.reason
+
+
+def test_a_section_of_few_points_is_too_short_whatever_lies_outside():
+    """Eleven maxima of a slow sine; noise has placed one of them elsewhere."""
+    x = np.sin(2.0 * np.pi * np.arange(10_000) / 900.0)
+    x[3000] += 0.05
+    verdict, _ = study.judged(x, study.seen(x, 1.0))
+    assert verdict.reason.startswith("too short"), verdict.reason
+
+
+def test_the_ends_of_a_spline_are_no_points_of_a_section_between_samples():
+    """A period of 7.3 samples: the spline errs twenty times as much at the last of them as within the record."""
+    x = np.cos(2.0 * np.pi * np.arange(4000) / 7.3)
+    verdict, _ = study.judged(x, study.seen(x, 1.0, 7.3))
+    assert verdict.period == 1, verdict.reason
+
+
+@pytest.mark.parametrize("off", [1e-4, -1e-4, 1e-3])
+def test_a_forcing_period_that_is_slightly_wrong_is_set_right(off):
+    """The section at 40.004 to 40.04 samples of a motion with the period 40 drifts along the orbit, as in a transient."""
+    x = np.sin(FORTY) + 0.3 * np.sin(0.5 * FORTY) + 1e-3 * normal(0, 4000)
+    assert study.line_beside(x, 0.5, 20.0 * (1.0 + off)) == pytest.approx(20.0, rel=0.02 * abs(off))
+    assert study.line_beside(x, 0.5, 20.0) is None
+
+
+def test_no_slow_torus_is_a_period_because_its_steps_are_small():
+    """Its amplitude changes by 40 % in 53 cycles, from one to the next by less than eight times the noise."""
+    x = (1.0 + 0.4 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
+    view = study.seen(x, 1.0, 40.0)
+    for tolerance in (None, 0.05):
+        verdict, _ = study.judged(x, view, tolerance)
+        assert verdict.period is None, verdict.reason
+    x = (1.0 + 0.003 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
+    assert study.judged(x, study.seen(x, 1.0, 40.0))[0].period == 1
+
+
 @pytest.mark.slow
 def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     result = answered(tmp_path, logistic(4.0, 1500))
@@ -307,3 +358,12 @@ def test_snaps_of_a_measured_tension_are_counted_once_though_the_line_rings(tmp_
     assert "20 snaps in 200 s" in capsys.readouterr().out
     taut_s = pandas.read_csv(tmp_path / "out" / "snaps.csv").taut_s
     np.testing.assert_allclose(taut_s, 2.0 + 10.0 * np.arange(20), atol=0.1)
+
+
+def test_a_record_without_snaps_is_told_why(tmp_path, capsys):
+    """A sensor whose zero is 150 N too high shows no slack below 100 N."""
+    tension_N = 150.0 + np.maximum(6e3 * np.sin(0.01 * np.arange(2000)), 0.0)
+    np.savetxt(tmp_path / "tension.csv", tension_N, header="T", comments="")
+    assert main([str(tmp_path / "tension.csv"), "--step", "0.1", "--snaps", "--static", "2000"]) == 0
+    printed = capsys.readouterr().out
+    assert "0 snaps" in printed and "between 150 and 6150 N" in printed
