@@ -32,6 +32,7 @@ STROBE_TOLERANCE = 0.01
 LAST_PERIODS = 12  # drawn larger
 NEEDED = 50  # periods that leave 32 after the transient, which `analysis.tangent_lyapunov` needs
 LEAST_SHOWN = 0.01  # of the range of a run: a section of a periodic motion is a dot, and not its rounding enlarged
+BELOW_TOP = 0.05  # of the largest tension at the top: what the line has to bear more elsewhere, to be told
 PANELS = {  # of a figure over time -> the column that it shows, and its title
     "tension": ("tension_top_N", "tension at the upper end (N)"),
     "radius": ("radius_m", "distance r from the anchor (m)"),
@@ -271,9 +272,15 @@ def facts(run: "Trajectory") -> dict[str, str]:
     if len(time_s) > 3:
         texts["radius"] = _in_words(run, "radius_m", "m")
         texts["tension"] = _in_words(run, "tension_top_N", "N at the top")
-        breaking_N = run.scene.tether.breaking_load_N
+        largest_N, breaking_N = run.columns["tension_top_high_N"].max(), run.scene.tether.breaking_load_N
+        most_N = run.columns["tension_max_N"]
+        place = int(most_N.argmax())
+        if most_N[place] > (1.0 + BELOW_TOP) * largest_N:
+            place_m = digits(run.columns["tension_max_s_m"][place], 4)
+            texts["line"] = (
+                f"bears up to {most_N[place]:.2f} N (t = {time_s[place]:.5g} s), {place_m} m from the anchor"
+            )
         if breaking_N is not None:
-            largest_N = run.columns["tension_top_high_N"].max()
             texts["strength"] = f"largest tension at the top is {largest_N / breaking_N:.2%} of tether.breaking_load_N"
         texts |= _snaps_in_words(run)
     loops = run.statistics.get("loop_releases")

@@ -42,9 +42,11 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
     share = number_of(peak, "utilisation")
     if math.isfinite(share):
-        words[0] += f", {100.0 * share:.2g} % of the breaking load{_in_the_line(peak)}"
+        words[0] += f", {100.0 * share:.2g} % of the breaking load"
+        if _is_below_the_top(peak, peak):
+            words[0] += f" ({_in_the_line(peak)})"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
-    sentences = [f"{', '.join(filter(None, words))}."]
+    sentences = [f"{', '.join(filter(None, words))}.{_below_the_top(rows, peak, keys)}"]
     if scene is None:
         return sentences[0]
     if not any(reasons(peak, scene)):
@@ -63,12 +65,23 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
     return " ".join(sentences)
 
 
+def _is_below_the_top(row: Row, peak: Row) -> bool:
+    """Whether the line bears clearly more in a row than its top in that of the peak."""
+    return number_of(row, "tension_line_max_N") > (1.0 + COARSE) * peak[PEAK]
+
+
 def _in_the_line(row: Row) -> str:
-    """ " (0.152 kN, 0 m from the anchor)": what is a share of the breaking load, if it is not about that at the top."""
-    most_N = number_of(row, "tension_line_max_N")
-    if not most_N > (1.0 + COARSE) * row[PEAK]:
+    """ "0.152 kN, 0 m from the anchor": the largest tension along the line and its place."""
+    place_m = typed(number_of(row, "tension_line_max_s_m"))
+    return f"{kilonewton(number_of(row, 'tension_line_max_N'))}, {place_m} m from the anchor"
+
+
+def _below_the_top(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
+    """The largest tension of the lines, with a space in front, where it is above the peak: a floating rope has it."""
+    most = greatest(rows, "tension_line_max_N")
+    if most is None or not _is_below_the_top(most, peak):
         return ""
-    return f" ({kilonewton(most_N)}, {typed(number_of(row, 'tension_line_max_s_m'))} m from the anchor)"
+    return f" Below its top the line bears up to {_in_the_line(most)}, {place_of(most, keys)}."
 
 
 def is_searched(row: Row, rows: Rows, keys: Iterable[str]) -> bool:

@@ -10,7 +10,7 @@ from campaigns.explore.answer import sentences
 from campaigns.explore.load import load, use_of
 from engine import load_scene
 from engine.trajectory.excursions import BED
-from tables import OPEN, OTHER_MOTION
+from tables import OPEN, OTHER_MOTION, PEAK
 
 SEA = {"waves.jonswap.significant_height_m": 1.0}
 LOAD = tomllib.loads(Path(__file__).with_name("answers.toml").read_text(encoding="utf-8"))["load"]
@@ -66,6 +66,14 @@ def test_what_a_row_knows_or_a_scene_has_was_checked(name, row, changes):
 def test_the_error_of_the_largest_tension_is_told_in_kN_and_per_cent():
     line, *_ = sentences([PULLS | KNOWN["grid and steps"]], "steepness", "kA", load_scene("tethered_buoy"))
     assert "1 kN (± 0.03 kN by grid and steps)" in line and "grid and steps (± 3 %)" in line
+
+
+@pytest.mark.parametrize(("most_N", "told"), [(1040.0, False), (2500.0, True)])
+def test_a_line_that_bears_more_below_its_top_is_told_where_and_at_which_value(most_N, told):
+    """As a rope that floats: the anchor holds it down. The peak at the top is 1000 N."""
+    rows = [PULLS, PULLS | {"steepness": 0.2, PEAK: 900.0, "tension_line_max_N": most_N, "tension_line_max_s_m": 0.0}]
+    words = "Below its top the line bears up to 2.5 kN, 0 m from the anchor, kA = 0.2."
+    assert (words in load(rows, {"steepness": "kA"}, load_scene("tethered_buoy"))) == told
 
 
 def test_a_line_that_lay_below_the_bed_is_told_beside_the_bed_that_was_not_checked():

@@ -172,6 +172,15 @@ def test_the_table_of_extremes_has_both_parts_with_moments():
     assert table.loc[("whole run", "radius_m"), "largest"] == pytest.approx(21.5)
 
 
+@pytest.mark.parametrize(("most_N", "told"), [(7.2e3, False), (8e3, True)])
+def test_a_line_that_bears_more_below_its_top_is_told_with_its_place(most_N, told):
+    """The largest tension at the top is 7 kN."""
+    run = pulled()
+    run.columns["tension_max_N"] = np.where(run.columns["time_s"] == 700.0, most_N, 0.0)
+    run.columns["tension_max_s_m"] = np.full(len(run.columns["time_s"]), 2.5)
+    assert facts(run).get("line") == ("bears up to 8000.00 N (t = 700 s), 2.5 m from the anchor" if told else None)
+
+
 def snapping() -> Trajectory:
     """A motion whose tension is zero for half of each period, and then a half sine of 6 kN."""
     run = moved(0.5)
