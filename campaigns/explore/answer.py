@@ -25,6 +25,7 @@ from analysis.looks import BLURRED, OF_STEPS
 from campaigns.answers import NOTHING_LASTS, greatest, kilonewton, known_rows, lasting, lines, numbers_of
 from campaigns.explore.load import load, place_of
 from campaigns.explore.motions import from_rest
+from campaigns.explore.multipliers import UNSTABLE
 from engine.views import carries_tangents, in_regular_waves
 from tables import (
     CHAOTIC,
@@ -61,6 +62,7 @@ OPEN_REASONS = {
 }
 OF_TOLERANCE = {  # words of the reason of a regime -> what is said of its row
     BLURRED: f"the start is forgotten, but no period is met: {BLURRED} (a tenth of solver.rtol or more nodes decide)",
+    UNSTABLE: "the orbit of the period that is met is unstable (a tenth of solver.rtol decides)",
     OF_STEPS: "chaos is gone at a tenth of the tolerance (a tenth of solver.rtol decides, or a longer run (--budget))",
 }
 BESIDE_A_PERIOD = f"chaos stands beside a period and may be a long transient ({LONGER})"

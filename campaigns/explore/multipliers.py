@@ -31,6 +31,7 @@ SOURCES = "analysis/orbits", "analysis/sampling.py", "campaigns/explore/multipli
 TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is smaller; at 0.03 multipliers are false
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
+UNSTABLE = "NOT stable, the run lies beside it"
 ITERATIONS, HALVINGS = 6, 2  # of Newton's method: from a run that comes nearer to an orbit three are enough
 LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
@@ -85,11 +86,16 @@ class OrbitUnder:
         size, doubt = f"{first.real:.4f}", ""
         if first.imag:
             size = f"{modulus:.4f} at {math.degrees(angle):.0f} degrees"
-        if abs(modulus - 1.0) <= error:
+        if self.is_unstable():
+            doubt = f": {UNSTABLE}"
+        elif abs(modulus - 1.0) <= error:
             doubt = ", not known to be stable"
-        elif modulus > 1.0:
-            doubt = ": NOT stable, the run lies beside it"
         return f"leading multiplier {size}, ± {error:.2g}{doubt}"
+
+    def is_unstable(self) -> bool:
+        """Whether its leading multiplier is beyond 1 by more than its error: no motion stays on such an orbit."""
+        modulus, _, error = self._leading()
+        return modulus - 1.0 > error
 
     def _leading(self) -> tuple[float, float, float]:
         """Modulus, angle and error of the leading multiplier."""
@@ -151,6 +157,26 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
         "history": history,
         "state": {name: values for name, _, values, *_ in state.variables()},
     }
+
+
+def orbit_of_twice(trajectory: Trajectory, period: int, orbits: Store) -> OrbitUnder | None:
+    """The orbit of twice the period under a run that repeats after `period` waves within the tolerance; None: none is
+    found, it is unstable too, or the run does not lie on it.
+
+    Beyond a flip the orbit of the period is unstable, and the two branches may be nearer than the tolerance.
+    """
+    from analysis import approach_evidence
+
+    try:
+        orbit = orbit_under(trajectory, 2 * period, orbits)
+    except (ArithmeticError, ValueError):
+        return None
+    if orbit.period != 2 * period or orbit.is_unstable():
+        return None
+    strobed, _ = strobed_states(trajectory, 0)
+    points, scale = strobed_states(orbit.run, 0)
+    approach = approach_evidence(strobed, points[: orbit.period], orbit.multipliers, orbit.errors, scale)
+    return orbit if approach.passed else None
 
 
 def orbit_ahead(trajectory: Trajectory, orbits: Store) -> tuple[OrbitUnder, Evidence] | None:

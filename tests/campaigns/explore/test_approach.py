@@ -103,6 +103,23 @@ def test_a_leading_multiplier_outside_the_unit_circle_has_its_caveat(modulus, er
         assert caveat in words and ("stable" in words) == bool(caveat)
 
 
+@pytest.mark.parametrize(
+    ("first", "of_twice", "word"),
+    [(-1.2, None, "undecided"), (-1.2, 0.5, "period-2"), (-1.005, None, "period-1"), (0.9, 0.5, "period-1")],
+)
+def test_no_motion_stays_on_an_unstable_orbit(first, of_twice, word, monkeypatch):
+    """A run that repeats beside one has twice its period, or none that is known."""
+    run = simulate(at(0.06), periods=135)
+
+    def orbit(period, multiplier):
+        return OrbitUnder(period, np.array([complex(multiplier)]), np.array([0.01]), run)
+
+    doubled = None if of_twice is None else orbit(2, of_twice)
+    monkeypatch.setattr("campaigns.explore.judgement.orbit_under", lambda *_: orbit(1, first))
+    monkeypatch.setattr("campaigns.explore.judgement.orbit_of_twice", lambda *_: doubled)
+    assert judged_row(run)["regime"] == word
+
+
 def test_a_start_is_kept_with_all_that_its_end_depends_on():
     def known(x):
         return [Settled(1, np.array([[x]]), np.array([[x, x, x]]), np.ones(1), "")]
