@@ -52,9 +52,9 @@ def motion_of(trajectory, checks):
 def record_regime(trajectory, transient_periods: int, tangent=None):
     """The verdict on the samples alone, as for a record of unknown origin, and Wolf's exponent of r.
 
-    Returns (Verdict, Exponent in bits per wave period). tangent: the Exponent of `tangent_of` for this run. If a motion
-    in three dimensions stays within millimetres of the plane of the waves, only its state in that plane is judged. All
-    periods after the transient count, also those with a loop release.
+    Returns (Verdict, Exponent in bits per wave period). tangent: the Exponent of `tangent_of` for this run. Of a
+    motion in three dimensions only the state in the plane of the waves is judged. All periods after the transient
+    count, also those with a loop release.
     """
     import numpy as np
 

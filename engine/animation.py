@@ -78,7 +78,7 @@ def shapes_of(run: "Trajectory", begin_s: float | None = None, duration_s: float
         beyond = max(3.0 * diameter_m, 0.25 * float(z.max()))  # of the rope, on both sides
         across = np.linspace(x.min() - beyond, x.max() + beyond, 80)
         anchor = scene.anchor.position_m  # places of a run are told from there
-        height = elevation_m(scene, lines.time_s[inside][:, None], anchor[0] + across)
+        height = elevation_m(scene, lines.time_s[inside][:, None], anchor[0] + across, anchor[1])
         water = across, scene.water.depth_m - anchor[2] + height
     record = time_s[part] / unit_s, top[part]
     return Shapes(lines.time_s[inside] / unit_s, unit, x, z, lines.tension_N[inside], diameter_m, water, record)

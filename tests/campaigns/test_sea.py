@@ -11,7 +11,8 @@ from campaigns.machinery.plan import Plan
 from campaigns.machinery.runner import groups_of
 from campaigns.sea import rows as sea_rows
 from campaigns.sea.cells import _scatter
-from campaigns.sea.regular import design_loads, folds_of
+from campaigns.sea.regular import design_loads, folds_of, regular_order
+from engine import load_scene
 from reports import build
 from tables import Column
 from tests.campaigns.conftest import built_twice, finished, order_of, ran, rows_of
@@ -33,6 +34,21 @@ def test_every_start_runs_in_every_sea_and_one_run_is_finer(small):
     assert plain == [(str(seed), str(start)) for seed in (1, 2) for start in (0, 1, 2)]
     assert [row["sea"] for row in rows if row["solver"]] == ["1"]
     assert {row["status"] for row in rows} == {"ok"}
+
+
+@pytest.mark.parametrize(("dimensions", "heading"), [(2, np.pi), (3, 0.5 * np.pi)])
+def test_regular_waves_go_where_most_of_the_sea_goes(tmp_path, dimensions, heading):
+    """In a current the load depends on it."""
+    waves = []
+    for amplitude_m, towards in ((0.5, heading), (0.4, heading), (0.3, heading - np.pi)):
+        waves.append({"period_s": 5.0 + amplitude_m, "amplitude_m": amplitude_m, "direction_rad": towards})
+    changes = {"waves": {"period_s": 5.0, "components": waves}, "motion.dimensions": dimensions}
+    (tmp_path / "listed.toml").write_text(load_scene("tethered_buoy", changes).to_toml())
+    order = order_of(sea, "--scene", tmp_path / "listed.toml", "--hours", 0.1, "--out", tmp_path / "new")
+    regular = regular_order(order)
+    assert not order.faults and not regular.faults
+    for case in regular.cases:
+        assert np.exp(1j * case.scene.waves.direction_rad) == pytest.approx(np.exp(1j * heading))
 
 
 @pytest.mark.parametrize(

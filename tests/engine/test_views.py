@@ -10,7 +10,9 @@ import pytest
 
 from engine import Trajectory, load_scene, simulate
 from engine.__main__ import main
+from engine.animation import shapes_of
 from engine.natural_frequencies import axial_period_s, impact_Nspm
+from engine.physics.sea import elevation_m
 from engine.run.rest import static_tension_N
 from engine.trajectory import COLUMNS, TangentGrowth
 from engine.views import FOLLOWED, doubt_of_verdict, facts, strobed_states
@@ -259,6 +261,16 @@ def test_a_name_is_a_scene_and_a_run_with_shapes_moves(tmp_path):
     np.testing.assert_array_equal(run["tension_anchor_N"], profiles.tension_N[:, 0])
     np.testing.assert_array_equal(run["tension_max_N"], profiles.tension_N.max(axis=1))
     np.testing.assert_allclose(run["tension_max_s_m"], profiles.s_m[profiles.tension_N.argmax(axis=1)])
+
+
+def test_the_surface_in_a_moving_picture_is_that_over_the_anchor():
+    place = {"anchor.position_m": [7.0, 9.0, 0.0], "motion.dimensions": 3, "waves.direction_rad": 0.5 * np.pi}
+    scene = line(place, {"waves.steepness": 0.05, "output.profiles": True}, nodes=5)
+    run = simulate(scene, periods=3)
+    across_m, height_m = shapes_of(run).water
+    nearest = np.argmin(np.abs(across_m))
+    heights = elevation_m(scene, run.profiles.time_s, 7.0 + across_m[nearest], 9.0) + scene.water.depth_m
+    assert height_m[:, nearest] == pytest.approx(heights[-len(height_m) :], abs=1e-9)
 
 
 def test_a_periodic_section_is_a_dot_and_not_its_rounding():
