@@ -144,6 +144,9 @@ def _notes(study: Study) -> list[str]:
     if undecided and len(view.points) < 200:
         needed = "chaos can be shown with 200 points or more on the section, any regime with 40"
         notes.append(f"{needed}; here are {len(view.points)}")
+    if study.line_period is not None and study.verdict.period is None:
+        line = f"the record has a line of the period {study.line_period:.8g} {record.unit}, from which --period parts"
+        notes.append(f"{line} steadily: if the line is that of the forcing, give its period")
     notes.extend(_notes_on_noise(study))
     if view.kind == MAXIMA:
         notes.append("of a motion that is forced with a known period, --period sees more: the section once per period")

@@ -23,6 +23,7 @@ command line, every point has to keep its place, too (`_places`): the steps of a
 """
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -38,7 +39,7 @@ from analysis.embedding import (
 )
 from analysis.evidence import Evidence, memory_evidence, outlier_evidence
 from analysis.exponents import Exponent, no_exponent
-from analysis.periods import detect_period
+from analysis.periods import CLEARLY_MORE, detect_period
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
@@ -49,6 +50,7 @@ from campaigns.time_series.record import Record
 
 STROBED, SAMPLES, MAXIMA = "strobed", "samples", "maxima"
 NOISE_MULTIPLE = 6.0
+MOST_PERIOD = 16
 # Samples at either end of a record in which a spline lacks neighbours; what it lacks falls by 0.27 a sample.
 SPLINE_END = 20
 # More samples make exponents no better than their other errors, and take long.
@@ -59,6 +61,9 @@ TOLERANCE = 1e-3
 OF_NOISE, MOST_TOLERANCE = 8.0, 0.1
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
+# A line beside the forcing period: stretches of the record; turns by which the two part over it; share of these turns
+# by which a stretch may stray from a steady parting.
+STRETCHES, LEAST_PARTED, STEADY = 8, 1e-5, 0.1
 ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
 
 
@@ -87,6 +92,7 @@ class Study:
     embedding: EmbeddingChoice | None  # of the delay vectors; None for a record of fewer than 20 mean periods
     dimension: CorrelationDimension | None  # of the delay vectors of `embedding`; None as there
     verdict: Verdict  # on the section
+    line_period: float | None  # of the line beside a given forcing period, `line_beside` [unit of time of the record]
     tolerance: float  # share of `motion_range` within which the section had to repeat
     used: int  # samples looked at by exponents and dimension: the last of the record
 
@@ -123,9 +129,30 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
         embedding=embedding,
         dimension=dimension,
         verdict=verdict,
+        line_period=line_beside(x, step, period) if view.kind == STROBED else None,
         tolerance=tolerance,
         used=len(last),
     )
+
+
+def line_beside(x: np.ndarray, step: float, period: float) -> float | None:
+    """Period of the line of a record (n,) that lies beside the period given, where the two part steadily; else None.
+
+    The mean of x exp(-2 pi i t/T) over each of eight stretches, under Hann's window, turns from stretch to stretch.
+    """
+    cycles = int((len(x) - 1) * step / period) // STRETCHES
+    samples = cycles * period / step
+    ends = np.rint(samples * np.arange(STRETCHES + 1)).astype(int)
+    turning = (x - x.mean()) * np.exp(-2j * np.pi * step / period * np.arange(len(x)))
+    means = np.array([np.average(turning[a:b], weights=np.hanning(b - a)) for a, b in pairwise(ends)])
+    phase, stretch = np.unwrap(np.angle(means)) / (2.0 * np.pi), np.arange(STRETCHES)
+    line = np.polyfit(stretch, phase, 1)
+    parted = STRETCHES * abs(line[0])
+    strays = np.abs(phase - np.polyval(line, stretch)).max()
+    size = np.abs(means)
+    if parted < LEAST_PARTED or strays > STEADY * parted or size.min() < 0.5 * size.max():
+        return None
+    return float(period / (1.0 + line[0] / cycles))
 
 
 def motion_range(x: np.ndarray) -> float:
@@ -181,7 +208,9 @@ def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
-    if verdict.period is not None and tolerance > least_tolerance(view):
+    if verdict.period is None:
+        verdict = _stands(verdict, section, motion_range(x), tolerance)
+    elif tolerance > least_tolerance(view):
         verdict = _places(verdict, section, motion_range(x), tolerance)
     if view.kind != MAXIMA:
         return verdict
@@ -207,13 +236,37 @@ def _with(verdict, test, but):
     return replace(verdict, regime="undecided", period=None, reason=but + test.sentence)
 
 
+def _stands(verdict, section, scale, tolerance):
+    """The verdict, or period-N where every Nth point of the whole record keeps its place.
+
+    A forcing period that is wrong in its eighth digit gives small equal steps. `detect_period` calls them a drift, but
+    over the record they add up to less than the tolerance.
+    """
+    for count in range(1, min(MOST_PERIOD, len(section) // 4) + 1):
+        if _way(section, count) > tolerance * scale:
+            continue
+        divisors = [divisor for divisor in range(1, count) if count % divisor == 0]
+        if any(_way(section, divisor) < CLEARLY_MORE * tolerance * scale for divisor in divisors):
+            return verdict
+        way = _way(section, count) / scale
+        sentence = (
+            f"repeats after {count} period(s) within {tolerance:g} of the range over the whole record ({way:.2g})"
+        )
+        evidence = (*verdict.evidence, Evidence("places", way, tolerance, True, sentence))
+        return replace(verdict, regime=f"period-{count}", period=count, reason=sentence, evidence=evidence)
+    return verdict
+
+
+def _way(section, count):
+    """Largest range of a coordinate of a section (m, d) over every `count`th point."""
+    return float(max(np.ptp(section[first::count], axis=0).max() for first in range(count)))
+
+
 def _places(verdict, section, scale, tolerance):
     """The verdict period-N, with whether every Nth point of the later half keeps its place: "undecided" where it does
     not. The steps of a slow torus are small and add up; noise on them hides that.
     """
-    later = section[-max(len(section) // 2, 3 * verdict.period) :]
-    ways = [np.ptp(later[first :: verdict.period], axis=0).max() for first in range(verdict.period)]
-    way = float(max(ways) / scale)
+    way = _way(section[-max(len(section) // 2, 3 * verdict.period) :], verdict.period) / scale
     sentence = f"points that are alike wander by {way:.2g} of the range in the later half"
     return _with(verdict, Evidence("places", way, tolerance, way <= tolerance, sentence), "no period: ")
 
