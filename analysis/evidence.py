@@ -101,11 +101,11 @@ def wandering_evidence(
 
 
 def period_evidence(estimate: PeriodEstimate) -> list[Evidence]:
-    """Period of the strobed orbit, and the multiplier of the slowest decay towards it."""
+    """Whether the strobed orbit repeats, by what it misses, and the multiplier of the slowest decay towards it."""
     if estimate.period is None:
         return [Evidence("period", np.nan, estimate.tolerance, False, estimate.reason)]
     n = estimate.period
-    period = Evidence("period", float(n), estimate.tolerance, True, estimate.reason)
+    period = Evidence("period", estimate.residual[n - 1], estimate.tolerance, True, estimate.reason)
     if estimate.residual[n - 1] == 0.0:
         sentence = "the orbit repeats to the last digit: nothing is left whose decay could be seen"
         return [period, Evidence("contraction", np.nan, 1.0, None, sentence)]

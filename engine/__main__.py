@@ -149,10 +149,10 @@ def main(argv: list[str] | None = None) -> int:
         for name in engine.list_scenes():
             print(f"  {name:<14} {engine.load_scene(name).title}")
         return 0
-    if argv[0] == "--new":
+    if "--new" in argv:
         from engine.own_mooring import command
 
-        return command.main(argv[1:])
+        return command.main([word for word in argv if word != "--new"])
     faults: list[str] = []
     order = read_order(argv, faults)
     if faults:

@@ -39,7 +39,7 @@ from analysis.embedding import (
 )
 from analysis.evidence import Evidence, memory_evidence, outlier_evidence
 from analysis.exponents import Exponent, no_exponent
-from analysis.periods import detect_period
+from analysis.periods import CLEARLY_MORE, detect_period
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
 from analysis.spectra import SpectralPeak, Spectrum, spectral_peaks, spectrum
@@ -50,6 +50,7 @@ from campaigns.time_series.record import Record
 
 STROBED, SAMPLES, MAXIMA = "strobed", "samples", "maxima"
 NOISE_MULTIPLE = 6.0
+MOST_PERIOD = 16
 # Samples at either end of a record in which a spline lacks neighbours; what it lacks falls by 0.27 a sample.
 SPLINE_END = 20
 # More samples make exponents no better than their other errors, and take long.
@@ -62,7 +63,7 @@ OF_NOISE, MOST_TOLERANCE = 8.0, 0.1
 EVEN_TIMES = 0.05
 # A line beside the forcing period: stretches of the record; turns by which the two part over it; share of these turns
 # by which a stretch may stray from a steady parting.
-STRETCHES, LEAST_PARTED, STEADY = 8, 1e-3, 0.1
+STRETCHES, LEAST_PARTED, STEADY = 8, 1e-5, 0.1
 ESTIMATES = {"wolf": wolf_lyapunov, "rosenstein": rosenstein_lyapunov}
 
 
@@ -207,7 +208,9 @@ def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
-    if verdict.period is not None and tolerance > least_tolerance(view):
+    if verdict.period is None:
+        verdict = _stands(verdict, section, motion_range(x), tolerance)
+    elif tolerance > least_tolerance(view):
         verdict = _places(verdict, section, motion_range(x), tolerance)
     if view.kind != MAXIMA:
         return verdict
@@ -233,13 +236,37 @@ def _with(verdict, test, but):
     return replace(verdict, regime="undecided", period=None, reason=but + test.sentence)
 
 
+def _stands(verdict, section, scale, tolerance):
+    """The verdict, or period-N where every Nth point of the whole record keeps its place.
+
+    A forcing period that is wrong in its eighth digit gives small equal steps. `detect_period` calls them a drift, but
+    over the record they add up to less than the tolerance.
+    """
+    for count in range(1, min(MOST_PERIOD, len(section) // 4) + 1):
+        if _way(section, count) > tolerance * scale:
+            continue
+        divisors = [divisor for divisor in range(1, count) if count % divisor == 0]
+        if any(_way(section, divisor) < CLEARLY_MORE * tolerance * scale for divisor in divisors):
+            return verdict
+        way = _way(section, count) / scale
+        sentence = (
+            f"repeats after {count} period(s) within {tolerance:g} of the range over the whole record ({way:.2g})"
+        )
+        evidence = (*verdict.evidence, Evidence("places", way, tolerance, True, sentence))
+        return replace(verdict, regime=f"period-{count}", period=count, reason=sentence, evidence=evidence)
+    return verdict
+
+
+def _way(section, count):
+    """Largest range of a coordinate of a section (m, d) over every `count`th point."""
+    return float(max(np.ptp(section[first::count], axis=0).max() for first in range(count)))
+
+
 def _places(verdict, section, scale, tolerance):
     """The verdict period-N, with whether every Nth point of the later half keeps its place: "undecided" where it does
     not. The steps of a slow torus are small and add up; noise on them hides that.
     """
-    later = section[-max(len(section) // 2, 3 * verdict.period) :]
-    ways = [np.ptp(later[first :: verdict.period], axis=0).max() for first in range(verdict.period)]
-    way = float(max(ways) / scale)
+    way = _way(section[-max(len(section) // 2, 3 * verdict.period) :], verdict.period) / scale
     sentence = f"points that are alike wander by {way:.2g} of the range in the later half"
     return _with(verdict, Evidence("places", way, tolerance, way <= tolerance, sentence), "no period: ")
 

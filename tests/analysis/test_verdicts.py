@@ -73,6 +73,13 @@ def test_a_period_tells_how_fast_it_attracts():
     assert verdict.named("contraction").value == pytest.approx(-0.9, abs=0.01)
 
 
+def test_what_a_period_misses_stands_beside_its_tolerance():
+    """Its steps shrink by -0.9: the first of the later half is the largest."""
+    section = 21.0 + 0.01 * (-0.9) ** K[:60]
+    period = regime(strobed=section, scale=2.0, tolerance=0.01).named("period")
+    assert period.value == pytest.approx(0.5 * 0.019 * 0.9**30) and period.value < period.threshold == 0.01
+
+
 @pytest.mark.parametrize(
     ("section", "words", "why"),
     [

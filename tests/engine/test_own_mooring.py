@@ -108,6 +108,13 @@ def test_what_is_written_is_a_scene_of_these_values(material, changes):
     assert all(" # " in line or lines[lines.index(line) - 1].startswith("# ") for line in values)
 
 
+def test_the_options_of_a_new_scene_may_stand_in_front(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["--new", "first.toml", *OPTIONS.split()]) == main([*OPTIONS.split(), "--new", "mine.toml"]) == 0
+    first, mine = ((tmp_path / name).read_text() for name in ("first.toml", "mine.toml"))
+    assert first.replace('"first"', '"mine"') == mine
+
+
 def test_options_and_answers_on_a_terminal_write_the_same_scene(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["--new", "mine.toml", *OPTIONS.split()]) == 0
