@@ -11,6 +11,7 @@ from campaigns.explore.motions import from_rest
 from tables import CHAOTIC, PEAK, UNSETTLED, Row, Rows, listed, number_of, ranges
 
 NONE_FOUND = "No start has settled, so there is no motion to name."
+CREST = "crest"  # what rows have for sentences about a crest
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
 
@@ -38,9 +39,9 @@ def sentences(rows: Rows, across: Sequence[str], scene, parts: Mapping[str, Rows
     used = use_of(worst, scene, searched=any(row["motion"] for row in rows))
     yield f"On the tension of {worst['motion']}: {used[:1].lower()}{used[1:]}"
     if parts["shock"]:
-        yield _shock(parts["shock"], across, math.cos(scene.waves.direction_rad))
+        yield _shock(_with_crests(parts["shock"], scene), across, math.cos(scene.waves.direction_rad))
     if PHASE in across and parts["shock"]:
-        yield _when(rows, across, str(parts["shock"][0]["motion"]))
+        yield _when(_with_crests(rows, scene), across, str(parts["shock"][0]["motion"]))
     if parts["edge"]:
         yield from _edge(parts["edge"][0])
     unsure = []
@@ -86,7 +87,7 @@ def _way(shock: Row, across: Sequence[str], along: float) -> str:
     if PHASE in across:
         if across[0] == "vz":
             ahead = ("upwards", "downwards")[first < 0.0]
-        return f"{ahead}, {_phase(shock):.2f} T before a crest"
+        return f"{ahead}, {shock[CREST]:.2f} T before a crest"
     second = number_of(shock, COLUMNS[across[1]])
     upright = ("downwards", "upwards")[second > 0.0]
     angle = math.degrees(math.atan2(abs(second), abs(first)))
@@ -104,7 +105,7 @@ def _shock(rows: Rows, across: Sequence[str], along: float) -> str:
         return f"No smallest start was found: {rows[0]['message']}."
     first, *finer = good
     if first["size"] == 0.0:
-        return f"No gust is needed: waves that begin {_phase(first):.2f} T before a crest lead to {first['motion']}."
+        return f"No gust is needed: waves that begin {first[CREST]:.2f} T before a crest lead to {first['motion']}."
     words = (
         f"The smallest start that leads to {first['motion']} is {first['size']:.2g} {unit} {_way(first, across, along)}"
     )
@@ -115,17 +116,19 @@ def _shock(rows: Rows, across: Sequence[str], along: float) -> str:
     return f"{words}."
 
 
-def _phase(row: Row) -> float:
-    """Time from the start to a crest, as a share of the wave period."""
-    return number_of(row, COLUMNS[PHASE]) / (2.0 * math.pi)
+def _with_crests(rows: Rows, scene) -> Rows:
+    """The rows with the time from the start to a crest over the anchor, as a share of the wave period."""
+    from engine.physics.sea import crest_share
+
+    return [{**row, CREST: crest_share(scene, number_of(row, COLUMNS[PHASE]))} for row in rows]
 
 
 def _when(rows: Rows, across: Sequence[str], letter: str) -> str:
     """How long before a crest nothing, little or much leads to a motion."""
-    least = dict.fromkeys(sorted(map(_phase, rows)), math.inf)  # by phase
+    least = dict.fromkeys(sorted(row[CREST] for row in rows), math.inf)  # by phase
     for row in rows:
         if row["motion"] == letter:
-            least[_phase(row)] = min(abs(number_of(row, COLUMNS[across[0]])), least[_phase(row)])
+            least[row[CREST]] = min(abs(number_of(row, COLUMNS[across[0]])), least[row[CREST]])
     sizes, phases = list(least.values()), [round(phase, 3) for phase in least]
     low, high = min(sizes), max(filter(math.isfinite, sizes), default=math.inf)
     enough = f"{low:.2g} m/s are enough"

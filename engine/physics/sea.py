@@ -206,6 +206,13 @@ def elevation_m(
     return eta * _share_of_ramp(scene, t)
 
 
+def crest_share(scene: Scene, phase_rad: float) -> float:
+    """Time to the next crest over the anchor, as a share of the period of a regular wave that begins at this phase."""
+    k, _, _, cosine, sine, *_ = rows_of(scene)[0]
+    x, y, _ = scene.anchor.position_m
+    return (phase_rad + k * (x * cosine + y * sine)) / (2.0 * math.pi) % 1.0
+
+
 def envelope_m(scene: Scene, time_s: np.ndarray) -> np.ndarray:
     """Amplitude (m) of the surface over the anchor: the modulus of the sum of A exp(i (k.x - omega t + phase)).
 

@@ -83,17 +83,20 @@ def _colours(motions) -> dict[str, str]:
     return colours_of(motions) or {str(row["motion"]): BLUE for row in motions}
 
 
-def _value(row, axis: str) -> float:
+def _value(row, axis: str, scene) -> float:
+    """Of a start on an axis; of its phase the time to the next crest over the anchor, in wave periods."""
+    from engine.physics.sea import crest_share
+
     column, _ = _AXES[axis]
     value = float(row[column])
     if axis == "phase":
-        return value / (2.0 * math.pi)
+        return crest_share(scene, value)
     return value
 
 
 def _map(folder: Folder, across: list[str], motions, shock: Folder) -> Items:
-    x, columns = np.unique([_value(row, across[0]) for row in folder.table], return_inverse=True)
-    y, rows = np.unique([_value(row, across[1]) for row in folder.table], return_inverse=True)
+    x, columns = np.unique([_value(row, across[0], folder.scene) for row in folder.table], return_inverse=True)
+    y, rows = np.unique([_value(row, across[1], folder.scene) for row in folder.table], return_inverse=True)
     ended = np.full((len(y), len(x)), "", dtype=object)
     for row, up, right in zip(folder.table, rows, columns, strict=True):
         ended[up, right] = row["motion"] or _outcome(row)
@@ -105,7 +108,7 @@ def _map(folder: Folder, across: list[str], motions, shock: Folder) -> Items:
     caption = (
         "Motion in which each start of the grid ends, with its largest tension (`table.csv`, `motions/table.csv`)."
     )
-    arrow = _arrow(across, shock)
+    arrow = _arrow(across, shock, folder.scene)
     if arrow is not None:
         caption += " Arrow: the smallest start that leads to the motion of the largest tension."
     alt = f"Map of {count(len(folder.table), 'start')}, a colour a motion; shares in the text."
@@ -184,13 +187,13 @@ def _outcome(row) -> str:
     return row["outcome"]
 
 
-def _arrow(across: list[str], shock: Folder) -> tuple[list[float], str] | None:
+def _arrow(across: list[str], shock: Folder, scene) -> tuple[list[float], str] | None:
     """(where the smallest start to the largest tension is on the map, its size in words); None without one."""
     starts = having(shock.table, status="ok")
     if not starts or not starts[0]["size"] > 0.0:
         return None
     unit = "m" if "x" in across else "m/s"
-    return [_value(starts[0], axis) for axis in across], f"{number(starts[0]['size'], 2)} {unit}"
+    return [_value(starts[0], axis, scene) for axis in across], f"{number(starts[0]['size'], 2)} {unit}"
 
 
 def _motions(part: Folder, motions, edge: Folder) -> Items:
@@ -237,7 +240,7 @@ def _warnings(folder: Folder, across: list[str]) -> Notice:
     lines = []
     for outcome, rows in rows_of_outcomes.items():
         first = rows[0]
-        place = listed(f"{axis} = {number(_value(first, axis))}" for axis in across)
+        place = listed(f"{axis} = {number(_value(first, axis, folder.scene))}" for axis in across)
         line = f"{count(len(rows), 'start')} {outcome}, the first at {place}"
         if first["message"]:
             line += f": {first['message']}"

@@ -9,14 +9,16 @@ import pytest
 from analysis import joins, settled
 from campaigns import basins
 from campaigns.basins import edge, main
-from campaigns.basins.answer import _shock
+from campaigns.basins.answer import _shock, sentences
 from campaigns.basins.grid import PAIRS, StartGrid
 from campaigns.basins.shocks import SHARP, Shock, smallest
 from campaigns.explore.starts import KICKS, Start, section_of
 from engine import load_scene, simulate, simulate_each
 from engine.physics.waves import wave_number
+from engine.scene import scene_from_toml
 from reports.basins.report import report
 from reports.parts.content import Figure, Table
+from tables import PEAK
 from tests.campaigns.conftest import finished, order_of, ran, rows_of
 from tests.reports.conftest import of_kind
 
@@ -63,8 +65,8 @@ def test_the_smallest_start_is_the_nearest_point_of_a_disc(centre):
 @pytest.mark.parametrize(
     ("across", "shock", "way"),
     [
-        ("vx phase", {"kick_x_mps": -2.0, "phase_rad": 0.5 * math.pi}, "against the waves, 0.25 T before a crest"),
-        ("vz phase", {"kick_z_mps": 2.0, "phase_rad": math.pi}, "upwards, 0.50 T before a crest"),
+        ("vx phase", {"kick_x_mps": -2.0, "crest": 0.25}, "against the waves, 0.25 T before a crest"),
+        ("vz phase", {"kick_z_mps": 2.0, "crest": 0.5}, "upwards, 0.50 T before a crest"),
         ("vx vz", {"kick_x_mps": -1.0, "kick_z_mps": -1.0}, "against the waves, 45 degrees downwards"),
         ("x z", {"displacement_x_m": 0.01, "displacement_z_m": 1.0}, "upwards"),
     ],
@@ -90,6 +92,22 @@ def test_runs_that_part_twice_as_far_every_wave_leave_the_edge_by_a_bit_a_wave(t
     row = edge.edge_state(SimpleNamespace(plan=SimpleNamespace(out=tmp_path)), *motions)
     assert row["growth_bits_per_period"] == pytest.approx(1.0) and row["strobed_period"] == 1
     assert (row["status"], row["periods"]) == ("ok", together * math.ceil(edge.MOST / together))
+
+
+def test_a_crest_is_one_over_the_anchor():
+    """A mooring a tenth of a wave length down the waves meets the same crest a tenth of a period later."""
+    base = load_scene("tethered_buoy", {"waves.steepness": 0.1})
+    length_m = 2.0 * math.pi / wave_number(base.waves.period_s, base.water.depth_m, base.gravity_mps2)
+    scene = scene_from_toml(base.to_toml(), {"anchor.position_m": [0.1 * length_m, 0.0, 0.0]})
+    shock = {"status": "ok", "size": 2.0, "motion": "B", "nodes": 81.0, "kick_x_mps": 2.0, "phase_rad": 0.5 * math.pi}
+    motion = {"status": "ok", "motion": "A", "regime": "period-1", PEAK: 2e3, "steepness": 0.1, "confirmed": ""}
+    starts = [{"status": "ok", "motion": "B", "kick_x_mps": 2.0, "phase_rad": 0.0}]
+    words = {}
+    for place in (base, scene):
+        parts = {"motions": [motion, motion | {"motion": "B", PEAK: 9e3}], "shock": [shock, shock], "edge": []}
+        words[place] = " ".join(sentences(starts, ["vx", "phase"], place, parts))
+    assert "0.25 T before a crest" in words[base] and "at 0 T 2 m/s" in words[base]
+    assert "0.35 T before a crest" in words[scene] and "at 0.1 T 2 m/s" in words[scene]
 
 
 def test_a_motion_started_at_another_phase_is_the_same():
