@@ -47,6 +47,12 @@ def test_a_load_names_its_share_of_a_known_breaking_load_only():
     assert "breaking load" not in load([PULLS], {"steepness": "kA"}, load_scene("tethered_buoy"))
 
 
+@pytest.mark.parametrize(("share", "words"), [(0.95, "95 % of"), (1.67, "167 % of")])
+def test_a_line_that_breaks_is_not_for_design(share, words):
+    text = load([PULLS | {"utilisation": share}], {"steepness": "kA"}, load_scene("tethered_buoy"))
+    assert words in text and ("Not for design: the line breaks" in text) == (share > 1.0)
+
+
 @pytest.mark.parametrize(("most_N", "words"), [(1040.0, "load,"), (2500.0, "load (2.5 kN, 0 m from the anchor),")])
 def test_a_share_of_the_breaking_load_says_where_the_line_is_pulled_if_not_at_its_top(most_N, words):
     """The peak is 1000 N at the top."""
