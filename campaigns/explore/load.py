@@ -59,7 +59,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
     if usable is not None:
         place = ", ".join(filter(None, (largest(usable), of_motion(usable), place_of(usable, keys))))
         kind = "Largest without these faults"
-        if scene.buoy is not None and scene.buoy.submergence == "full":
+        if [*reasons(peak, scene)] == [OVERBUOYANT]:
             kind = "Largest of the runs that stay in the water"
         sentences += [f"{kind}: {place}.", use_of(usable, scene, is_searched(usable, rows, keys))]
     return " ".join(sentences)
