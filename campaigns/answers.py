@@ -10,7 +10,7 @@ from functools import partial
 from operator import itemgetter
 from pathlib import Path
 
-from tables import FAILS, PEAK, STATEMENTS, Row, Rows, any_rows, listed, number_of, verdict_counts
+from tables import FAILS, PEAK, STATEMENTS, Row, Rows, any_rows, listed, number_of, typed, verdict_counts
 
 CHAOS_OF_ONE_GRID = "Chaos was found on one grid of the line; campaigns.sweep over a key looks on a finer one."
 NOTHING_LASTS = {"LOAD": "not known, because no run lasts beyond the transient."}
@@ -47,8 +47,8 @@ def lines(texts: Mapping[str, str]) -> list[str]:
 
 
 def kilonewton(force_N: float) -> str:
-    """ "9.45 kN"."""
-    return f"{force_N / 1e3:.3g} kN"
+    """ "9.45 kN"; without an exponent, "1234 kN"."""
+    return f"{typed(force_N / 1e3, 3)} kN"
 
 
 def verdicts(folder: Path, quoted: int) -> Iterator[str]:

@@ -42,7 +42,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
         words[0] += f", {peak[PEAK] / modes.static_tension_N:.1f} times static"
     share = number_of(peak, "utilisation")
     if math.isfinite(share):
-        words[0] += f", {100.0 * share:.2g} % of the breaking load"
+        words[0] += f", {typed(100.0 * share, 2)} % of the breaking load"
         if _is_below_the_top(peak, peak):
             words[0] += f" ({_in_the_line(peak)})"
     words += [of_motion(peak), place_of(peak, keys), str(peak.get("regime") or "")]
@@ -59,7 +59,7 @@ def load(rows: Rows, keys: Mapping[str, str], scene, companions: Rows = ()) -> s
     if usable is not None:
         place = ", ".join(filter(None, (largest(usable), of_motion(usable), place_of(usable, keys))))
         kind = "Largest without these faults"
-        if scene.buoy is not None and scene.buoy.submergence == "full":
+        if [*reasons(peak, scene)] == [OVERBUOYANT]:
             kind = "Largest of the runs that stay in the water"
         sentences += [f"{kind}: {place}.", use_of(usable, scene, is_searched(usable, rows, keys))]
     return " ".join(sentences)
@@ -107,7 +107,7 @@ def largest(row: Row) -> str:
     """ "9.45 kN (± 0.12 kN by grid and steps)", without the error where that is not known."""
     text, error = kilonewton(row[PEAK]), number_of(row, PEAK_ERROR)
     if math.isfinite(error):
-        text += f" (± {error / 1e3:.2g} kN by grid and steps)"
+        text += f" (± {typed(error / 1e3, 2)} kN by grid and steps)"
     return text
 
 
@@ -154,7 +154,7 @@ def is_overbuoyant(row: Row, scene) -> bool:
 
 
 def reasons(row: Row, scene) -> Iterator[str]:
-    """What speaks against the tensions of a run: water on a sphere in the air, loops in a plane, grid and steps."""
+    """What speaks against the tensions of a run: a sphere in the air, loops, a line that breaks, grid and steps."""
     if scene is not None and row.get("role") != CAPPED and is_overbuoyant(row, scene):
         yield OVERBUOYANT
     loops = number_of(row, "loop_releases")
@@ -162,5 +162,7 @@ def reasons(row: Row, scene) -> Iterator[str]:
         yield f"{count(int(loops), 'loop')} released in a plane (motion.dimensions)"
     if number_of(row, PEAK_ERROR) > COARSE * number_of(row, PEAK):
         yield f"its numerical error is {100.0 * number_of(row, PEAK_ERROR) / number_of(row, PEAK):.0f} %"
+    if number_of(row, "utilisation") > 1.0:
+        yield "the line breaks (tether.breaking_load_N)"
     if OTHER_MOTION in str(row.get("message")):
         yield f"with smaller elements and steps it {OTHER_MOTION}"

@@ -60,6 +60,7 @@ def doubts_of(run: "Run", columns: Columns) -> str:
     doubtful = (
         _few_samples(run, columns),
         _waves_on_element(run),
+        _beyond_the_table(run, columns),
         _regular_waves(run),
         *_sea(run, columns),
     )
@@ -123,6 +124,21 @@ def _waves_on_element(run):
     if force_N <= HEARD * tension_at(1.0 / record["per_strain"], run.scene.tether.tension):
         return ""
     return WAVES_ON_ELEMENT.format(length=length, depth=1.0 / record["k"], force=digits(force_N, 2))
+
+
+def _beyond_the_table(run, columns):
+    """Says that the line was pulled beyond the last measured point of its tension law, or nothing."""
+    law = run.scene.tether.tension
+    damped = run.scene.tether.damping_Ns or run.scene.tether.damping_critical  # which has a part in the tension
+    if law.law != "tabulated" or damped:
+        return ""
+    largest_N = float(columns["tension_max_N"].max())
+    if not largest_N > law.tension_N[-1]:
+        return ""
+    return (
+        f"the line bears {digits(largest_N, 4)} N, and tether.tension is measured up to {law.tension_N[-1]:g} N: the "
+        "law goes on along its last slope; add points"
+    )
 
 
 def _undamped(run, columns):

@@ -47,6 +47,24 @@ def test_a_load_names_its_share_of_a_known_breaking_load_only():
     assert "breaking load" not in load([PULLS], {"steepness": "kA"}, load_scene("tethered_buoy"))
 
 
+@pytest.mark.parametrize(
+    ("fault", "kind"),
+    [
+        ({"max_buoy_emergence": 0.5}, "Largest of the runs that stay in the water"),
+        ({"loop_releases": 1}, "Largest without these faults"),
+    ],
+)
+def test_the_largest_tension_without_a_fault_says_which_fault_it_is_without(fault, kind):
+    rows = [PULLS | {PEAK: 2000.0, "dimensions": 2} | fault, PULLS | {"steepness": 0.05}]
+    assert f"{kind}: 1 kN" in load(rows, {"steepness": "kA"}, load_scene("tethered_buoy"))
+
+
+@pytest.mark.parametrize(("share", "words"), [(0.95, "95 % of"), (1.67, "167 % of")])
+def test_a_line_that_breaks_is_not_for_design(share, words):
+    text = load([PULLS | {"utilisation": share}], {"steepness": "kA"}, load_scene("tethered_buoy"))
+    assert words in text and ("Not for design: the line breaks" in text) == (share > 1.0)
+
+
 @pytest.mark.parametrize(("most_N", "words"), [(1040.0, "load,"), (2500.0, "load (2.5 kN, 0 m from the anchor),")])
 def test_a_share_of_the_breaking_load_says_where_the_line_is_pulled_if_not_at_its_top(most_N, words):
     """The peak is 1000 N at the top."""

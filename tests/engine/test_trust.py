@@ -53,6 +53,14 @@ def test_the_error_that_is_told_is_that_of_the_tension_that_is_printed():
     assert f"the largest tension, {largest:.4g} N at t = {when:.4g} s" in run.message
 
 
+@pytest.mark.parametrize(("last_N", "told"), [(1500.0, True), (2500.0, False)])
+def test_a_line_that_is_pulled_beyond_its_measured_points_says_so(last_N, told):
+    """At rest the buoy pulls with 2 kN."""
+    measured = {"law": "tabulated", "strain": [-0.02, 0.0, last_N / 5e4], "tension_N": [-100.0, 0.0, last_N]}
+    run = ran(line({"waves": None}, nodes=11, tension=measured), duration_s=1.0)
+    assert (f"measured up to {last_N:g} N" in run.message) == told
+
+
 def test_a_small_part_of_the_largest_tension_is_not_told():
     run = ran(line(STILL, away(60.0, EA), {"solver.shortest_period_s": 1.0}, tension=linear(EA)), duration_s=5.0)
     assert run.statistics["unresolved_ringing_N"] > 20.0 and run.message == ""
