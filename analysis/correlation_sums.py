@@ -7,6 +7,8 @@ between which the slope is constant. Without such a region there is no dimension
 the motion is smooth, not because it returns: Theiler's window w leaves them out, else every smooth curve has D = 1.
 """
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -32,8 +34,8 @@ class CorrelationDimension:
     """The correlation dimension of a set of points, or why there is none.
 
     value            D; NaN where no scaling region was found
-    error            standard error: from the slopes in four parts of the record, and half the difference of the slopes
-                     over the two halves of the region
+    error            standard error: from the slopes in four parts of the record, and the largest deviation of the slope
+                     over a quarter of the region, because the surface of a torus is curved and a finite set is uneven
     reason           one sentence
     region           (r_low, r_high), the scaling region, in standard deviations of the coordinates; (NaN, NaN) without
     radius (b,)      radii, in the same unit
@@ -132,13 +134,12 @@ def _read(pairs, total, logarithm, points):
         reason = f"no scaling region: {alike} between {LEAST_PAIRS} pairs and {LARGEST_SHARE:.0%} of all"
         return slope, (np.nan, np.nan, reason, none)
     first, last = region[0] - half, region[1] + half
-    middle = (first + last) // 2
-    ends = (first, last), (first, middle), (middle, last)
+    ends = np.linspace(first, last, QUARTERS + 1).astype(int)
     slopes = []
-    for begin, end in ends:
+    for begin, end in ((first, last), *pairwise(ends)):
         part = slice(begin, end + 1)
         slopes.append(float(np.polyfit(logarithm[part], ln_share[part], 1)[0]))
-    value, lower, upper = slopes
+    value, *of_quarters = slopes
     limit = 2.0 * np.log(points) / (logarithm[-1] - logarithm[last])
     if value > limit:
         reason = f"too few points: {points} cannot show a dimension above {limit:.2f}, the slope is {value:.2f}"
@@ -146,7 +147,7 @@ def _read(pairs, total, logarithm, points):
     edges = (float(np.exp(logarithm[first])), float(np.exp(logarithm[last])))
     span = logarithm[last] - logarithm[first]
     reason = f"slope {value:.3f} over {span:.1f} nats of radius, {edges[0]:.2g} to {edges[1]:.2g}"
-    return slope, (value, 0.5 * abs(upper - lower), reason, edges)
+    return slope, (value, max(abs(quarter - value) for quarter in of_quarters), reason, edges)
 
 
 def _sampling_error(quarters, logarithm, inside):

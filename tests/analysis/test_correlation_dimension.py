@@ -5,6 +5,7 @@ import pytest
 
 from analysis import correlation_dimension
 from analysis.correlation_sums import _sampling_error
+from analysis.embedding import delay_vectors
 from tests.analysis.systems import henon, normal, states
 
 
@@ -41,6 +42,15 @@ def test_four_parts_of_a_record_know_the_slope_twice_as_well_as_one():
     parts = (1000.0 * np.exp(np.outer(1.0 + 0.1 * normal(seed, 4), place)) for seed in range(400))
     errors = [_sampling_error(pairs, place, place >= 0.0) for pairs in parts]
     assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(0.05, rel=0.1)
+
+
+@pytest.mark.parametrize("angle", [0.1571, 0.17, 0.18])
+def test_a_torus_in_delays_has_dimension_2_within_two_errors(angle):
+    """Its surface is curved, so that the slope is too large by a twentieth over most of the region."""
+    k = np.arange(6000)
+    x = np.cos(angle * k) + 0.6 * np.cos(0.5 * (5.0**0.5 - 1.0) * angle * k + 1.0)
+    result = correlation_dimension(delay_vectors(x, 11, 4), theiler=44)
+    assert abs(result.value - 2.0) < 2.0 * result.error < 1.0
 
 
 @pytest.mark.parametrize("dimension", [1, 2, 3])
