@@ -81,6 +81,8 @@ def _below_the_top(rows: Rows, peak: Row, keys: Mapping[str, str]) -> str:
     most = greatest(rows, "tension_line_max_N")
     if most is None or not _is_below_the_top(most, peak):
         return ""
+    if most is peak and math.isfinite(number_of(peak, "utilisation")):  # told beside that
+        return ""
     return f" Below its top the line bears up to {_in_the_line(most)}, {place_of(most, keys)}."
 
 
