@@ -67,7 +67,7 @@ def read_record(
         if time is None and step is None and column != TIME and TIME in table.names:
             time = TIME
         if column is None:
-            series = [name for name in table.names if name != time]
+            series = [name for name in table.names if name and name != time]
             if len(series) == 1:
                 column = series[0]
         if column is None and any(fault.startswith("--column:") for fault in faults):
@@ -99,9 +99,10 @@ def read_record(
 
 def _name_faults(table: Table, column: str | None, time: str | None) -> Iterator[str]:
     """A line for each fault of the names of columns: not given, given twice, or not in the table."""
-    listed = ", ".join(table.names[:40])
-    if len(table.names) > 40:
-        listed += f" and {len(table.names) - 40} more"
+    named = list(filter(None, table.names))
+    listed = ", ".join(named[:40])
+    if len(named) > 40:
+        listed += f" and {len(named) - 40} more"
     if column is None:
         yield f"--column: not given; allowed: {listed}"
     elif column == time:
@@ -252,7 +253,7 @@ def read_table(path: Path) -> Table:
         list(map(float, names))
         names, named = [str(place) for place in range(1, len(names) + 1)], False
     for name in names:
-        if names.count(name) > 1:
+        if name and names.count(name) > 1:  # separators at the end of a line are columns without a name
             raise ValueError(f"{path}: two columns are called {name!r}; allowed: a name of its own for each")
     table = Table(path, names, mark, named)
     next(table.rows(), None)  # a title above the names is a fault here, before a column is missed in it

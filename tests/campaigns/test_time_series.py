@@ -271,6 +271,14 @@ def test_what_is_no_plain_number_is_refused_by_its_row_wherever_it_stands(tmp_pa
     assert line.startswith(f"--column x: row {row} below the names, {cell!r}, is") and "allowed: finite numbers" in line
 
 
+def test_separators_at_the_end_of_a_line_are_no_columns(tmp_path):
+    """Loggers end their lines with them."""
+    (tmp_path / "table").write_text("time_s;x;;\n" + "".join(f"{0.1 * k:.1f};{k % 7};;\n" for k in range(200)))
+    faults = []
+    record = read_record(str(tmp_path / "table"), None, None, None, faults)
+    assert not faults and record.column == "x" and record.step == pytest.approx(0.1)
+
+
 def test_a_row_of_other_length_is_refused_by_its_row(tmp_path):
     record, faults = read(tmp_path, "1,2\n" * 45 + "1\n1,2,3\n", time=None)
     assert record is None and "row 46 below the names has 1 cells, the names are 2" in faults[0]
