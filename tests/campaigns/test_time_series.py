@@ -126,6 +126,13 @@ def test_a_forcing_period_that_is_slightly_wrong_is_set_right(off):
         assert study.judged(x, study.seen(x, 0.5, round(line, 6)))[0].period == 2
 
 
+@pytest.mark.parametrize("periods", [4, 7, 9, 39, 41])
+def test_a_record_of_a_few_forcing_periods_is_judged_without_its_line(periods):
+    x = np.sin(FORTY[:400])
+    line = study.line_beside(x, 1.0, 399.0 / periods)
+    assert line is None or periods > 40
+
+
 def test_no_slow_torus_is_a_period_because_its_steps_are_small():
     """Its amplitude changes by 40 % in 53 cycles, from one to the next by less than eight times the noise."""
     x = (1.0 + 0.4 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
