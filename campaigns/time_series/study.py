@@ -211,8 +211,9 @@ def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
     if outliers:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
-    if verdict.period is None and len(section) >= LEAST_POINTS:
-        verdict = _stands(verdict, section, motion_range(x), tolerance)
+    if verdict.period is None:
+        if len(section) >= LEAST_POINTS:
+            verdict = _stands(verdict, section, motion_range(x), tolerance)
     elif tolerance > least_tolerance(view):
         verdict = _places(verdict, section, motion_range(x), tolerance)
     if view.kind != MAXIMA:
