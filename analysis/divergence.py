@@ -12,10 +12,11 @@ a straight middle has none to give, however well a line may be put through it.
 
 The slope is too small, because noise lifts the begin of the curve and the size of the attractor bends its end. So
 
-    error^2 = (largest deviation of the slope of a quarter of the region)^2 + (scatter of eight blocks of pairs)^2
+    error^2 = (scatter of the slopes of the four quarters of the region)^2 + (scatter of eight blocks of pairs)^2
               + (slope over the nearer half of the pairs - slope over the farther half)^2
 
-The value is not corrected: it stays what Rosenstein's method gives.
+The value is not corrected: it stays what Rosenstein's method gives. In flows with 1 % of noise it can be too small by
+three errors.
 """
 
 from itertools import pairwise
@@ -44,7 +45,7 @@ class ScalingRegion:
     """A straight part of y(t).
 
     slope        of the least-squares line; NaN where there is no region
-    error        largest deviation of the slopes of its four quarters: what the line's curvature leaves open
+    error        standard deviation of the slopes of its four quarters: what the line's curvature leaves open
     begin, end   first and last index of the region, inclusive; -1 where there is none
     span         rise of the line over the region [nats]
     reason       one sentence
@@ -157,11 +158,10 @@ def scaling_region(t: np.ndarray, y: np.ndarray, cycle: int = 1) -> ScalingRegio
         for end in range(begin + LEAST_POINTS, len(t) + 1, stride):
             slope, pieces = _line(t[begin:end], y[begin:end])
             span = slope * (t[end - 1] - t[begin])
-            bend = np.max(np.abs(pieces - slope))
-            if slope > 0.0 and bend <= MOST_CURVATURE * slope:
+            if slope > 0.0 and np.max(np.abs(pieces - slope)) <= MOST_CURVATURE * slope:
                 straight = True
                 if span >= LEAST_SPAN_NATS and (best is None or span > best[0]):
-                    best = span, slope, bend, begin, end - 1
+                    best = span, slope, np.std(pieces), begin, end - 1
     if best is None:
         why = "no straight rising part"
         if straight:

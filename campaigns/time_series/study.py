@@ -137,10 +137,13 @@ def study(record: Record, period: float | None = None, tolerance: float | None =
 
 def line_beside(x: np.ndarray, step: float, period: float) -> float | None:
     """Period of the line of a record (n,) that lies beside the period given, where the two part steadily; else None.
+    None, too, for a record that is too short for a verdict.
 
     The mean of x exp(-2 pi i t/T) over each of eight stretches, under Hann's window, turns from stretch to stretch.
     """
     cycles = int((len(x) - 1) * step / period) // STRETCHES
+    if cycles * STRETCHES < LEAST_POINTS:
+        return None
     samples = cycles * period / step
     ends = np.rint(samples * np.arange(STRETCHES + 1)).astype(int)
     turning = (x - x.mean()) * np.exp(-2j * np.pi * step / period * np.arange(len(x)))
@@ -209,7 +212,8 @@ def _judged(x: np.ndarray, view: Seen, tolerance: float) -> Verdict:
         return Verdict("undecided", outliers[0].sentence, tuple(outliers), None, len(view.points), seed=0)
     verdict = regime(strobed=section, scale=motion_range(x), tolerance=tolerance, surrogates=SURROGATES)
     if verdict.period is None:
-        verdict = _stands(verdict, section, motion_range(x), tolerance)
+        if len(section) >= LEAST_POINTS:
+            verdict = _stands(verdict, section, motion_range(x), tolerance)
     elif tolerance > least_tolerance(view):
         verdict = _places(verdict, section, motion_range(x), tolerance)
     if view.kind != MAXIMA:

@@ -126,6 +126,15 @@ def test_a_forcing_period_that_is_slightly_wrong_is_set_right(off):
         assert study.judged(x, study.seen(x, 0.5, round(line, 6)))[0].period == 2
 
 
+@pytest.mark.parametrize("periods", [4, 7, 9, 38, 41])
+def test_a_record_of_fewer_than_forty_periods_has_neither_a_period_nor_a_line(periods):
+    x, period = np.sin(FORTY[: 40 * periods + 1]), 40.0
+    assert study.line_beside(x, 1.0, 1.001 * period) is None or periods > 40
+    for tolerance in (None, 0.05):
+        verdict, _ = study.judged(x, study.seen(x, 1.0, period), tolerance)
+        assert verdict.period == (1 if periods > 40 else None)
+
+
 def test_no_slow_torus_is_a_period_because_its_steps_are_small():
     """Its amplitude changes by 40 % in 53 cycles, from one to the next by less than eight times the noise."""
     x = (1.0 + 0.4 * np.cos(FORTY * GOLDEN / 33.0)) * np.cos(FORTY + 0.3) + 0.01 * normal(1, 4000)
