@@ -61,6 +61,7 @@ SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a 
 FORGOTTEN = 52.0  # bits: the precision of a number
 BLURRED = "errors of steps and grid blur it"
 OF_STEPS = "chaotic at this tolerance only"
+OUTLASTS = "the run repeats for longer than so unstable an orbit allows"
 CLEAR = 3.0  # errors, where it is enough for a torus
 COMES_NEARER = 0.7  # what is left of the steps towards a period in the later half of the last part
 ABOUT_ZERO = 0.06  # bits per period
@@ -73,8 +74,8 @@ def next_look(periods: int = 0) -> int:
 
 
 def longer_decides(regime: str, reason: str) -> bool:
-    """Whether a longer run may find another word: the regime is open, and steps do not blur the motion."""
-    return regime in OPEN and BLURRED not in reason
+    """Whether a longer run may find another word: the regime is open, and not because of the errors of steps."""
+    return regime in OPEN and BLURRED not in reason and OUTLASTS not in reason
 
 
 def motion_regime(

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from analysis import Exponent, Verdict, next_look
 from analysis.approaches import NEARER
-from analysis.looks import NO_GROWTH, SHEAR
+from analysis.looks import FORGOTTEN, NO_GROWTH, OUTLASTS, SHEAR
 from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_of_twice, orbit_under
 from campaigns.explore.rows import sound_part
 from campaigns.judge import LEAST_JUDGED, motion_of, periods_of, record_regime, tangent_of
@@ -106,7 +106,7 @@ def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> 
         if orbit.period != verdict.period:
             raise ArithmeticError(f"the orbit under it has period {orbit.period}")
         if orbit.is_unstable():
-            orbit = orbit_of_twice(trajectory, verdict.period, orbits) or orbit
+            orbit = orbit_of_twice(trajectory, orbit, orbits) or orbit
         note = orbit.words()
     except (ArithmeticError, ValueError) as why:
         orbit, note = None, f"no multipliers: {why}"
@@ -114,7 +114,10 @@ def _with_orbit(trajectory: Trajectory, judgement: Judgement, orbits: Store) -> 
         reason = f"{verdict.reason}; neither perturbations nor multipliers confirm it"
         verdict = replace(verdict, regime="undecided", reason=reason)
     elif orbit is not None and orbit.is_unstable():
-        verdict = replace(verdict, regime="undecided")
+        reason = verdict.reason
+        if orbit.growth_bits(verdict.points) > FORGOTTEN:
+            reason = f"{reason}; {OUTLASTS}"
+        verdict = replace(verdict, regime="undecided", reason=reason)
     elif orbit is not None and orbit.period != verdict.period:
         verdict = replace(verdict, regime=f"period-{orbit.period}", period=orbit.period)
     return replace(judgement, verdict=verdict, orbit=orbit, note=note)

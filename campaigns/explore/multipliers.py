@@ -32,6 +32,7 @@ TOLERANCE = 1e-3  # of the steps of an orbit, or that of the scene where that is
 QUICK = 3e-3  # the same for the rows of a sweep
 COUNT = 4  # multipliers
 UNSTABLE = "NOT stable, the run lies beside it"
+THIN = 2.0  # modulus of a multiplier, beyond a flip, up to which two branches may be nearer than the tolerance
 ITERATIONS, HALVINGS = 6, 2  # of Newton's method: from a run that comes nearer to an orbit three are enough
 LONG = 40  # wave periods of a run on an orbit, or eight of its periods
 MULTIPLIERS = (
@@ -97,6 +98,11 @@ class OrbitUnder:
         modulus, _, error = self._leading()
         return modulus - 1.0 > error
 
+    def growth_bits(self, periods: int) -> float:
+        """Bits by which a perturbation of the orbit grows at least in so many wave periods; below 0: it may shrink."""
+        modulus, _, error = self._leading()
+        return periods / self.period * math.log2(max(modulus - error, 1e-300))
+
     def _leading(self) -> tuple[float, float, float]:
         """Modulus, angle and error of the leading multiplier."""
         first = complex(self.multipliers[0])
@@ -159,19 +165,21 @@ def _computed(trajectory: Trajectory, period: int, iterations: int) -> dict:
     }
 
 
-def orbit_of_twice(trajectory: Trajectory, period: int, orbits: Store) -> OrbitUnder | None:
-    """The orbit of twice the period under a run that repeats after `period` waves within the tolerance; None: none is
-    found, it is unstable too, or the run does not lie on it.
+def orbit_of_twice(trajectory: Trajectory, flipped: OrbitUnder, orbits: Store) -> OrbitUnder | None:
+    """The orbit of twice the period under a run that repeats beside an unstable orbit; None: none is found, it is
+    unstable too, or the run does not lie on it.
 
-    Beyond a flip the orbit of the period is unstable, and the two branches may be nearer than the tolerance.
+    Beyond a flip the orbit is unstable, and at first the two branches of the motion are nearer than the tolerance.
     """
     from analysis import approach_evidence
 
+    if not -THIN < flipped.multipliers[0].real < -1.0:
+        return None
     try:
-        orbit = orbit_under(trajectory, 2 * period, orbits)
+        orbit = orbit_under(trajectory, 2 * flipped.period, orbits)
     except (ArithmeticError, ValueError):
         return None
-    if orbit.period != 2 * period or orbit.is_unstable():
+    if orbit.period != 2 * flipped.period or orbit.is_unstable():
         return None
     strobed, _ = strobed_states(trajectory, 0)
     points, scale = strobed_states(orbit.run, 0)

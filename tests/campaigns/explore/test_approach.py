@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from analysis import Settled
+from analysis.looks import OUTLASTS, longer_decides
 from campaigns.explore import proposals
 from campaigns.explore.multipliers import OrbitUnder, orbit_ahead
 from campaigns.explore.proposals import SCREENED, _motions
@@ -117,7 +118,20 @@ def test_no_motion_stays_on_an_unstable_orbit(first, of_twice, word, monkeypatch
     doubled = None if of_twice is None else orbit(2, of_twice)
     monkeypatch.setattr("campaigns.explore.judgement.orbit_under", lambda *_: orbit(1, first))
     monkeypatch.setattr("campaigns.explore.judgement.orbit_of_twice", lambda *_: doubled)
-    assert judged_row(run)["regime"] == word
+    row = judged_row(run)
+    assert row["regime"] == word and OUTLASTS not in row["regime_reason"]
+
+
+@pytest.mark.parametrize(("multiplier", "outlasts"), [(1.6, True), (1.4, False), (-1.6, True)])
+def test_a_run_that_outlasts_an_unstable_orbit_ends(multiplier, outlasts, monkeypatch):
+    """From 45 to 135 waves 1.6 makes 61 bits, 1.4 makes 44: a run that passes by would have left."""
+    run = simulate(at(0.06), periods=135)
+    orbit = OrbitUnder(1, np.array([complex(multiplier)]), np.array([0.01]), run)
+    monkeypatch.setattr("campaigns.explore.judgement.orbit_under", lambda *_: orbit)
+    monkeypatch.setattr("campaigns.explore.judgement.orbit_of_twice", lambda *_: None)
+    row = judged_row(run)
+    assert row["regime"] == "undecided"
+    assert longer_decides(row["regime"], row["regime_reason"]) is not outlasts
 
 
 def test_a_start_is_kept_with_all_that_its_end_depends_on():
