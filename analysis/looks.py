@@ -59,6 +59,7 @@ CLOSELY = 0.2  # tolerances by which a period is missed at most where no perturb
 NO_GROWTH, CLOSE = "no growth", "close"  # the tests of a period
 SHEAR = 4.0  # bits: the shear of a torus gives log2(3) = 1.6 from a third of a record to its end
 FORGOTTEN = 52.0  # bits: the precision of a number
+# words of a reason, by which others know why a regime is open
 BLURRED = "errors of steps and grid blur it"
 OF_STEPS = "chaotic at this tolerance only"
 OUTLASTS = "the run repeats for longer than so unstable an orbit allows"

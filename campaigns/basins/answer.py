@@ -11,7 +11,7 @@ from campaigns.explore.motions import from_rest
 from tables import CHAOTIC, PEAK, UNSETTLED, Row, Rows, listed, number_of, ranges
 
 NONE_FOUND = "No start has settled, so there is no motion to name."
-CREST = "crest"  # what rows have for sentences about a crest
+CREST = "crest"  # entry of a row: time from its start to the next crest over the anchor, as a share of the wave period
 STRAIGHT = 3.0  # degrees from an axis that are told as along it
 
 

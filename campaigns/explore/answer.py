@@ -348,7 +348,7 @@ def lost_kicks(rows: Rows, key: str, symbol: str) -> str:
     place = ranges([*values], [how_many > 0 for how_many in lost], 2)
     kicks = count(round(most["kicks"] * len(values)), "kick")
     return (
-        f"{sum(lost)} of {kicks}, at {symbol} = {place}, ended in no motion: they had not settled or failed "
+        f"{sum(lost)} of {kicks}, at {symbol} = {place}, ended in no motion: they had not settled, or they failed "
         "(starts/table.csv)."
     )
 
@@ -428,6 +428,7 @@ def undecided(rows: Rows, key: str, symbol: str, scene) -> str:
 
 
 def _tolerance_decides(row: Row) -> bool:
+    """Whether the reason of an open regime says that a tighter tolerance would decide it."""
     return any(words in str(row.get("regime_reason")) for words in OF_TOLERANCE)
 
 

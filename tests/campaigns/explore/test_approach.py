@@ -10,7 +10,7 @@ import pytest
 from analysis import Settled
 from analysis.looks import OUTLASTS, longer_decides
 from campaigns.explore import proposals
-from campaigns.explore.multipliers import OrbitUnder, orbit_ahead
+from campaigns.explore.multipliers import OrbitUnder, orbit_ahead, orbit_of_twice
 from campaigns.explore.proposals import SCREENED, _motions
 from campaigns.explore.starts import Request, Start, settled_of, start_job
 from campaigns.machinery.store import Store
@@ -120,6 +120,20 @@ def test_no_motion_stays_on_an_unstable_orbit(first, of_twice, word, monkeypatch
     monkeypatch.setattr("campaigns.explore.judgement.orbit_of_twice", lambda *_: doubled)
     row = judged_row(run)
     assert row["regime"] == word and OUTLASTS not in row["regime_reason"]
+
+
+@pytest.mark.parametrize(("multiplier", "asked"), [(-1.2, True), (-6.2, False), (1.2, False)])
+def test_twice_the_period_is_asked_just_beyond_a_flip(multiplier, asked, monkeypatch):
+    """Further away the two branches are no longer nearer than the tolerance; at 1 there is no flip."""
+    periods = []
+
+    def orbit_under(run, period, orbits):
+        periods.append(period)
+        raise ArithmeticError("no orbit")
+
+    monkeypatch.setattr("campaigns.explore.multipliers.orbit_under", orbit_under)
+    flipped = OrbitUnder(3, np.array([complex(multiplier)]), np.array([0.01]), None)
+    assert orbit_of_twice(None, flipped, None) is None and periods == [6] * asked
 
 
 @pytest.mark.parametrize(("multiplier", "outlasts"), [(1.6, True), (1.4, False), (-1.6, True)])
