@@ -37,6 +37,8 @@ MOST_DIMENSIONS = 8
 CENTRES = 2000
 NOISE_CENTRES = 400
 NOISE_REACH = 3
+LEAST_LEVELS = 16
+OFF_A_STEP = 0.01  # share of a step by which a value may miss a multiple of it: rounding of numbers
 
 
 @record
@@ -271,6 +273,9 @@ def noise_level(series: ArrayLike, delay: int) -> float:
     The first serves flows, the second maps. What the fit cannot follow (curvature, too few neighbours) counts as noise,
     so a clean map shows a small number, not 0. Slow or coloured noise looks like signal to both.
 
+    A record in steps (a logger of 8 bits, a file with three decimals) carries the error of rounding, too, which is no
+    white noise: the level is at least that of the steps, step/sqrt(12).
+
     series (n,)    any unit
     delay          [samples]; a short record (100 samples) takes one that leaves it enough neighbours
     Returns the level in the unit of the series.
@@ -298,4 +303,19 @@ def noise_level(series: ArrayLike, delay: int) -> float:
         terms = np.column_stack([np.ones(neighbours), neighbours_of_middle[j] - neighbours_of_middle[row]])
         fit = terms @ np.linalg.lstsq(terms, middle[j], rcond=None)[0]
         residual[k] = np.sqrt(np.sum((middle[j] - fit) ** 2) / (neighbours - terms.shape[1]))
-    return float(min(level, np.median(residual)))
+    return float(max(min(level, np.median(residual)), recorded_step(x) / np.sqrt(12.0)))
+
+
+def recorded_step(series: np.ndarray) -> float:
+    """The step in which the values (n,) of a series were recorded: all are multiples of it beside the least.
+
+    0 where there is none, or where fewer than LEAST_LEVELS values differ: these may be the points of a short period.
+    """
+    levels = np.unique(series)
+    if len(levels) < LEAST_LEVELS:
+        return 0.0
+    step = np.diff(levels).min()
+    multiples = (levels - levels[0]) / step
+    if np.abs(multiples - np.rint(multiples)).max() > OFF_A_STEP:
+        return 0.0
+    return float(step)

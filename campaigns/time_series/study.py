@@ -17,9 +17,10 @@ The verdict is that of `verdicts.regime` on this section. At maxima two things a
 - A motion whose maxima are all alike need not repeat itself: they may come unevenly. A period seen at maxima also needs
   them to keep time (`_even_times`).
 
-A record that is left undecided may be a period with noise: whether it repeats within OF_NOISE times its noise is asked
-then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period. Within such a tolerance, or one of the
-command line, every point has to keep its place, too (`_places`): the steps of a slow torus, however thick, are small.
+A record that is left open may be a period with noise, or in the steps of a logger: whether it repeats within OF_NOISE
+times its noise is asked then, up to MOST_TOLERANCE, because a torus as thin as that looks like a period. Within such a
+tolerance, or one of the command line, every point has to keep its place, too (`_places`): the steps of a slow torus,
+however thick, are small.
 """
 
 from dataclasses import dataclass, replace
@@ -39,6 +40,7 @@ from analysis.embedding import (
 )
 from analysis.evidence import Evidence, memory_evidence, outlier_evidence
 from analysis.exponents import Exponent, no_exponent
+from analysis.looks import OPEN
 from analysis.periods import CLEARLY_MORE, detect_period
 from analysis.poincare import section_at_phases
 from analysis.sampling import locked
@@ -61,6 +63,7 @@ TOLERANCE = 1e-3
 OF_NOISE, MOST_TOLERANCE = 8.0, 0.1
 # Share of the time between maxima by which they may stray from even times in a motion that repeats itself.
 EVEN_TIMES = 0.05
+ROUNDING = 1e-9  # of the range of a record
 # A line beside the forcing period: stretches of the record; turns by which the two part over it; share of these turns
 # by which a stretch may stray from a steady parting.
 STRETCHES, LEAST_PARTED, STEADY = 8, 1e-5, 0.1
@@ -193,7 +196,7 @@ def judged(x: np.ndarray, view: Seen, tolerance: float | None = None) -> tuple[V
         return _judged(x, view, tolerance), tolerance
     least, of_noise = least_tolerance(view), noise_tolerance(x, view)
     verdict = _judged(x, view, least)
-    if verdict.regime == "undecided" and of_noise is not None:
+    if verdict.regime in OPEN and of_noise is not None:
         repeats = detect_period(view.points[-MOST_POINTS:], tolerance=of_noise, scale=motion_range(x))
         if repeats.period is not None:
             within_noise = _judged(x, view, of_noise)
@@ -306,6 +309,10 @@ def seen(series: np.ndarray, step: float, period: float | None = None) -> Seen:
             first, last = SPLINE_END * step, (len(series) - 1 - SPLINE_END) * step
             inner = (section.time_s >= first) & (section.time_s + period <= last)
         points, time = section.points[inner], section.time_s[inner]
+        # A phase at which the motion crosses the same value each time shows rounding errors, which drift.
+        moves = np.ptp(points, axis=0) > ROUNDING * np.ptp(series)
+        if moves.any():
+            points = points[:, moves]
         return Seen(STROBED, locked(points), locked(time), period, noise, chosen.mean_period)
     if period is not None or chosen.mean_period < LEAST_SAMPLES_PER_PERIOD:
         time = step * np.arange(len(series))

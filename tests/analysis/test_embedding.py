@@ -10,6 +10,7 @@ from analysis.embedding import (
     mean_period,
     mutual_information,
     noise_level,
+    recorded_step,
 )
 from analysis.neighbours import nearest_outside
 from tests.analysis.systems import henon, noisy, normal, record
@@ -71,3 +72,12 @@ def test_white_noise_is_measured(name, share):
     x = record(name)[0]
     noise = noisy(x, share, 1)
     assert noise_level(noise, choose_delay(noise).delay) == pytest.approx(share * np.std(x), rel=0.25)
+
+
+@pytest.mark.parametrize("step", [0.25, 0.01, 1e-3])
+def test_the_steps_of_a_logger_count_as_noise(step):
+    """A slow sine is the same for many samples: its differences are mostly zero."""
+    x = step * np.rint(np.sin(0.003 * np.arange(6000)) / step + 0.3)
+    assert recorded_step(x) == (pytest.approx(step, rel=1e-9) if step < 0.2 else 0.0)
+    assert noise_level(x, 100) >= recorded_step(x) / np.sqrt(12.0)
+    assert recorded_step(np.sin(0.003 * np.arange(6000))) < 1e-9

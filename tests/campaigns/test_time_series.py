@@ -146,6 +146,27 @@ def test_no_slow_torus_is_a_period_because_its_steps_are_small():
     assert study.judged(x, study.seen(x, 1.0, 40.0))[0].period == 1
 
 
+@pytest.mark.parametrize("bits", [5, 7, 8, 10, 12])
+def test_a_period_in_the_steps_of_a_logger_is_a_period(bits):
+    """No cycle has its samples at the phases of another one, so that each is rounded otherwise; a torus that is 40
+    steps wide stays one."""
+    angle, steps = FORTY * 40.0 / (24.0 - GOLDEN / 3.0), 2**bits - 1
+    for torus in (0.0, 20.0 / steps):
+        x = np.cos(angle) + 0.4 * np.cos(2.0 * angle + 1.0) + torus * np.cos(angle * GOLDEN)
+        x = np.rint(steps * (x - x.min()) / np.ptp(x)) / steps
+        verdict, _ = study.judged(x, study.seen(x, 1.0))
+        assert verdict.period == (None if torus else 1), verdict.reason
+
+
+def test_a_phase_at_which_the_motion_always_crosses_zero_tells_nothing():
+    """A cosine of random amplitude is zero at two of its four phases but for rounding, which grows with time."""
+    cycle = np.cos(2.0 * np.pi * np.arange(24 * 300 + 1) / 24.0)
+    x = cycle * np.repeat(1.0 + (normal(3, 301) > 0.0), 24)[: len(cycle)]
+    view = study.seen(x, 1.0, 24.0)
+    assert study.judged(x, view)[0].regime == "undecided"
+    assert np.allclose(np.abs(view.points), np.abs(x[::24][: len(view.points), None]))
+
+
 @pytest.mark.slow
 def test_the_answer_comes_with_errors_and_curves(tmp_path, capsys):
     result = answered(tmp_path, logistic(4.0, 1500))
