@@ -134,7 +134,10 @@ def _when(rows: Rows, across: Sequence[str], letter: str) -> str:
     enough = f"{low:.2g} m/s are enough"
     if low == 0.0:
         enough = "none is needed"
-    words = {enough: low, f"it takes {high:.2g} m/s, the most": high, "no gust of the grid does": math.inf}
+    words = {enough: low}
+    if low < high:
+        words[f"it takes {high:.2g} m/s, the most"] = high
+    words["no gust of the grid does"] = math.inf
     parts = []
     for text, limit in words.items():
         if limit in sizes:
