@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import reduce
 from itertools import product
 
+import engine
 from campaigns.judge import judged_job, judged_scene
 from campaigns.machinery import Job, cli, filled
 from campaigns.study import Order
@@ -152,6 +153,11 @@ class Grid:
         for values in product(*(key.values for key in self.keys)):
             yield filled(self.columns, values)
 
+    def base(self, order: Order, tell: bool = False) -> "engine.Scene | None":
+        """`Order.base`; with the first values of the keys where the scene cannot be without them."""
+        first = {key.name: key.values[0] for key in self.keys if not key.index}
+        return order.base() or order.base(first, tell)
+
     def refuse_set(self, order: Order, instead: str = "; use --vary") -> None:
         """A key that is varied cannot be set too."""
         for key in self.keys:
@@ -170,7 +176,7 @@ class Grid:
 
         most: as of `campaigns.judge.judged_job`.
         """
-        changes, faults = self.changes(place, order.base())
+        changes, faults = self.changes(place, self.base(order))
         order.tell(*faults)
         if faults:
             return None

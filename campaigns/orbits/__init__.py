@@ -157,7 +157,7 @@ def _check_second(order: Order, scene) -> None:
 
 def _jobs(order: Order) -> Iterator[Job]:
     order.options.grid.refuse_set(order)
-    if order.base(tell=True) is not None:
+    if order.options.grid.base(order, tell=True) is not None:
         yield from map(partial(order.options.grid.job, order), order.options.grid.places())
 
 

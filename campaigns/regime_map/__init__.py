@@ -91,7 +91,7 @@ def cases(order: Order) -> Iterator[Job]:
     if grid is None:
         return
     grid.refuse_set(order, "")
-    base = order.base(tell=True)
+    base = grid.base(order, tell=True)
     if base is None:
         return
     if not carries_tangents(base):
@@ -162,7 +162,7 @@ def answer(order: Order, rows: Rows) -> list[str]:
     def scene(row):
         values = place_in(row, of_buoy.columns)
         if values not in scenes:
-            changes, _ = of_buoy.changes(row, order.base())
+            changes, _ = grid.changes(row, grid.base(order))
             scenes[values] = order.scene(changes)
         return scenes[values]
 

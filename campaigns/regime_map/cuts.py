@@ -43,9 +43,10 @@ def cut(order: Order, argv: list[str], simulate: Callable | None = None) -> int:
     out = order.how.out / "cuts" / ",".join(places)
     _share_runs(order, out)
     changes = dict(order.changes)
-    for key in order.options.grid.keys:
+    grid = order.options.grid
+    for key in grid.keys:
         if key.key in chosen:
-            order.tell(*key.put(chosen[key.key], order.base(), changes))
+            order.tell(*key.put(chosen[key.key], grid.base(order), changes))
     study, options = _sweep_of(order)
     options |= {"seed": order.options.seed, "kick_speed": order.options.kick_speed}
     sweep = study.order(replace(order.how, out=out), order.name, changes, **options)

@@ -133,7 +133,7 @@ def cases(order: Order) -> Iterator[Job]:
     if options.screen:
         order.changes["tether.nodes"] = SCREEN_NODES
     for place in options.grid.places():
-        changes, faults = options.grid.changes(place, order.base())
+        changes, faults = options.grid.changes(place, options.grid.base(order))
         order.tell(*faults)
         scene = order.base(changes, tell=True)
         if scene is None:
@@ -175,7 +175,7 @@ def _seed_key(scene) -> str | None:
 def _runs(order: Order, place: Row, seeds: Iterable[int], starts: int) -> Iterator[Job]:
     """The runs of one sea state: its first starts in the seas of these seeds; waves that are not drawn are one sea."""
     options = order.options
-    changes, _ = options.grid.changes(place, order.base())
+    changes, _ = options.grid.changes(place, options.grid.base(order))
     base = order.base(changes)
     seed_key = _seed_key(base)
     transient_s = options.transient * base.waves.period_s

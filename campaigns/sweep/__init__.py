@@ -68,8 +68,7 @@ def cases(order: Order) -> Iterator[Job]:
     """A run for every value, or pair of values."""
     grid = order.options.grid
     grid.refuse_set(order)
-    first = {key.name: key.values[0] for key in grid.keys if not key.index}
-    base = order.base() or order.base(first, tell=True)  # keys may need each other
+    base = grid.base(order, tell=True)
     if base is None or not grid.keys:
         return
     duration_s, periods = order.options.duration, order.periods

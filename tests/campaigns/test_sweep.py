@@ -18,6 +18,7 @@ from operator import getitem
 import numpy as np
 import pytest
 
+from campaigns import orbits, regime_map, sea
 from campaigns import sweep as sweep_command
 from campaigns.explore import rows as of_a_buoy
 from campaigns.machinery import Summary
@@ -309,6 +310,24 @@ def test_a_key_with_a_line_end_is_no_key(tmp_path):
     faults = []
     sweep_command.read_order(["--vary", "\n", "1", "2", "3", "--out", str(tmp_path)], faults)
     assert faults == ["--vary \n: no such key"]
+
+
+HEAVES = "buoy.mass_kg=100", "current.law=uniform", "current.velocity_mps=[0.1, 0.0, 0.0]"
+IN_TWO_KEYS = "--vary", "water.depth_m", 26, 30, 2, "--vary", "current.velocity_mps[0]", 0.1, 0.3, 2
+
+
+@pytest.mark.parametrize(
+    ("campaign", "words", "count"),
+    [
+        (sweep_command, IN_TWO_KEYS, 4),
+        (regime_map, IN_TWO_KEYS, 4),
+        (sea, (*IN_TWO_KEYS, "--seeds", 1, "--starts", 1), 4),
+        (orbits, ("--vary", "water.depth_m", 26, 30, "--values", 2), 2),
+    ],
+)
+def test_the_own_value_of_a_key_that_is_varied_need_not_be_possible(campaign, words, count):
+    """In 21 m, the depth of the shipped scene, this light buoy is out of the water; it is not in the range."""
+    assert len(order_of(campaign, *words, "--set", "buoy.submergence=full", *HEAVES).cases) == count
 
 
 def test_from_python_a_refusal_leaves_the_scene_of_earlier_results(tmp_path):
