@@ -39,7 +39,8 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
     name_or_path: one of `list_scenes()`, or the path of a scene file. overrides: dotted key -> value; a value of None
     removes an optional key or section, a missing section is created, and of waves.steepness, amplitude_m, components
     and jonswap the one given drops an inherited other. keywords: more of them, by the last word of a key where no other
-    key ends in it, as steepness=0.13.
+    key ends in it, as steepness=0.13. The file of waves.record is looked for beside the scene file, or in the working
+    directory if an override names it.
     Raises SceneError: every fault of the file and of the overrides at once; nothing of that name, unreadable, not TOML.
     """
     if not isinstance(overrides, Mapping | None):
@@ -52,7 +53,8 @@ def load_scene(name_or_path: str | Path, overrides: Mapping[str, object] | None 
             rest = f"beside {key} = {shown(changes[key])}; allowed: one of the two"
             raise SceneError(f"{word}: given {shown(value)} {rest}")
         changes[key] = value
-    return scene_from_toml(text, changes, source=str(name_or_path))
+    folder = Path() if "waves.record" in changes else Path(name_or_path).parent
+    return scene_from_toml(text, changes, str(name_or_path), folder)
 
 
 def _name_keywords() -> None:
@@ -69,14 +71,19 @@ def _name_keywords() -> None:
 _name_keywords()
 
 
-def scene_from_toml(text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text") -> Scene:
-    """A validated scene from TOML text, as `Scene.to_toml` writes it; overrides and SceneError as for `load_scene`."""
+def scene_from_toml(
+    text: str, overrides: Mapping[str, object] | None = None, source: str = "scene text", folder: Path = Path()
+) -> Scene:
+    """A validated scene from TOML text, as `Scene.to_toml` writes it; overrides and SceneError as for `load_scene`.
+
+    folder: in which the path of waves.record begins.
+    """
     try:
         raw = _parsed(text, source)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(f"{source}: not TOML: {error}{_faulty_line(text, str(error))}") from None
     raw, faults = _overridden(raw, overrides or {})
-    return build_scene(raw, faults)
+    return build_scene(raw, faults, folder)
 
 
 def _parsed(text: str, source: str) -> dict[str, object]:

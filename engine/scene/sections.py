@@ -297,7 +297,7 @@ class Waves(Section):
     component_count: Components = described("number of waves of a Gaussian spectrum", 64)
     seed: CountOrZero = described("seed of the frequencies and phases of a Gaussian spectrum", 0)
     record: Text | None = described(
-        "CSV file of a measured sea, columns time_s and elevation_m; it is read once and kept as components", None
+        "CSV file of a measured sea beside the scene file, columns time_s and elevation_m; kept as components", None
     )
     record_x_m: Number = described("place of the gauge of record", 0.0)
     components: WaveComponents | None = described(
