@@ -45,17 +45,6 @@ def significant_height_m(scene) -> float:
     return float(4.0 * math.sqrt(np.sum(amplitudes_m**2) / 2.0))
 
 
-def heading_rad(scene) -> float:
-    """Mean direction of the waves of a sea, weighted by their energy; in a plane 0 or pi."""
-    from engine.physics.sea import components_of
-
-    _, amplitudes_m, _, directions_rad = components_of(scene)
-    along = np.sum(amplitudes_m**2 * np.cos(directions_rad))
-    if scene.motion.dimensions == 2:
-        return 0.0 if along >= 0.0 else math.pi
-    return math.atan2(np.sum(amplitudes_m**2 * np.sin(directions_rad)), along)
-
-
 def _breaking_m(scene) -> float:
     """Amplitude of the highest regular wave of the peak period."""
     from engine.physics.waves import breaking_steepness, wave_number
@@ -85,7 +74,7 @@ def regular_order(order: Order) -> Order | None:
         amplitudes |= {float(f"{0.5 * heights_m[0] * share:.6g}") for share in (1.0, SAME_ENERGY)}
     changes = {name: value for name, value in order.changes.items() if not name.startswith(SEA_KEYS)}
     changes |= {
-        "waves.direction_rad": heading_rad(scene),
+        "waves.direction_rad": scene.waves.heading_rad,
         "waves.above_still_water": scene.waves.above_still_water,
         "buoy.submergence": scene.buoy.submergence,  # whose default is another one in a sea
     }

@@ -316,6 +316,21 @@ class Waves(Section):
         """Whether this is a sea of several waves rather than one regular wave."""
         return irregular(vars(self))
 
+    @property
+    def heading_rad(self) -> float:
+        """Direction in which the waves go: that of all, or of listed waves the mean of their energy."""
+        if not self.components:
+            return self.direction_rad
+        along = across = energy = 0.0
+        for wave in self.components:
+            energy += wave.amplitude_m**2
+            along += wave.amplitude_m**2 * math.cos(wave.direction_rad)
+            across += wave.amplitude_m**2 * math.sin(wave.direction_rad)
+        if energy == 0.0:
+            return 0.0
+        # without the rounding of sines, which would turn the plane of waves that stand along x
+        return math.atan2(round(across / energy, 12), round(along / energy, 12))
+
 
 class UniformCurrent(Section):
     """The same steady velocity everywhere."""

@@ -165,9 +165,11 @@ def test_a_scene_in_space_gets_a_push_only_where_it_has_none():
     pushed = {"motion.dimensions": 3, "start.buoy_velocity_mps": [0.1, 1e-7, 0.2]}
     unchanged, added = in_space(load_scene("tethered_buoy", pushed))
     assert not added and unchanged.start.buoy_velocity_mps == (0.1, 1e-7, 0.2)
-    turned = {"motion.dimensions": 3, "waves.direction_rad": math.pi / 2}
-    across, added = in_space(load_scene("tethered_buoy", turned))
-    assert added and across.start.buoy_velocity_mps == pytest.approx((-SEED_MPS, 0.0, 0.0), abs=1e-20)
+    along_y = {"direction_rad": math.pi / 2}
+    listed = {"period_s": 5.0, "components": [along_y | {"period_s": 5.0, "amplitude_m": 0.3}]}
+    for waves in ({"waves.direction_rad": math.pi / 2}, {"waves": listed}):
+        across, added = in_space(load_scene("tethered_buoy", {"motion.dimensions": 3, **waves}))
+        assert added and across.start.buoy_velocity_mps == pytest.approx((-SEED_MPS, 0.0, 0.0), abs=1e-20)
 
 
 @pytest.mark.parametrize("heading, x, y", [(0.0, 2.0, 0.0), (math.pi, -2.0, 0.0), (math.pi / 2, 0.0, 2.0)])
